@@ -1,0 +1,42 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/point.h"
+
+namespace dwell {
+
+/// Where the tool goes: dwell points in the order of the run. `lifted[j]` says that the move which arrives at point
+/// j is made with the tool lifted (it removes nothing and the stretch of path is cut there); lifted[0] is always
+/// taken as true, since the tool must arrive from somewhere.
+struct ToolPath {
+  std::string kind;             // "raster", "nearest", "file", ...
+  std::vector<Point> points;    // n dwell points [mm]
+  std::vector<char> lifted;     // n flags
+
+  std::size_t size() const { return points.size(); }
+};
+
+/// The stretch of path over which dwell point j spends its dwell time: the polyline start -> via -> finish, at one
+/// speed. via = the dwell point itself. A stretch of zero length is a halt.
+struct Stroke {
+  Point start;
+  Point via;
+  Point finish;
+
+  double length() const { return distance(start, via) + distance(via, finish); }
+};
+
+/// Dwell belongs to a stretch of path, not to a dot (docs/math.md). Nodes lie halfway between neighbouring dwell
+/// points; where the path is cut (first, last, lifted) the stretch is extended straight on by half the neighbouring
+/// step, so that it is symmetric about its point; a point alone between two lifts is a halt. n strokes, in order.
+std::vector<Stroke> moving_strokes(const ToolPath& path);
+
+/// The strokes of a tool that halts at every dwell point: start = via = finish = p_j.
+std::vector<Stroke> halting_strokes(const ToolPath& path);
+
+/// Checks sizes and finiteness; throws InputError naming the first bad point (1-based).
+void validate(const ToolPath& path);
+
+}  // namespace dwell

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/point.h"
+
+namespace dwell {
+
+/// One step of a machine program as the machine runs it: a straight move at constant speed (start != finish) or a
+/// halt (start == finish), taking `seconds`. `removes` is false for lifted moves.
+struct ProgramStep {
+  Point start;
+  Point finish;
+  double seconds = 0.0;
+  bool removes = true;
+
+  double length() const { return distance(start, finish); }
+};
+
+/// A machine program as read back from disk. Steps that remove nothing and whose duration the program does not say
+/// (rapids) have seconds = 0.
+struct Program {
+  std::string file;
+  std::vector<ProgramStep> steps;
+
+  double total_seconds() const;     // all steps [s]
+  double removing_length() const;   // [mm]
+};
+
+}  // namespace dwell
