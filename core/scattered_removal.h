@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/padded_convolution.h"
+#include "core/removal_kernel.h"
+#include "core/removal_operator.h"
+#include "core/tool_path.h"
+
+namespace dwell {
+
+/// Removal by a tool whose strokes lie anywhere (spiral, multi-pitch, jittered, bent). Exact for the spline removal
+/// function: b(x_i - p) = sum_l c_(i-l) B3(l - p/h), so each stroke is spread on the map's lattice with its averaged
+/// B-spline weights and convolved with the coefficients c (docs/math.md, "Scattered dwell"). A stroke out of reach of
+/// the map has an empty column. Cost of a call: one padded transform pair plus 16 or more multiply-adds a stroke.
+/// Memory: the padded arrays and 24 bytes a weight.
+class ScatteredRemoval final : public RemovalOperator {
+ public:
+  ScatteredRemoval(const Grid& map, const std::vector<Index>& pixels, const RemovalKernel& kernel,
+                   const std::vector<Stroke>& strokes, int threads);
+
+  std::string name() const override { return "scattered"; }
+
+ private:
+  /// Sparse rows: weights and the lattice nodes (by_stroke) or strokes (by_node) they belong to.
+  struct Rows {
+    std::vector<Index> begin;
+    std::vector<std::int32_t> index;
+    std::vector<double> weight;
+  };
+
+  void do_apply(const Vector& t, Vector& removal) override;
+  void do_apply_adjoint(const Vector& residual, Vector& t) override;
+  void transpose_weights();
+
+  PaddedConvolution convolution_;
+  Rows by_stroke_;
+  Rows by_node_;                       // gathered, not scattered: no races, and one order of summation
+  std::vector<std::int32_t> touched_;  // field index of each row of by_node_
+  int threads_;
+};
+
+}  // namespace dwell

@@ -1,0 +1,91 @@
+#include "core/sparse_removal.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/stroke_quadrature.h"
+
+namespace dwell {
+namespace {
+
+/// First and last map index whose distance from [low, high] is below `reach`, clipped to 0 .. n-1.
+std::pair<Index, Index> touched_range(double low, double high, double reach, double origin, double pitch, Index n) {
+  const double first = std::clamp(std::ceil((low - reach - origin) / pitch), 0.0, static_cast<double>(n));
+  const double last = std::clamp(std::floor((high + reach - origin) / pitch), -1.0, static_cast<double>(n - 1));
+  return {static_cast<Index>(first), static_cast<Index>(last)};
+}
+
+/// Appends column j: the average rate of the stroke at every pixel it reaches. row_of[pixel] is -1 outside.
+void append_column(const Grid& map, const std::vector<Index>& row_of, const RemovalKernel& kernel, const Stroke& s,
+                   Index j, std::vector<QuadraturePoint>& points, std::vector<Eigen::Triplet<double, Index>>& entries) {
+  points.clear();
+  append_stroke_quadrature(s, map, points);
+  const double reach_x = map.pitch_x * static_cast<double>(kernel.half_cols + 2);
+  const double reach_y = map.pitch_y * static_cast<double>(kernel.half_rows + 2);
+  const auto [x_low, x_high] = std::minmax({s.start.x, s.via.x, s.finish.x});
+  const auto [y_low, y_high] = std::minmax({s.start.y, s.via.y, s.finish.y});
+  const auto [col0, col1] = touched_range(x_low, x_high, reach_x, map.origin.x, map.pitch_x, map.cols);
+  const auto [row0, row1] = touched_range(y_low, y_high, reach_y, map.origin.y, map.pitch_y, map.rows);
+  for (Index r = row0; r <= row1; ++r) {
+    for (Index c = col0; c <= col1; ++c) {
+      const Index row = row_of[static_cast<std::size_t>(map.index(r, c))];
+      if (row < 0) continue;
+      double sum = 0.0;
+      for (const QuadraturePoint& q : points) sum += q.weight * kernel.rate(map.centre(r, c) - q.position);
+      if (sum != 0.0) entries.emplace_back(row, j, sum);
+    }
+  }
+}
+
+void multiply(const SparseRemoval::Matrix& a, const Vector& x, Vector& y, int threads) {
+  const Index rows = a.rows();
+  const auto* begin = a.outerIndexPtr();
+  const auto* index = a.innerIndexPtr();
+  const double* value = a.valuePtr();
+#pragma omp parallel for num_threads(threads) schedule(static)
+  for (Index i = 0; i < rows; ++i) {
+    double sum = 0.0;
+    for (Index k = begin[i]; k < begin[i + 1]; ++k) sum += value[k] * x[index[k]];
+    y[i] = sum;
+  }
+}
+
+}  // namespace
+
+SparseRemoval::SparseRemoval(Matrix matrix, int threads)
+    : RemovalOperator(matrix.rows(), matrix.cols()), a_(std::move(matrix)), threads_(threads) {
+  a_.makeCompressed();
+  transposed_ = a_.transpose();
+  transposed_.makeCompressed();
+}
+
+SparseRemoval::SparseRemoval(const Grid& map, const std::vector<Index>& pixels, const RemovalKernel& kernel,
+                             const std::vector<Stroke>& strokes, int threads)
+    : SparseRemoval(
+          map, pixels, [&kernel](std::size_t) -> const RemovalKernel& { return kernel; }, strokes, threads) {}
+
+SparseRemoval::SparseRemoval(const Grid& map, const std::vector<Index>& pixels,
+                             const std::function<const RemovalKernel&(std::size_t)>& kernel_at,
+                             const std::vector<Stroke>& strokes, int threads)
+    : SparseRemoval(
+          [&] {
+            std::vector<Index> row_of(static_cast<std::size_t>(map.size()), -1);
+            for (std::size_t i = 0; i < pixels.size(); ++i)
+              row_of[static_cast<std::size_t>(pixels[i])] = static_cast<Index>(i);
+            std::vector<Eigen::Triplet<double, Index>> entries;
+            std::vector<QuadraturePoint> points;
+            for (std::size_t j = 0; j < strokes.size(); ++j) {
+              append_column(map, row_of, kernel_at(j), strokes[j], static_cast<Index>(j), points, entries);
+            }
+            Matrix a(static_cast<Index>(pixels.size()), static_cast<Index>(strokes.size()));
+            a.setFromTriplets(entries.begin(), entries.end());
+            return a;
+          }(),
+          threads) {}
+
+void SparseRemoval::do_apply(const Vector& t, Vector& removal) { multiply(a_, t, removal, threads_); }
+void SparseRemoval::do_apply_adjoint(const Vector& residual, Vector& t) {
+  multiply(transposed_, residual, t, threads_);
+}
+
+}  // namespace dwell
