@@ -1,0 +1,151 @@
+#include "solvers/dwell_problem.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace dwell {
+namespace {
+
+[[noreturn]] void reject(const std::string& message) { throw std::invalid_argument("DwellProblem." + message); }
+
+void check_size(const char* field, Index actual, Index expected) {
+  if (actual != expected) reject(fmt::format("{} has {} values; {} required", field, actual, expected));
+}
+
+void check_finite(const char* field, const Vector& v) {
+  for (Index i = 0; i < v.size(); ++i) {
+    if (!std::isfinite(v[i])) reject(fmt::format("{}[{}] = {}; must be finite", field, i, v[i]));
+  }
+}
+
+void check_weight(const char* field, double value) {
+  if (!(std::isfinite(value) && value >= 0.0)) reject(fmt::format("{} = {}; required finite and >= 0", field, value));
+}
+
+}  // namespace
+
+double DwellProblem::upper_at(Index j) const {
+  return upper.size() == 0 ? std::numeric_limits<double>::infinity() : upper[j];
+}
+
+void validate(const DwellProblem& p) {
+  if (!p.removal) reject("removal is not set");
+  check_size("target", p.target.size(), p.removal->rows());
+  check_size("lower", p.lower.size(), p.removal->cols());
+  if (p.upper.size() != 0) check_size("upper", p.upper.size(), p.removal->cols());
+  if (p.reference.size() != 0) check_size("reference", p.reference.size(), p.removal->cols());
+  if (p.weights.size() != 0) check_size("weights", p.weights.size(), p.removal->rows());
+  if (p.form.cols() != 0) check_size("form rows", p.form.rows(), p.removal->rows());
+  if (!p.smoothness.empty()) check_size("smoothness", p.smoothness.size(), p.removal->cols());
+  check_finite("target", p.target);
+  check_finite("lower", p.lower);
+  check_finite("reference", p.reference);
+  check_finite("weights", p.weights);
+  if (!p.form.allFinite()) reject("form has a value that is not finite");
+  check_weight("alpha", p.alpha);
+  check_weight("beta", p.beta);
+  check_weight("gamma", p.gamma);
+  for (Index i = 0; i < p.weights.size(); ++i) {
+    if (!(p.weights[i] >= 0.0)) reject(fmt::format("weights[{}] = {}; required >= 0", i, p.weights[i]));
+  }
+  for (Index j = 0; j < p.points(); ++j) {
+    if (!(p.lower[j] <= p.upper_at(j)))
+      reject(fmt::format("lower[{}] = {} s exceeds upper[{}] = {} s", j, p.lower[j], j, p.upper_at(j)));
+  }
+}
+
+void clip_to_bounds(const DwellProblem& p, Vector& t) {
+  t = t.cwiseMax(p.lower);
+  if (p.upper.size() != 0) t = t.cwiseMin(p.upper);
+}
+
+DwellObjective::DwellObjective(const DwellProblem& problem) : problem_(problem), weighted_(problem.pixels()) {}
+
+void DwellObjective::weigh_and_project(Vector& v) const {
+  if (problem_.weights.size() != 0) v.array() *= problem_.weights.array();
+  if (problem_.form.cols() != 0) {
+    const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 4, 1> c = problem_.form.transpose() * v;
+    v.noalias() -= problem_.form * c;
+  }
+}
+
+void DwellObjective::residual(const Vector& t, Vector& r) {
+  problem_.removal->apply(t, r);
+  r -= problem_.target;
+  weigh_and_project(r);
+}
+
+void DwellObjective::image(const Vector& d, Vector& image) {
+  problem_.removal->apply(d, image);
+  weigh_and_project(image);
+}
+
+// A residual already lies in the range of I - Q Q', so P' W' r = W r.
+void DwellObjective::adjoint_of_weighted(const Vector& r, Vector& g) {
+  if (problem_.weights.size() == 0) {
+    problem_.removal->apply_adjoint(r, g);
+  } else {
+    weighted_ = r.cwiseProduct(problem_.weights);
+    problem_.removal->apply_adjoint(weighted_, g);
+  }
+}
+
+void DwellObjective::gradient(const Vector& r, const Vector& t, Vector& g) {
+  adjoint_of_weighted(r, g);
+  if (problem_.alpha > 0.0 && !problem_.smoothness.empty()) problem_.smoothness.add_normal(problem_.alpha, t, g);
+  if (problem_.beta > 0.0) {
+    g += problem_.beta * t;
+    if (problem_.reference.size() != 0) g -= problem_.beta * problem_.reference;
+  }
+  if (problem_.gamma > 0.0) g.array() += problem_.gamma;
+}
+
+void DwellObjective::hessian_times(const Vector& d, const Vector& image, Vector& h) {
+  adjoint_of_weighted(image, h);
+  if (problem_.alpha > 0.0 && !problem_.smoothness.empty()) problem_.smoothness.add_normal(problem_.alpha, d, h);
+  if (problem_.beta > 0.0) h += problem_.beta * d;
+}
+
+double DwellObjective::curvature(const Vector& d, const Vector& image) const {
+  double c = image.squaredNorm();
+  if (problem_.alpha > 0.0 && !problem_.smoothness.empty()) c += problem_.alpha * problem_.smoothness.squared_norm(d);
+  if (problem_.beta > 0.0) c += problem_.beta * d.squaredNorm();
+  return c;
+}
+
+double DwellObjective::value(const Vector& r, const Vector& t) const {
+  double f = 0.5 * r.squaredNorm();
+  if (problem_.alpha > 0.0 && !problem_.smoothness.empty())
+    f += 0.5 * problem_.alpha * problem_.smoothness.squared_norm(t);
+  if (problem_.beta > 0.0) {
+    f += 0.5 * problem_.beta *
+         (problem_.reference.size() != 0 ? (t - problem_.reference).squaredNorm() : t.squaredNorm());
+  }
+  if (problem_.gamma > 0.0) f += problem_.gamma * t.sum();
+  return f;
+}
+
+double DwellObjective::gradient_scale() {
+  if (gradient_scale_ < 0.0) {
+    Vector z = problem_.target, g;
+    weigh_and_project(z);
+    adjoint_of_weighted(z, g);
+    gradient_scale_ = g.norm();
+  }
+  return gradient_scale_;
+}
+
+void project_gradient(const DwellProblem& p, const Vector& t, const Vector& gradient, Vector& projected) {
+  projected.resize(t.size());
+  for (Index j = 0; j < t.size(); ++j) {
+    const double g = gradient[j];
+    const bool pushed_out = (t[j] <= p.lower[j] && g > 0.0) || (t[j] >= p.upper_at(j) && g < 0.0);
+    projected[j] = pushed_out ? 0.0 : g;
+  }
+}
+
+}  // namespace dwell

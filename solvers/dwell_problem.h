@@ -1,0 +1,75 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "core/removal_operator.h"
+#include "solvers/path_smoothness.h"
+
+namespace dwell {
+
+/// The dwell problem (docs/math.md):
+///
+///   minimise  1/2 |W P (A t - z)|^2 + alpha/2 |D t|^2 + beta/2 |t - t0|^2 + gamma 1't   subject to  l <= t <= u
+///
+/// P removes the form terms that the specification does not count, in the least-squares sense of the weights:
+/// W P = (I - Q Q') W with Q = `form`, orthonormal columns spanning W times the terms. A pixel of weight zero thus
+/// bends neither the fit nor the form.
+struct DwellProblem {
+  RemovalOperator* removal = nullptr;  // A, not owned [nm/s]
+  Vector target;                       // z, m [nm]
+  Eigen::MatrixXd form;                // Q, m x 0..4
+  Vector weights;                      // diagonal of W, m, >= 0; empty = all one
+  PathSmoothness smoothness;           // D; empty = none
+  double alpha = 0.0;                  // >= 0 [nm^2/s^2]
+  double beta = 0.0;                   // >= 0 [nm^2/s^2]
+  double gamma = 0.0;                  // >= 0, price of a second [nm^2/s]
+  Vector reference;                    // t0, n [s]; empty = zero
+  Vector lower;                        // l, n, finite [s]
+  Vector upper;                        // u, n, > = l, may be infinite [s]; empty = infinite
+
+  Index pixels() const { return target.size(); }
+  Index points() const { return lower.size(); }
+  double upper_at(Index j) const;
+};
+
+/// Throws std::invalid_argument naming the field, index and value of the first thing wrong: a size, NaN, infinity where
+/// none may be, a negative weight, l > u.
+void validate(const DwellProblem& problem);
+
+/// Moves t into [l, u] componentwise.
+void clip_to_bounds(const DwellProblem& problem, Vector& t);
+
+/// The objective of a dwell problem and its derivatives, with the form projection applied. Owns its workspace: one
+/// caller at a time. Every call states its operator applications.
+class DwellObjective {
+ public:
+  explicit DwellObjective(const DwellProblem& problem);
+
+  /// r = W P (A t - z). One application.
+  void residual(const Vector& t, Vector& r);
+  /// image = W P A d. One application.
+  void image(const Vector& d, Vector& image);
+  /// g = A' P' W' r + alpha D'D t + beta (t - t0) + gamma 1, for r a residual. One application.
+  void gradient(const Vector& r, const Vector& t, Vector& g);
+  /// h = (A' P' W' W P A + alpha D'D + beta I) d, given image = W P A d. One application.
+  void hessian_times(const Vector& d, const Vector& image, Vector& h);
+  /// d' H d, given image = W P A d. No application.
+  double curvature(const Vector& d, const Vector& image) const;
+  /// Objective at t, given r. No application.
+  double value(const Vector& r, const Vector& t) const;
+  /// |A' P' W' W P z|: the scale against which gradients are measured. One application, computed once.
+  double gradient_scale();
+
+ private:
+  void weigh_and_project(Vector& v) const;
+  void adjoint_of_weighted(const Vector& r, Vector& g);
+
+  const DwellProblem& problem_;
+  Vector weighted_;
+  double gradient_scale_ = -1.0;
+};
+
+/// Gradient restricted to what the bounds allow to move: zero where t is at a bound and the gradient pushes outward.
+void project_gradient(const DwellProblem& problem, const Vector& t, const Vector& gradient, Vector& projected);
+
+}  // namespace dwell

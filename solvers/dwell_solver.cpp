@@ -1,0 +1,100 @@
+#include "solvers/dwell_solver.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+
+#include "core/errors.h"
+#include "solvers/dense_nnls.h"
+#include "solvers/projected_cg.h"
+
+namespace dwell {
+
+std::string to_string(SolverKind kind) {
+  switch (kind) {
+    case SolverKind::ProjectedCg:
+      return "projected-cg";
+    case SolverKind::DenseNnls:
+      return "dense-nnls";
+  }
+  return "unknown";
+}
+
+SolverKind parse_solver_kind(const std::string& text) {
+  for (SolverKind kind : {SolverKind::ProjectedCg, SolverKind::DenseNnls}) {
+    if (text == to_string(kind)) return kind;
+  }
+  throw InputError(fmt::format("solver = '{}'; accepted: projected-cg, dense-nnls", text));
+}
+
+std::string to_string(SolverStatus status) {
+  switch (status) {
+    case SolverStatus::NotRun:
+      return "not run";
+    case SolverStatus::Converged:
+      return "converged";
+    case SolverStatus::Settled:
+      return "settled";
+    case SolverStatus::IterationLimit:
+      return "iteration limit";
+    case SolverStatus::TimeLimit:
+      return "time limit";
+    case SolverStatus::Interrupted:
+      return "interrupted";
+    case SolverStatus::Failed:
+      return "failed";
+  }
+  return "unknown";
+}
+
+void validate(const SolverOptions& o) {
+  const auto reject = [](const char* name, auto value, const char* required) {
+    throw InputError(fmt::format("SolverOptions.{} = {}; required {}", name, value, required));
+  };
+  if (!(std::isfinite(o.gradient_tolerance) && o.gradient_tolerance > 0.0))
+    reject("gradient_tolerance", o.gradient_tolerance, "> 0");
+  if (!(std::isfinite(o.objective_tolerance) && o.objective_tolerance >= 0.0))
+    reject("objective_tolerance", o.objective_tolerance, ">= 0");
+  if (!(o.settle_iterations >= 1)) reject("settle_iterations", o.settle_iterations, ">= 1");
+  if (!(o.max_iterations >= 0)) reject("max_iterations", o.max_iterations, ">= 0");
+  if (!(o.max_seconds > 0.0)) reject("max_seconds", o.max_seconds, "> 0");
+}
+
+SolverSummary DwellSolver::solve(const DwellProblem& problem, Vector& t) {
+  validate(problem);
+  if (t.size() == 0) t = problem.lower;
+  if (t.size() != problem.points()) {
+    throw std::invalid_argument(
+        fmt::format("start has {} values; the problem has {} points", t.size(), problem.points()));
+  }
+  if (!t.allFinite()) throw std::invalid_argument("start has a value that is not finite");
+  clip_to_bounds(problem, t);
+
+  SolverSummary summary;
+  summary.kind = options_.kind;
+  const auto begin = std::chrono::steady_clock::now();
+  const long before = problem.removal->applications();
+  do_solve(problem, t, summary);
+  summary.operator_applications = problem.removal->applications() - before;
+  summary.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  if (!t.allFinite()) {
+    summary.status = SolverStatus::Failed;
+    summary.message = "failed: the dwell has a value that is not finite";
+  }
+  return summary;
+}
+
+std::unique_ptr<DwellSolver> make_solver(const SolverOptions& options) {
+  validate(options);
+  switch (options.kind) {
+    case SolverKind::ProjectedCg:
+      return std::make_unique<ProjectedCg>(options);
+    case SolverKind::DenseNnls:
+      return std::make_unique<DenseNnls>(options);
+  }
+  throw InputError("SolverOptions.kind is not a known solver");
+}
+
+}  // namespace dwell

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "solvers/dwell_problem.h"
+
+namespace dwell {
+
+/// Solvers of the dwell problem. All solve the same problem to the same certificate.
+enum class SolverKind {
+  ProjectedCg,  // native, matrix-free: spectral projected gradient to find the face, conjugate gradients on it
+  DenseNnls,    // Lawson-Hanson active set on the dense normal equations; small problems, oracle
+};
+
+std::string to_string(SolverKind kind);
+/// Throws InputError naming the accepted words.
+SolverKind parse_solver_kind(const std::string& text);
+
+enum class SolverStatus {
+  NotRun,
+  Converged,  // projected gradient within tolerance
+  Settled,    // objective no longer changes: the ill-posed remainder is not worth the work
+  IterationLimit,
+  TimeLimit,
+  Interrupted,  // the progress callback said stop
+  Failed,
+};
+std::string to_string(SolverStatus status);
+
+/// What a solver says of itself while it runs.
+struct SolverProgress {
+  long iterations = 0;
+  double seconds = 0.0;
+  double objective = 0.0;     // [nm^2]
+  double residual_rms = 0.0;  // [nm]
+};
+
+struct SolverOptions {
+  SolverKind kind = SolverKind::ProjectedCg;
+
+  /// Converged when |projected gradient| <= gradient_tolerance * |A' W P z|. Relative; > 0.
+  double gradient_tolerance = 1e-6;
+  /// Settled when one whole cycle (at least `settle_iterations` iterations) lowers the objective by less than this
+  /// share. Relative; >= 0.
+  double objective_tolerance = 1e-5;
+  long settle_iterations = 20;
+  /// Iterations, each one operator pair (one apply, one adjoint). >= 0; 0 leaves the start unchanged.
+  long max_iterations = 2000;
+  /// Wall clock [s]; > 0.
+  double max_seconds = 3600.0;
+  /// Called once an iteration; return false to stop. May be empty.
+  std::function<bool(const SolverProgress&)> progress;
+};
+
+/// Throws InputError naming the option, its value and what is required.
+void validate(const SolverOptions& options);
+
+struct SolverSummary {
+  SolverKind kind = SolverKind::ProjectedCg;
+  SolverStatus status = SolverStatus::NotRun;
+  long iterations = 0;
+  long operator_applications = 0;  // applies plus adjoints
+  double seconds = 0.0;
+  double objective = 0.0;
+  std::string message = "not run";
+
+  /// t is feasible and finite and no worse than the start.
+  bool usable() const { return status != SolverStatus::NotRun && status != SolverStatus::Failed; }
+  /// The answer is an optimum within the options' tolerances.
+  bool converged() const { return status == SolverStatus::Converged || status == SolverStatus::Settled; }
+};
+
+/// One narrow interface. Not thread-safe: a problem's operator owns its workspace.
+class DwellSolver {
+ public:
+  virtual ~DwellSolver() = default;
+
+  /// Solves from t (warm start, clipped to the bounds; empty = the lower bound) and overwrites it. Throws
+  /// std::invalid_argument if the problem or t is not valid.
+  SolverSummary solve(const DwellProblem& problem, Vector& t);
+
+ protected:
+  explicit DwellSolver(SolverOptions options) : options_(std::move(options)) {}
+  SolverOptions options_;
+
+ private:
+  virtual void do_solve(const DwellProblem& problem, Vector& t, SolverSummary& summary) = 0;
+};
+
+/// Throws InputError for options that are out of range.
+std::unique_ptr<DwellSolver> make_solver(const SolverOptions& options);
+
+}  // namespace dwell

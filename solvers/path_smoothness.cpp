@@ -1,0 +1,69 @@
+#include "solvers/path_smoothness.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace dwell {
+
+PathSmoothness::PathSmoothness(const std::vector<double>& lengths, const std::vector<char>& joined)
+    : scale_(Vector::Ones(static_cast<Index>(lengths.size()))), joined_(joined) {
+  if (joined.size() != lengths.size())
+    throw std::invalid_argument("path smoothness: lengths and joined differ in size");
+  double sum = 0.0;
+  Index moving = 0;
+  for (double l : lengths) {
+    if (l > 0.0) {
+      sum += l;
+      ++moving;
+    }
+  }
+  constexpr double kLargest = 100.0;
+  for (std::size_t j = 0; j < lengths.size(); ++j) {
+    if (lengths[j] > 0.0) {
+      scale_[static_cast<Index>(j)] = std::min(sum / static_cast<double>(moving) / lengths[j], kLargest);
+    }
+  }
+}
+
+double PathSmoothness::squared_norm(const Vector& t) const {
+  double sum = 0.0;
+  for (Index j = 1; j < scale_.size(); ++j) {
+    if (!joined_[static_cast<std::size_t>(j)]) continue;
+    const double d = scale_[j] * t[j] - scale_[j - 1] * t[j - 1];
+    sum += d * d;
+  }
+  return sum;
+}
+
+void PathSmoothness::add_normal(double weight, const Vector& t, Vector& out) const {
+  for (Index j = 1; j < scale_.size(); ++j) {
+    if (!joined_[static_cast<std::size_t>(j)]) continue;
+    const double d = weight * (scale_[j] * t[j] - scale_[j - 1] * t[j - 1]);
+    out[j] += scale_[j] * d;
+    out[j - 1] -= scale_[j - 1] * d;
+  }
+}
+
+Eigen::MatrixXd PathSmoothness::dense_normal() const {
+  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(scale_.size(), scale_.size());
+  for (Index j = 1; j < scale_.size(); ++j) {
+    if (!joined_[static_cast<std::size_t>(j)]) continue;
+    normal(j, j) += scale_[j] * scale_[j];
+    normal(j - 1, j - 1) += scale_[j - 1] * scale_[j - 1];
+    normal(j, j - 1) -= scale_[j] * scale_[j - 1];
+    normal(j - 1, j) -= scale_[j] * scale_[j - 1];
+  }
+  return normal;
+}
+
+PathSmoothness path_smoothness(const ToolPath& path, const std::vector<Stroke>& strokes) {
+  std::vector<double> lengths;
+  std::vector<char> joined;
+  for (std::size_t j = 0; j < strokes.size(); ++j) {
+    lengths.push_back(strokes[j].length());
+    joined.push_back(j > 0 && !path.lifted[j]);
+  }
+  return {lengths, joined};
+}
+
+}  // namespace dwell

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <vector>
+
+#include "core/removal_operator.h"
+#include "core/tool_path.h"
+
+namespace dwell {
+
+/// The difference operator D of the dwell problem: how much the dwell per length changes between neighbours on the
+/// path. (D t)_k = s_(j+1) t_(j+1) - s_j t_j for every pair of dwell points j, j+1 joined without a lift, where
+/// s_j = mean length / length_j (1 for halts), so that D t is in seconds and smooth D t means smooth feed. Pairs across
+/// a lift are not linked. s_j is kept below 100: a stroke far shorter than the others cannot set the feed.
+class PathSmoothness {
+ public:
+  PathSmoothness() = default;
+  /// joined[j]: dwell point j continues from j - 1 without a lift. lengths [mm], one a stroke. Both of size n.
+  PathSmoothness(const std::vector<double>& lengths, const std::vector<char>& joined);
+
+  bool empty() const { return scale_.size() == 0; }
+  Index size() const { return scale_.size(); }  // n
+
+  /// |D t|^2 [s^2].
+  double squared_norm(const Vector& t) const;
+  /// out += weight * D' D t.
+  void add_normal(double weight, const Vector& t, Vector& out) const;
+  /// Dense D' D, n x n, for oracles and small dense solvers.
+  Eigen::MatrixXd dense_normal() const;
+
+ private:
+  Vector scale_;
+  std::vector<char> joined_;
+};
+
+/// The smoothness of a path's strokes: tool running through, or halting (all scales one).
+PathSmoothness path_smoothness(const ToolPath& path, const std::vector<Stroke>& strokes);
+
+}  // namespace dwell
