@@ -9,8 +9,8 @@ namespace dwell {
 /// The part of the map that the specification counts, in the map's coordinates [mm].
 struct Aperture {
   enum class Kind { Map, Rectangle, Circle } kind = Kind::Map;
-  double x0 = 0.0, y0 = 0.0, x1 = 0.0, y1 = 0.0;   // Rectangle, x0 < x1, y0 < y1
-  double x = 0.0, y = 0.0, radius = 0.0;           // Circle, radius > 0
+  double x0 = 0.0, y0 = 0.0, x1 = 0.0, y1 = 0.0;  // Rectangle, x0 < x1, y0 < y1
+  double x = 0.0, y = 0.0, radius = 0.0;          // Circle, radius > 0
 };
 
 /// Parses "map", "rect:x0,y0,x1,y1" or "circle:x,y,r" [mm]. Throws InputError naming text and accepted forms.

@@ -33,7 +33,8 @@ HeightMap::HeightMap(const Grid& g) : grid(g) {
 HeightMap::HeightMap(const Grid& g, std::vector<double> v) : grid(g), values(std::move(v)) {
   check_grid(g);
   if (static_cast<Index>(values.size()) != g.size()) {
-    throw InputError(fmt::format("map has {} values; its grid of {} x {} needs {}", values.size(), g.rows, g.cols, g.size()));
+    throw InputError(
+        fmt::format("map has {} values; its grid of {} x {} needs {}", values.size(), g.rows, g.cols, g.size()));
   }
 }
 

@@ -10,10 +10,10 @@ namespace dwell {
 
 /// What a map file does not say about itself.
 struct MapReadOptions {
-  std::optional<double> pitch;   // pixel pitch [mm]; required by formats that carry none (matrix text, NPY)
-  std::optional<Point> origin;   // centre of pixel (0, 0) [mm]; default (0, 0), or what the file says
-  double scale = 1.0;            // factor from the file's value unit to nm (or nm/s)
-  std::string name = "map";      // what error messages call it: "map" or "tif"
+  std::optional<double> pitch;  // pixel pitch [mm]; required by formats that carry none (matrix text, NPY)
+  std::optional<Point> origin;  // centre of pixel (0, 0) [mm]; default (0, 0), or what the file says
+  double scale = 1.0;           // factor from the file's value unit to nm (or nm/s)
+  std::string name = "map";     // what error messages call it: "map" or "tif"
 };
 
 /// Reads a map by the file's content and extension (docs/formats.md): matrix CSV/TXT, XYZ, NPY.

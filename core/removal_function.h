@@ -44,8 +44,8 @@ RemovalFunction measured_removal(const HeightMap& rates, const TifCentre& centre
 
 std::string to_string(RemovalFunction::Kind kind);
 
-/// Rate at displacement d from the axis [nm/s]. A measured one is interpolated by the cubic B-spline through its samples.
-/// Cost: O(1) analytic; a measured one is prepared once per `RateSampler`.
+/// Rate at displacement d from the axis [nm/s]. A measured one is interpolated by the cubic B-spline through its
+/// samples. Cost: O(1) analytic; a measured one is prepared once per `RateSampler`.
 class RateSampler;
 
 }  // namespace dwell

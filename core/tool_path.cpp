@@ -38,8 +38,8 @@ void validate(const ToolPath& path) {
   }
   for (std::size_t j = 0; j < path.size(); ++j) {
     if (!std::isfinite(path.points[j].x) || !std::isfinite(path.points[j].y)) {
-      throw InputError(fmt::format("tool path point {} = ({}, {}) mm; coordinates must be finite", j + 1, path.points[j].x,
-                                   path.points[j].y));
+      throw InputError(fmt::format("tool path point {} = ({}, {}) mm; coordinates must be finite", j + 1,
+                                   path.points[j].x, path.points[j].y));
     }
   }
 }

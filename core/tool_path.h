@@ -11,9 +11,9 @@ namespace dwell {
 /// j is made with the tool lifted (it removes nothing and the stretch of path is cut there); lifted[0] is always
 /// taken as true, since the tool must arrive from somewhere.
 struct ToolPath {
-  std::string kind;             // "raster", "nearest", "file", ...
-  std::vector<Point> points;    // n dwell points [mm]
-  std::vector<char> lifted;     // n flags
+  std::string kind;           // "raster", "nearest", "file", ...
+  std::vector<Point> points;  // n dwell points [mm]
+  std::vector<char> lifted;   // n flags
 
   std::size_t size() const { return points.size(); }
 };

@@ -24,8 +24,8 @@ struct Program {
   std::string file;
   std::vector<ProgramStep> steps;
 
-  double total_seconds() const;     // all steps [s]
-  double removing_length() const;   // [mm]
+  double total_seconds() const;    // all steps [s]
+  double removing_length() const;  // [mm]
 };
 
 }  // namespace dwell
