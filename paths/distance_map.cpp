@@ -149,7 +149,14 @@ double DistanceMap::operator()(Point p) const {
   return std::sqrt(best);
 }
 
+double DistanceMap::distance_to_grid(Point p) const {
+  const double dx = std::max({pixels_.x(0) - p.x, p.x - pixels_.x(pixels_.cols - 1), 0.0});
+  const double dy = std::max({pixels_.y(0) - p.y, p.y - pixels_.y(pixels_.rows - 1), 0.0});
+  return std::hypot(dx, dy);
+}
+
 bool DistanceMap::within(Point p, double reach) const {
+  if (distance_to_grid(p) > reach) return false;
   const Bound b = bound(p);
   const double rounding = 1e-9 * (b.node + b.gap);
   if (b.node + b.gap + rounding <= reach) return true;

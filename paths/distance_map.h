@@ -38,6 +38,7 @@ class DistanceMap {
     double gap;   // from the point to that node
   };
   Bound bound(Point p) const;
+  double distance_to_grid(Point p) const;  // to the rectangle of all pixel centres: a lower bound
   void index_rows(const HeightMap& map);
   void transform_columns(Index margin_rows, Index margin_cols);
   double squared_in_row(Index row, double x) const;
