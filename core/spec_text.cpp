@@ -1,0 +1,85 @@
+#include "core/spec_text.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/errors.h"
+#include "core/parse_number.h"
+
+namespace dwell {
+namespace {
+
+[[noreturn]] void refuse(const SpecText& spec, const std::string& why) {
+  throw InputError(fmt::format("{} \"{}\": {}", spec.field, spec.text, why));
+}
+
+void add_entry(SpecText& spec, std::string_view item) {
+  const std::size_t equals = item.find('=');
+  const std::string_view key = trimmed(item.substr(0, equals));
+  if (equals == std::string_view::npos || key.empty()) {
+    refuse(spec, fmt::format("\"{}\" is not of the form key=value", item));
+  }
+  const std::string_view value = trimmed(item.substr(equals + 1));
+  if (value.empty()) refuse(spec, fmt::format("{} has no value", key));
+  if (spec.has(key)) refuse(spec, fmt::format("{} is given twice", key));
+  spec.entries.emplace_back(key, value);
+}
+
+}  // namespace
+
+std::pair<std::string, std::string> split_kind(const std::string& text) {
+  const std::size_t colon = text.find(':');
+  if (colon == std::string::npos) return {text, ""};
+  return {text.substr(0, colon), text.substr(colon + 1)};
+}
+
+SpecText parse_spec_text(const std::string& text, const std::string& field) {
+  const auto [kind, rest] = split_kind(text);
+  SpecText spec{field, text, std::string(trimmed(kind)), {}};
+  if (spec.kind.empty()) refuse(spec, "required: kind:key=value,...");
+  if (trimmed(rest).empty()) return spec;
+  std::string_view items = rest;
+  while (true) {
+    const std::size_t comma = items.find(',');
+    add_entry(spec, items.substr(0, comma));
+    if (comma == std::string_view::npos) return spec;
+    items.remove_prefix(comma + 1);
+  }
+}
+
+bool SpecText::has(std::string_view key) const { return word(key).has_value(); }
+
+std::optional<std::string> SpecText::word(std::string_view key) const {
+  const auto found = std::find_if(entries.begin(), entries.end(), [key](const auto& e) { return e.first == key; });
+  if (found == entries.end()) return std::nullopt;
+  return found->second;
+}
+
+std::optional<double> SpecText::optional_number(std::string_view key) const {
+  const std::optional<std::string> value = word(key);
+  if (!value) return std::nullopt;
+  const std::optional<double> number = parse_number(*value);
+  if (!number || std::isnan(*number)) refuse(*this, fmt::format("{} = \"{}\"; a number is required", key, *value));
+  return number;
+}
+
+double SpecText::number(std::string_view key) const {
+  const std::optional<double> value = optional_number(key);
+  if (!value) refuse(*this, fmt::format("{} is missing; {}:{}=NUMBER is required", key, kind, key));
+  return *value;
+}
+
+double SpecText::number(std::string_view key, double fallback) const { return optional_number(key).value_or(fallback); }
+
+void SpecText::accept_only(std::initializer_list<std::string_view> keys) const {
+  for (const auto& [key, value] : entries) {
+    if (std::find(keys.begin(), keys.end(), key) == keys.end()) {
+      refuse(*this, fmt::format("unknown key \"{}\"; accepted for {}: {}", key, kind, fmt::join(keys, ", ")));
+    }
+  }
+}
+
+}  // namespace dwell

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/height_map.h"
+#include "core/tool_path.h"
+
+namespace dwell {
+
+struct NearestOptions {
+  double cell = 0.0;           // side of the square cells [mm], finite, at least the map's pixel pitch; required
+  double critical = 0.0;       // cells of mean below this [nm] are left alone; finite, or -infinity to keep every cell
+  double lift = 1.5;           // moves longer than lift * cell are made lifted, > 0; infinity = never
+  std::optional<Point> start;  // the path starts at the dwell point nearest to it; default: lowest row, leftmost cell
+};
+
+struct NearestPath {
+  ToolPath path;
+  std::vector<double> eigenvalues;  // mean of the pixels of the cell of each dwell point [nm], in path order
+  Index cells_total = 0;            // cells that have a valid pixel, kept or not
+  Index blocks_searched = 0;        // work done: blocks of the search pyramid looked into
+};
+
+/// From the start to the nearest unvisited dwell point; among equally near ones to that of the highest eigenvalue,
+/// then to the lowest row and column; until none is left ("improved Prim", Xie et al. 2022, section 2, eq. 1-5).
+///
+/// Square cells of side `cell` cover the bounding box of the valid pixels' areas: as few as cover it, the tiling
+/// centred on the box. A pixel belongs to the cell that holds its centre (on a common edge: to the upper or right
+/// one). The eigenvalue of a cell is the mean of its valid pixels; its centre is a dwell point if it has one and the
+/// eigenvalue is >= critical. Distances are compared as integers, so that ties are exact.
+///
+/// Throws InputError naming the option, its value and what is required, or the largest eigenvalue if no cell reaches
+/// the critical value. Memory O(cells of the box); about O(n log n) time: each search descends a pyramid of blocks in
+/// which finished areas are empty at every scale.
+NearestPath nearest_path(const HeightMap& map, const NearestOptions& options);
+
+}  // namespace dwell

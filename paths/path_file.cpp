@@ -1,0 +1,135 @@
+#include "paths/path_file.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/errors.h"
+#include "core/parse_number.h"
+#include "core/whole_file.h"
+
+namespace dwell {
+namespace {
+
+/// Text of a file as it may be shown in a message: short and printable.
+std::string shown(std::string_view text) {
+  constexpr std::size_t kLongest = 60;
+  std::string out(text.substr(0, kLongest));
+  for (char& c : out) {
+    if (c < ' ' || c > '~') c = '?';
+  }
+  return text.size() > kLongest ? out + "..." : out;
+}
+
+void split_fields(std::string_view line, std::vector<std::string_view>& fields) {
+  fields.clear();
+  while (true) {
+    const std::size_t comma = line.find(',');
+    fields.push_back(trimmed(line.substr(0, comma)));
+    if (comma == std::string_view::npos) return;
+    line.remove_prefix(comma + 1);
+  }
+}
+
+class PathFileReader {
+ public:
+  explicit PathFileReader(std::string name) : name_(std::move(name)) {}
+
+  ToolPath read(std::string_view text) {
+    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+    if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+    while (!text.empty()) {
+      const std::size_t end = text.find('\n');
+      ++line_number_;
+      take_line(trimmed(text.substr(0, end)));
+      text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    }
+    if (columns_ == 0) {
+      throw InputError(fmt::format("{}: no header line; the first line must name columns x_mm,y_mm[,lift]", name_));
+    }
+    if (path_.points.empty()) {
+      throw InputError(fmt::format("{}: no dwell point follows the header; at least one is required", name_));
+    }
+    path_.kind = "file";
+    path_.lifted.front() = 1;
+    return std::move(path_);
+  }
+
+ private:
+  void take_line(std::string_view line) {
+    if (line.empty() || line.front() == '#') return;
+    split_fields(line, fields_);
+    if (columns_ == 0) {
+      take_header(line);
+    } else {
+      take_point();
+    }
+  }
+
+  void take_header(std::string_view line) {
+    columns_ = fields_.size();
+    for (std::size_t i = 0; i < columns_; ++i) {
+      if (fields_[i] == "x_mm") assign(x_, i);
+      if (fields_[i] == "y_mm") assign(y_, i);
+      if (fields_[i] == "lift") assign(lift_, i);
+    }
+    if (!x_ || !y_) {
+      throw InputError(fmt::format("{}: line {}: header \"{}\"; it must name columns x_mm,y_mm[,lift]", name_,
+                                   line_number_, shown(line)));
+    }
+  }
+
+  void assign(std::optional<std::size_t>& column, std::size_t i) const {
+    if (column) {
+      throw InputError(
+          fmt::format("{}: line {}: column {} is named twice; required once", name_, line_number_, fields_[i]));
+    }
+    column = i;
+  }
+
+  void take_point() {
+    if (fields_.size() != columns_) {
+      throw InputError(
+          fmt::format("{}: line {} has {} columns; the header has {}", name_, line_number_, fields_.size(), columns_));
+    }
+    path_.points.push_back({coordinate(*x_, "x_mm"), coordinate(*y_, "y_mm")});
+    path_.lifted.push_back(lift_ && flag(*lift_) ? 1 : 0);
+  }
+
+  double coordinate(std::size_t column, const char* name) const {
+    const std::optional<double> value = parse_number(fields_[column]);
+    if (!value || !std::isfinite(*value)) refuse(column, name, "a finite number");
+    return *value;
+  }
+
+  bool flag(std::size_t column) const {
+    const std::optional<double> value = parse_number(fields_[column]);
+    if (!value || !(*value == 0.0 || *value == 1.0)) refuse(column, "lift", "0 or 1");
+    return *value == 1.0;
+  }
+
+  [[noreturn]] void refuse(std::size_t column, const char* name, const char* required) const {
+    throw InputError(fmt::format("{}: line {}: {} = \"{}\"; required: {}", name_, line_number_, name,
+                                 shown(fields_[column]), required));
+  }
+
+  std::string name_;
+  std::size_t line_number_ = 0;
+  std::size_t columns_ = 0;  // of the header; 0 = not read yet
+  std::optional<std::size_t> x_, y_, lift_;
+  std::vector<std::string_view> fields_;
+  ToolPath path_;
+};
+
+}  // namespace
+
+ToolPath read_path_file(const std::filesystem::path& file) {
+  const std::string text = read_whole_file(file);
+  return PathFileReader(file.string()).read(text);
+}
+
+}  // namespace dwell
