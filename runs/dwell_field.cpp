@@ -13,7 +13,7 @@ namespace dwell {
 namespace {
 
 constexpr double kWidestSquare = 400.0;  // pixels; also the square of a point alone, which is drawn 1 mm wide
-constexpr double kOverlap = 1.5;         // side of a square over its spacing: closes the gaps of uneven paths
+constexpr double kOverlap = 1.75;        // side of a square over its spacing: closes the gaps of uneven paths
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // The dwell points that fall on one pixel.

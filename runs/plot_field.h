@@ -32,7 +32,7 @@ inline constexpr double kLongAspect = 2.0;
 PlotField field_of_map(const HeightMap& map);
 
 /// Dwell at the places of a path: each pixel of the picture shows the nearest dwell point among those whose square
-/// covers it. The side of a point's square is 1.5 times the spacing to its neighbours, by the third smallest of the
+/// covers it. The side of a point's square is 1.75 times the spacing to its neighbours, by the third smallest of the
 /// distances to the nearest point in each quadrant: on a raster that is the larger of step and line pitch, inside, on
 /// the edge and in a corner, so that the squares leave no holes. Points that share a pixel show their mean. Points
 /// whose dwell is not finite are not shown. Throws InputError if the path is invalid or dwell has another size. Cost
