@@ -147,7 +147,8 @@ class Buckets {
   std::vector<std::size_t> members_;
 };
 
-// Sets every spacing; returns their median. A spacing far above it (a point at the end of a gap) is cut to twice it.
+// Sets every spacing; returns their median. A spacing far above it (a point at the end of a gap) is cut to 1.5 times
+// it.
 double set_spacings(std::vector<Seed>& seeds, int cols, int rows) {
   const Buckets buckets(seeds, cols, rows);
   std::vector<double> known;
@@ -163,7 +164,7 @@ double set_spacings(std::vector<Seed>& seeds, int cols, int rows) {
     median = std::min(*middle, kWidestSquare);
   }
   for (Seed& s : seeds) {
-    s.spacing = std::isfinite(s.spacing) ? std::min({s.spacing, 2.0 * median, kWidestSquare}) : median;
+    s.spacing = std::isfinite(s.spacing) ? std::min({s.spacing, 1.5 * median, kWidestSquare}) : median;
   }
   return median;
 }
@@ -171,7 +172,7 @@ double set_spacings(std::vector<Seed>& seeds, int cols, int rows) {
 void paint(const std::vector<Seed>& seeds, int margin, PlotField& field) {
   std::vector<float> nearest(field.values.size(), std::numeric_limits<float>::infinity());
   for (const Seed& s : seeds) {
-    const int half = static_cast<int>(0.5 * kOverlap * s.spacing) + 1;
+    const int half = static_cast<int>(0.5 * kOverlap * s.spacing) + 2;  // both positions are rounded to pixels
     const int col = s.col + margin;
     const int row = s.row + margin;
     for (int r = std::max(0, row - half); r <= std::min(field.rows - 1, row + half); ++r) {
