@@ -64,6 +64,8 @@ TEST(ProgramOfMoving, MergesStraightStrokesWhoseCoordinatesAreRoundedAndNoCorner
     path.lifted.push_back(j == 0);
   }
   EXPECT_EQ(program_of(path, std::vector<double>(500, 1.0), Motion::Moving, 10.0).steps.size(), 500u);
+  const ToolPath worst{"file", {{0, 0}, {1, 1.4e-6}, {2, 0}}, {1, 0, 0}};  // the most that rounding can bend a line
+  EXPECT_EQ(program_of(worst, {1.0, 1.0, 1.0}, Motion::Moving, 10.0).steps.size(), 3u);
   path.points[250].y += 1e-5;  // a bend of 1e-5 mm there, of half that in its neighbours' strokes
   EXPECT_EQ(program_of(path, std::vector<double>(500, 1.0), Motion::Moving, 10.0).steps.size(), 503u);
 }
