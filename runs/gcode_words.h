@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace dwell {
+
+/// One word of a G-code line: a letter and its number, "X-1.5".
+struct GcodeWord {
+  char letter = ' ';      // upper case
+  double value = 0.0;     // finite
+  std::string_view text;  // as written
+};
+
+/// What a G-code line holds. Views point into the line.
+struct GcodeLine {
+  std::vector<GcodeWord> words;            // in order
+  std::vector<std::string_view> comments;  // between ( and ), and after ;
+};
+
+/// Splits a line. Letters in either case, blanks before letters and numbers optional, a line of % holds nothing.
+/// Numbers are decimal, without exponent. Throws InputError that begins with `where` ("program.nc, line 7") and names
+/// the text: a comment that is not closed, a letter without a number, a character that begins no word.
+GcodeLine split_gcode_line(std::string_view line, const std::string& where);
+
+}  // namespace dwell
