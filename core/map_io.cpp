@@ -1,0 +1,195 @@
+#include "core/map_io.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/errors.h"
+#include "core/file_kind.h"
+#include "core/matrix_text.h"
+#include "core/npy.h"
+#include "core/number_text.h"
+#include "core/point_grid.h"
+#include "core/units.h"
+#include "core/whole_file.h"
+#include "core/xyz_text.h"
+
+namespace dwell {
+namespace {
+
+constexpr double kSame = 1e-9;  // relative difference up to which an option and a header agree
+
+bool same(double a, double b, double size) { return std::abs(a - b) <= kSame * size; }
+
+void check_options(const MapReadOptions& options, const std::string& where) {
+  if (options.pitch && !(std::isfinite(*options.pitch) && *options.pitch > 0.0)) {
+    throw InputError(fmt::format("--{}-pixel = {} mm for {}; a finite pixel pitch > 0 is required", options.name,
+                                 *options.pitch, where));
+  }
+  if (options.origin && !(std::isfinite(options.origin->x) && std::isfinite(options.origin->y))) {
+    throw InputError(fmt::format("--{}-origin = {},{} mm for {}; finite numbers are required", options.name,
+                                 options.origin->x, options.origin->y, where));
+  }
+  if (!(std::isfinite(options.scale) && options.scale > 0.0)) {
+    throw InputError(fmt::format("--{}-unit gives a factor of {} for {}; it must be finite and > 0", options.name,
+                                 options.scale, where));
+  }
+}
+
+/// Pitch of header and option, which must agree; nothing if neither says it.
+std::optional<Point> known_pitch(const MapHeader& header, const MapReadOptions& options, const std::string& where) {
+  if (!options.pitch) return header.pitch;
+  const double pitch = *options.pitch;
+  if (!header.pitch) return Point{pitch, pitch};
+  if (!same(header.pitch->x, pitch, pitch) || !same(header.pitch->y, pitch, pitch)) {
+    throw InputError(
+        fmt::format("{}: header says pitch_mm = {},{} but --{}-pixel says {}; they must agree (or the option "
+                    "be left out)",
+                    where, header.pitch->x, header.pitch->y, options.name, pitch));
+  }
+  return header.pitch;
+}
+
+std::optional<Point> known_origin(const MapHeader& header, const MapReadOptions& options, const std::string& where) {
+  if (!options.origin || !header.origin) return options.origin ? options.origin : header.origin;
+  const Point given = *options.origin;
+  // An origin may be zero, so the pitch (of a header with an origin, if it says one) also counts as its size.
+  const double pitch = header.pitch ? std::min(header.pitch->x, header.pitch->y) : 0.0;
+  if (!same(header.origin->x, given.x, std::max(std::abs(given.x), pitch)) ||
+      !same(header.origin->y, given.y, std::max(std::abs(given.y), pitch))) {
+    throw InputError(
+        fmt::format("{}: header says origin_mm = {},{} but --{}-origin says {},{}; they must agree (or the "
+                    "option be left out)",
+                    where, header.origin->x, header.origin->y, options.name, given.x, given.y));
+  }
+  return header.origin;
+}
+
+/// A file that names its unit must be read with that unit: no file is scaled twice, or not at all, unnoticed.
+void check_unit(const MapHeader& header, const MapReadOptions& options, const std::string& where) {
+  struct Unit {
+    std::string_view name;
+    double factor;
+  };
+  using namespace units;
+  constexpr std::array kUnits{Unit{"nm", 1.0},     Unit{"um", kNmPerUm}, Unit{"mm", kNmPerMm},
+                              Unit{"m", kNmPerM},  Unit{"nm/s", 1.0},    Unit{"um/min", kNmPerUm / kSecondsPerMinute},
+                              Unit{"m/s", kNmPerM}};
+  if (!header.unit) return;
+  const auto unit = std::find_if(kUnits.begin(), kUnits.end(), [&](const Unit& u) { return u.name == *header.unit; });
+  if (unit == kUnits.end()) {
+    throw InputError(
+        fmt::format("{}: header says unit '{}'; accepted: nm, um, mm, m, nm/s, um/min, m/s", where, *header.unit));
+  }
+  if (!same(unit->factor, options.scale, unit->factor)) {
+    throw InputError(
+        fmt::format("{}: header says unit {} (a factor of {} to nm), but --{}-unit gives a factor of {}; they "
+                    "must agree: give --{}-unit {}",
+                    where, *header.unit, unit->factor, options.name, options.scale, options.name, *header.unit));
+  }
+}
+
+Grid grid_of_matrix(Index rows, Index cols, const MapHeader& header, const MapReadOptions& options,
+                    const std::string& where, const char* hint) {
+  const std::optional<Point> pitch = known_pitch(header, options, where);
+  if (!pitch) {
+    throw InputError(
+        fmt::format("{}: the file says no pixel pitch; give --{}-pixel [mm] > 0{}", where, options.name, hint));
+  }
+  return {rows, cols, pitch->x, pitch->y, known_origin(header, options, where).value_or(Point{})};
+}
+
+HeightMap read_npy(std::string_view bytes, const MapReadOptions& options, const std::string& where) {
+  NpyMatrix matrix = parse_npy(bytes, where);
+  return {grid_of_matrix(matrix.rows, matrix.cols, {}, options, where, ""), std::move(matrix.values)};
+}
+
+HeightMap read_xyz(std::string_view text, const MapReadOptions& options, const std::string& where) {
+  const XyzText xyz = parse_xyz_text(text, where);
+  check_unit(xyz.header, options, where);
+  return grid_points(xyz.points, known_pitch(xyz.header, options, where), known_origin(xyz.header, options, where),
+                     where, options.name);
+}
+
+HeightMap read_matrix(std::string_view text, const MapReadOptions& options, const std::string& where) {
+  MatrixText matrix = parse_matrix_text(text, where);
+  check_unit(matrix.header, options, where);
+  const char* hint = matrix.cols == 3 ? "; or, if its lines are x y z, name it .xyz or begin it with a line 'x y z'"
+                                      : ", or begin the file with a line '# pitch_mm: 0.1'";
+  return {grid_of_matrix(matrix.rows, matrix.cols, matrix.header, options, where, hint), std::move(matrix.values)};
+}
+
+std::string extension_of(const std::filesystem::path& file) { return lower_case(file.extension().string()); }
+
+HeightMap parse_map(const std::filesystem::path& file, std::string_view bytes, const MapReadOptions& options,
+                    const std::string& where) {
+  constexpr const char* kAccepted = "a matrix of numbers (.csv, .txt), lines x y z (.xyz) or an NPY array (.npy)";
+  if (bytes.empty()) throw InputError(fmt::format("{}: the file is empty; {} is required", where, kAccepted));
+  if (is_npy(bytes)) return read_npy(bytes, options, where);
+  const std::string binary = kind_of_binary(bytes);
+  if (!binary.empty()) {
+    throw InputError(fmt::format("{}: the file looks like {}; {} is required", where, binary, kAccepted));
+  }
+  const std::string extension = extension_of(file);
+  if (extension == ".npy") throw InputError(fmt::format("{}: not an NPY array but text; name it .csv or .xyz", where));
+  if (extension == ".xyz" || names_xyz_columns(bytes)) return read_xyz(bytes, options, where);
+  return read_matrix(bytes, options, where);
+}
+
+/// Values to nm; every one finite or NaN, and one at least finite.
+void scale_and_check(HeightMap& map, double scale, const std::string& where) {
+  bool any = false;
+  for (std::size_t i = 0; i < map.values.size(); ++i) {
+    double& value = map.values[i];
+    const double read = value;
+    value *= scale;
+    if (std::isinf(value)) {
+      const Index pixel = static_cast<Index>(i);
+      throw InputError(
+          fmt::format("{}: value {} in row {}, column {} of the map is infinite (in nm); a finite number, or "
+                      "nan for no data, is required",
+                      where, read, pixel / map.grid.cols + 1, pixel % map.grid.cols + 1));
+    }
+    any = any || std::isfinite(value);
+  }
+  if (!any) {
+    throw InputError(fmt::format("{}: all {} values are no data (nan); at least one finite value is required", where,
+                                 map.values.size()));
+  }
+}
+
+}  // namespace
+
+HeightMap read_map(const std::filesystem::path& file, const MapReadOptions& options) {
+  const std::string where = fmt::format("{} {}", options.name, file.string());
+  check_options(options, where);
+  HeightMap map = parse_map(file, read_whole_file(file), options, where);
+  scale_and_check(map, options.scale, where);
+  return map;
+}
+
+void write_map(const std::filesystem::path& file, const HeightMap& map) {
+  if (std::any_of(map.values.begin(), map.values.end(), [](double v) { return std::isinf(v); })) {
+    throw InputError(
+        fmt::format("cannot write '{}': the map holds an infinite value; finite or NaN is required", file.string()));
+  }
+  const std::string extension = extension_of(file);
+  if (extension == ".csv") {
+    write_whole_file(file, matrix_text(map, ','));
+  } else if (extension == ".txt") {
+    write_whole_file(file, matrix_text(map, ' '));
+  } else if (extension == ".xyz") {
+    write_whole_file(file, xyz_text(map));
+  } else if (extension == ".npy") {
+    write_whole_file(file, npy_bytes(map));
+  } else {
+    throw InputError(
+        fmt::format("cannot write '{}': extension '{}' is not of a map format; .csv, .txt, .xyz and .npy are "
+                    "accepted",
+                    file.string(), extension));
+  }
+}
+
+}  // namespace dwell

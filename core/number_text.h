@@ -1,0 +1,29 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace dwell {
+
+/// Without the blanks, tabs and carriage returns at both ends.
+std::string_view trim(std::string_view text);
+
+std::string lower_case(std::string_view text);
+
+/// The fields between separators, untrimmed; one separator more than none gives one field more.
+std::vector<std::string_view> split(std::string_view text, char separator);
+
+/// The finite number that the whole of `text` spells, blanks around it and a leading '+' allowed; nothing if it
+/// spells anything else (NaN and infinity included). Decimal point only, whatever the locale.
+std::optional<double> finite_number(std::string_view text);
+
+/// A height as map files write it: a finite number, or NaN for "no data" (empty, nan, No Data; any case). Nothing
+/// if it is neither.
+std::optional<double> height_number(std::string_view text);
+
+/// Why height_number refused `text`, with the text quoted, for an error message.
+std::string why_no_height(std::string_view text);
+
+}  // namespace dwell

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string_view>
+
+namespace dwell {
+
+/// Walks the lines of a text: ends at LF or CR LF, numbers from 1, a byte-order mark of UTF-8 skipped.
+class TextLines {
+ public:
+  explicit TextLines(std::string_view text) : rest_(text) {
+    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+    if (rest_.starts_with(kByteOrderMark)) rest_.remove_prefix(kByteOrderMark.size());
+  }
+
+  /// Moves to the next line; false at the end.
+  bool next() {
+    if (rest_.empty()) return false;
+    const std::size_t end = rest_.find('\n');
+    line_ = rest_.substr(0, end);
+    rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
+    if (line_.ends_with('\r')) line_.remove_suffix(1);
+    ++number_;
+    return true;
+  }
+
+  std::string_view line() const { return line_; }
+  long number() const { return number_; }
+
+ private:
+  std::string_view rest_;
+  std::string_view line_;
+  long number_ = 0;
+};
+
+}  // namespace dwell
