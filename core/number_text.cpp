@@ -61,6 +61,11 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
   }
 }
 
+std::optional<double> parse_number(std::string_view text) {
+  const Parsed parsed = parse(trim(text));
+  return parsed.whole ? std::optional(parsed.value) : std::nullopt;
+}
+
 std::optional<double> finite_number(std::string_view text) {
   const Parsed parsed = parse(trim(text));
   if (!parsed.whole || !std::isfinite(parsed.value)) return std::nullopt;

@@ -15,6 +15,10 @@ std::string lower_case(std::string_view text);
 /// The fields between separators, untrimmed; one separator more than none gives one field more.
 std::vector<std::string_view> split(std::string_view text, char separator);
 
+/// The number that the whole of `text` spells, blanks around it and one leading '+' allowed, whatever the locale;
+/// nothing if it spells none or one out of range. "inf" and "nan" are numbers here: the caller checks the range.
+std::optional<double> parse_number(std::string_view text);
+
 /// The finite number that the whole of `text` spells, blanks around it and a leading '+' allowed; nothing if it
 /// spells anything else (NaN and infinity included). Decimal point only, whatever the locale.
 std::optional<double> finite_number(std::string_view text);

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "core/errors.h"
-#include "core/parse_number.h"
+#include "core/number_text.h"
 
 namespace dwell {
 namespace {
@@ -18,11 +18,11 @@ namespace {
 
 void add_entry(SpecText& spec, std::string_view item) {
   const std::size_t equals = item.find('=');
-  const std::string_view key = trimmed(item.substr(0, equals));
+  const std::string_view key = trim(item.substr(0, equals));
   if (equals == std::string_view::npos || key.empty()) {
     refuse(spec, fmt::format("\"{}\" is not of the form key=value", item));
   }
-  const std::string_view value = trimmed(item.substr(equals + 1));
+  const std::string_view value = trim(item.substr(equals + 1));
   if (value.empty()) refuse(spec, fmt::format("{} has no value", key));
   if (spec.has(key)) refuse(spec, fmt::format("{} is given twice", key));
   spec.entries.emplace_back(key, value);
@@ -38,9 +38,9 @@ std::pair<std::string, std::string> split_kind(const std::string& text) {
 
 SpecText parse_spec_text(const std::string& text, const std::string& field) {
   const auto [kind, rest] = split_kind(text);
-  SpecText spec{field, text, std::string(trimmed(kind)), {}};
+  SpecText spec{field, text, std::string(trim(kind)), {}};
   if (spec.kind.empty()) refuse(spec, "required: kind:key=value,...");
-  if (trimmed(rest).empty()) return spec;
+  if (trim(rest).empty()) return spec;
   std::string_view items = rest;
   while (true) {
     const std::size_t comma = items.find(',');

@@ -7,20 +7,65 @@
 #include "core/errors.h"
 
 namespace dwell {
+namespace {
+
+/// A piece of path without lifts: dwell points [first, last).
+struct Piece {
+  std::size_t first, last;
+};
+
+/// Nodes halfway between neighbours, the ends extended straight on. nodes[k] is where the stroke of point first + k
+/// begins.
+std::vector<Point> halfway_nodes(const ToolPath& path, Piece piece) {
+  const auto& p = path.points;
+  std::vector<Point> nodes(piece.last - piece.first + 1);
+  for (std::size_t j = piece.first + 1; j < piece.last; ++j) nodes[j - piece.first] = midpoint(p[j - 1], p[j]);
+  if (nodes.size() == 2) {
+    nodes = {p[piece.first], p[piece.first]};
+  } else {
+    nodes.front() = p[piece.first] - (nodes[1] - p[piece.first]);
+    nodes.back() = p[piece.last - 1] + (p[piece.last - 1] - nodes[nodes.size() - 2]);
+  }
+  return nodes;
+}
+
+/// The nodes of the chain of equal steps whose midpoints the points are, or nothing. From the first straight step on,
+/// q_j = 2 p_j - q_(j-1); each further straight step gives its node anew, so that rounding does not add up.
+std::vector<Point> chain_nodes(const ToolPath& path, Piece piece) {
+  const auto& p = path.points;
+  const std::size_t count = piece.last - piece.first;
+  if (count < 3) return {};
+  const double step = distance(p[piece.first], p[piece.first + 1]);
+  const double slack = kEqualSteps * step;
+  if (!(step > 0.0)) return {};
+  std::vector<Point> nodes(count + 1);
+  nodes[0] = p[piece.first] - 0.5 * (p[piece.first + 1] - p[piece.first]);
+  for (std::size_t k = 0; k < count; ++k) {
+    const Point here = p[piece.first + k];
+    nodes[k + 1] = here + (here - nodes[k]);
+    if (!(std::abs(distance(nodes[k], nodes[k + 1]) - step) <= slack)) return {};
+    if (k + 1 == count) break;
+    const Point next = p[piece.first + k + 1];
+    const bool straight = std::abs(distance(here, next) - step) <= slack &&
+                          (k == 0 || distance(next - here, here - p[piece.first + k - 1]) <= slack);
+    if (!straight) continue;
+    if (!(distance(midpoint(here, next), nodes[k + 1]) <= slack)) return {};
+    nodes[k + 1] = midpoint(here, next);
+  }
+  return nodes;
+}
+
+}  // namespace
 
 std::vector<Stroke> moving_strokes(const ToolPath& path) {
-  const std::size_t n = path.size();
-  std::vector<Stroke> strokes(n);
-  for (std::size_t j = 0; j < n; ++j) {
-    const Point p = path.points[j];
-    const bool joined_before = j > 0 && !path.lifted[j];
-    const bool joined_after = j + 1 < n && !path.lifted[j + 1];
-    Stroke& s = strokes[j];
-    s.via = p;
-    s.start = joined_before ? midpoint(path.points[j - 1], p) : p;
-    s.finish = joined_after ? midpoint(p, path.points[j + 1]) : p;
-    if (joined_after && !joined_before) s.start = p - (s.finish - p);
-    if (joined_before && !joined_after) s.finish = p + (p - s.start);
+  std::vector<Stroke> strokes(path.size());
+  for (std::size_t first = 0; first < path.size();) {
+    std::size_t last = first + 1;
+    while (last < path.size() && !path.lifted[last]) ++last;
+    std::vector<Point> nodes = chain_nodes(path, {first, last});
+    if (nodes.empty()) nodes = halfway_nodes(path, {first, last});
+    for (std::size_t j = first; j < last; ++j) strokes[j] = {nodes[j - first], path.points[j], nodes[j - first + 1]};
+    first = last;
   }
   return strokes;
 }

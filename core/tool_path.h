@@ -28,9 +28,15 @@ struct Stroke {
   double length() const { return distance(start, via) + distance(via, finish); }
 };
 
-/// Dwell belongs to a stretch of path, not to a dot (docs/math.md). Nodes lie halfway between neighbouring dwell
-/// points; where the path is cut (first, last, lifted) the stretch is extended straight on by half the neighbouring
-/// step, so that it is symmetric about its point; a point alone between two lifts is a halt. n strokes, in order.
+/// Dwell belongs to a stretch of path, not to a dot (docs/math.md, "Nodes"). The path is cut at its ends and at lifts;
+/// in each piece, dwell point j stands for the stretch from node q_(j-1) through p_j to node q_j. n strokes, in order.
+///
+/// Nodes lie halfway between neighbouring dwell points; at the ends of a piece the stretch is extended straight on by
+/// its other half, so that it is symmetric about its point; a point alone in its piece is a halt. One case is better
+/// known: where all points of a piece are the midpoints of a chain of equal steps (to kEqualSteps of a step), as
+/// planners that think in segments write them, the chain's own nodes are used, so that the tool turns where the chain
+/// turns and all strokes are equally long. On a straight line of equal steps the two are the same.
+inline constexpr double kEqualSteps = 1e-3;
 std::vector<Stroke> moving_strokes(const ToolPath& path);
 
 /// The strokes of a tool that halts at every dwell point: start = via = finish = p_j.

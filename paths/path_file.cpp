@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/errors.h"
-#include "core/parse_number.h"
+#include "core/number_text.h"
 #include "core/whole_file.h"
 
 namespace dwell {
@@ -29,7 +29,7 @@ void split_fields(std::string_view line, std::vector<std::string_view>& fields) 
   fields.clear();
   while (true) {
     const std::size_t comma = line.find(',');
-    fields.push_back(trimmed(line.substr(0, comma)));
+    fields.push_back(trim(line.substr(0, comma)));
     if (comma == std::string_view::npos) return;
     line.remove_prefix(comma + 1);
   }
@@ -45,7 +45,7 @@ class PathFileReader {
     while (!text.empty()) {
       const std::size_t end = text.find('\n');
       ++line_number_;
-      take_line(trimmed(text.substr(0, end)));
+      take_line(trim(text.substr(0, end)));
       text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
     }
     if (columns_ == 0) {

@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "core/errors.h"
-#include "core/parse_number.h"
+#include "core/number_text.h"
 #include "core/spec_text.h"
 #include "paths/distance_map.h"
 #include "paths/path_file.h"

@@ -1,4 +1,4 @@
-#include "core/parse_number.h"
+#include "core/number_text.h"
 
 #include <gtest/gtest.h>
 
@@ -23,8 +23,8 @@ TEST(ParseNumber, LeavesInfinityAndNanToTheCaller) {
 }
 
 TEST(ParseNumber, TrimsBothEnds) {
-  EXPECT_EQ(trimmed("\t a b \r"), "a b");
-  EXPECT_EQ(trimmed(" \t"), "");
+  EXPECT_EQ(trim("\t a b \r"), "a b");
+  EXPECT_EQ(trim(" \t"), "");
 }
 
 }  // namespace
