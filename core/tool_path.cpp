@@ -43,8 +43,10 @@ std::vector<Point> chain_nodes(const ToolPath& path, Piece piece) {
   for (std::size_t k = 0; k < count; ++k) {
     const Point here = p[piece.first + k];
     nodes[k + 1] = here + (here - nodes[k]);
-    if (!(std::abs(distance(nodes[k], nodes[k + 1]) - step) <= slack)) return {};
-    if (k + 1 == count) break;
+    const double taken = distance(nodes[k], nodes[k + 1]);
+    const bool whole = std::abs(taken - step) <= slack;
+    if (k + 1 == count) return whole || taken < step ? nodes : std::vector<Point>{};  // the last may be cut short
+    if (!whole) return {};
     const Point next = p[piece.first + k + 1];
     const bool straight = std::abs(distance(here, next) - step) <= slack &&
                           (k == 0 || distance(next - here, here - p[piece.first + k - 1]) <= slack);
@@ -52,7 +54,7 @@ std::vector<Point> chain_nodes(const ToolPath& path, Piece piece) {
     if (!(distance(midpoint(here, next), nodes[k + 1]) <= slack)) return {};
     nodes[k + 1] = midpoint(here, next);
   }
-  return nodes;
+  return {};
 }
 
 }  // namespace
