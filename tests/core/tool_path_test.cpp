@@ -134,6 +134,16 @@ TEST(MovingStrokes, TakeASerpentineOfDwellPointsByHalves) {
   EXPECT_NEAR(strokes[5].length(), 1.0, 1e-12);
 }
 
+// Repeated points are the midpoints of a chain that runs to and fro, but nobody means that one.
+TEST(MovingStrokes, TakeNoChainThatTurnsBack) {
+  ToolPath path;
+  path.points = {{0, 0}, {1, 0}, {1, 0}, {1, 0}, {2, 0}};
+  path.lifted = {1, 0, 0, 0, 0};
+  const auto strokes = moving_strokes(path);
+  EXPECT_EQ(strokes[1].length(), 0.5);
+  EXPECT_EQ(strokes[2].length(), 0.0);
+}
+
 TEST(MovingStrokes, TakeAChainToATolerance) {
   const auto nodes = chain_with_turn(20);
   const auto is_chain = [](const ToolPath& path) {
