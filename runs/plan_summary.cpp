@@ -6,6 +6,7 @@
 
 #include "core/units.h"
 #include "core/version.h"
+#include "runs/inputs_json.h"
 
 namespace dwell {
 namespace {
@@ -68,9 +69,6 @@ Json options_json(const Plan& plan) {
 }  // namespace
 
 std::string plan_summary_text(const Plan& plan, const WrittenPlan& written) {
-  Json inputs = Json::array();
-  for (const InputFile& input : plan.inputs)
-    inputs.push_back({{"role", input.role}, {"file", input.file}, {"sha256", input.sha256}});
   const Json summary = {
       {"schema", 1},
       {"version", version()},
@@ -102,7 +100,7 @@ std::string plan_summary_text(const Plan& plan, const WrittenPlan& written) {
         {"residual_pv_nm", written.simulated.pv}}},
       {"limits", plan.limits},
       {"options", options_json(plan)},
-      {"inputs", inputs},
+      {"inputs", inputs_json(plan.inputs)},
   };
   return summary.dump(2) + "\n";
 }

@@ -7,6 +7,7 @@
 #include "core/removal_kernel.h"
 #include "core/version.h"
 #include "core/whole_file.h"
+#include "runs/inputs_json.h"
 #include "runs/plan.h"
 #include "runs/program_reader.h"
 #include "runs/simulate.h"
@@ -36,9 +37,6 @@ Simulation simulate_file(const std::filesystem::path& program, std::optional<Gco
 
 std::string simulation_json(const Simulation& s) {
   using Json = nlohmann::ordered_json;
-  Json inputs = Json::array();
-  for (const InputFile& input : s.inputs)
-    inputs.push_back({{"role", input.role}, {"file", input.file}, {"sha256", input.sha256}});
   const Json json = {
       {"schema", 1},
       {"version", version()},
@@ -49,7 +47,7 @@ std::string simulation_json(const Simulation& s) {
         {"removing_length_mm", s.program.removing_length()}}},
       {"map", {{"valid_pixels", s.before.valid_pixels}, {"pv_nm", s.before.pv}, {"rms_nm", s.before.rms}}},
       {"residual", {{"removed", to_string(s.terms)}, {"rms_nm", s.after.rms}, {"pv_nm", s.after.pv}}},
-      {"inputs", inputs}};
+      {"inputs", inputs_json(s.inputs)}};
   return json.dump(2) + "\n";
 }
 
