@@ -40,7 +40,9 @@ class Run {
         stop(SolverStatus::Settled, fmt::format("settled: no step lowers the objective {:.6g}; |pg| {:.2g}", value_,
                                                 gradient_norm() / scale_));
       }
-      if (summary_.iterations - checkpoint_iteration < o_.settle_iterations) continue;
+      // The slower the objective falls, the longer it is watched: a fixed number of iterations would stop ever earlier.
+      const long watched = std::max(o_.settle_iterations, checkpoint_iteration / 2);
+      if (summary_.iterations - checkpoint_iteration < watched) continue;
       if (value_ >= checkpoint - o_.objective_tolerance * std::abs(checkpoint)) {
         stop(SolverStatus::Settled,
              fmt::format("settled: objective {:.6g} fell by {:.2g} of itself in {} iterations; |pg| {:.2g}", value_,
