@@ -88,7 +88,7 @@ const std::vector<Wrong>& cases() {
       {"nan_option", none, {"--smoothness", "nan"}, {"--smoothness", "nan", ">= 0"}},
       {"negative_origin_without_y", none, {"--map-origin", "-5"}, {"--map-origin", "-5", "X,Y"}},
       {"unknown_unit", none, {"--map-unit", "inch"}, {"--map-unit", "inch", "nm, um, mm, m"}},
-      {"unknown_option", none, {"--max-fed", "1"}, {"--max-fed", "--help"}},
+      {"unknown_option", none, {"--max-fed", "1"}, {"dwell: unknown option --max-fed", "'dwell plan --help'"}},
       {"unknown_word", none, {"--gcode", "g92"}, {"--gcode", "g92", "g94"}},
       {"empty_value", none, {"--tif-centre", ""}, {"--tif-centre", "empty"}},
       {"path_outside_the_part",
@@ -159,6 +159,8 @@ TEST(WrongInputWithoutOption, NamesTheOptionThatIsMissing) {
   refused({"simulate"}, {"--program", "required"});
   refused({"map"}, {"file", "required"});
   refused({"map", "map.csv", "--map-pixel", "0.5", "--write", "a.tiff"}, {"a.tiff", ".csv", ".npy"});
+  refused({"map", "map.csv", "tif.csv"}, {"argument 'tif.csv' was not expected", "'dwell map --help'"});
+  refused({"plam"}, {"command 'plam' was not expected", "'dwell --help'"});
   refused({"example"}, {"--out", "required"});
   EXPECT_EQ(everything_in(inputs.folder.path()), before);
 }

@@ -133,7 +133,7 @@ TEST(CheckToolFits, AllowsAStripNarrowerThanTheToolButNoMapSmallerBothWays) {
       [&] {
         check_tool_fits(tif, Grid{11, 11, 0.5, 0.5, {}});
       },
-      {"6 mm", "5.5 x 5.5 mm", "--tif-pixel", "--map-pixel"});
+      {"6 mm", "5.5 x 5.5 mm", "--tif (its radius)", "--map-pixel"});
 }
 
 }  // namespace
