@@ -1,7 +1,10 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <exception>
+#include <string>
+#include <vector>
 
 #include "cli/commands.h"
 #include "cli/terminal.h"
@@ -10,12 +13,28 @@
 
 namespace {
 
+/// What is wrong with the words of the command line, and where help is.
+std::string usage_message(const CLI::App* program, const CLI::Error& error) {
+  const auto commands = program->get_subcommands();
+  const std::string help = commands.empty() ? "dwell --help" : fmt::format("dwell {} --help", commands[0]->get_name());
+  std::string what = error.what();
+  const std::vector<std::string> words = program->remaining(true);
+  const auto option = std::find_if(words.begin(), words.end(), [](const auto& w) { return w.starts_with("-"); });
+  if (option != words.end()) {
+    what = fmt::format("unknown option {}", *option);
+  } else if (!words.empty()) {
+    what = fmt::format("{} '{}' was not expected", commands.empty() ? "command" : "argument", words.front());
+  }
+  return fmt::format("dwell: {}; '{}' lists what is accepted\n", what, help);
+}
+
 int run(int argc, char** argv) {
   using namespace dwell::cli;
   CLI::App program{
       "Dwell-time optimisation for sub-aperture finishing of optics: height map and removal function to feed table."};
   program.set_version_flag("--version", std::string("dwell ") + dwell::version());
   program.require_subcommand(1);
+  program.failure_message(usage_message);
   int exit_code = kDone;
   add_plan_command(program, exit_code);
   add_simulate_command(program, exit_code);

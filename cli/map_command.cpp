@@ -29,7 +29,8 @@ int run_map(const MapArguments& arguments) {
   const MapStatistics statistics = map_statistics(map, terms);
   const Grid& g = map.grid;
   fmt::print("file      {} (sha256 {})\n", inputs[0].file, inputs[0].sha256);
-  fmt::print("size      {} rows (y) x {} columns (x), {:.6g} x {:.6g} mm\n", g.rows, g.cols, g.height(), g.width());
+  fmt::print("size      {} rows (y) x {} columns (x), {:.6g} mm in x, {:.6g} mm in y\n", g.rows, g.cols, g.width(),
+             g.height());
   fmt::print("pitch     {:.9g} mm in x, {:.9g} mm in y\n", g.pitch_x, g.pitch_y);
   fmt::print("origin    first pixel at ({:.9g}, {:.9g}) mm\n", g.origin.x, g.origin.y);
   fmt::print("valid     {} of {} pixels\n", statistics.valid_pixels, g.size());

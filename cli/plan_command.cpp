@@ -21,7 +21,7 @@ struct PlanArguments {
 
 void print_plan(const Plan& plan, const WrittenPlan& written) {
   const Grid& g = plan.map.grid;
-  fmt::print("map       {} x {} pixels of {:.6g} mm, {} in the aperture\n", g.rows, g.cols, g.pitch_x,
+  fmt::print("map       {} rows x {} columns of {:.6g} mm, {} pixels in the aperture\n", g.rows, g.cols, g.pitch_x,
              plan.before.valid_pixels);
   fmt::print("before    RMS {:.4g} nm, PV {:.4g} nm ({} removed)\n", plan.before.rms, plan.before.pv,
              to_string(plan.terms));

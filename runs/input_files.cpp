@@ -101,12 +101,12 @@ RemovalFunction load_removal_function(const JobOptions& options, std::vector<Inp
 
 void check_tool_fits(const RemovalFunction& tif, const Grid& map) {
   if (2.0 * tif.radius > map.width() && 2.0 * tif.radius > map.height()) {
+    const bool measured = tif.kind == RemovalFunction::Kind::Measured;
     throw InputError(fmt::format(
-        "removal function of {:.4g} mm diameter is larger than the map of {:.4g} x {:.4g} mm both ways; "
-        "check --tif-pixel ({}) and --map-pixel (the map has {:.6g} mm)",
+        "removal function of {:.4g} mm diameter is larger than the map of {:.4g} x {:.4g} mm both ways; check {} and "
+        "--map-pixel (the map has {:.6g} mm)",
         2.0 * tif.radius, map.width(), map.height(),
-        tif.kind == RemovalFunction::Kind::Measured ? fmt::format("the file has {:.6g} mm", tif.samples.grid.pitch_x)
-                                                    : "not used",
+        measured ? fmt::format("--tif-pixel (the file has {:.6g} mm)", tif.samples.grid.pitch_x) : "--tif (its radius)",
         map.pitch_x));
   }
 }

@@ -22,13 +22,21 @@ const JobOptionRecord& record_of(const std::string& key, const std::string& file
   throw InputError(fmt::format("{}: unknown field '{}'; accepted: {}", file, key, known));
 }
 
-std::string text_of(const toml::node& node, const std::string& source) {
-  if (const auto text = node.as_string()) return text->get();
-  if (const auto whole = node.as_integer()) return fmt::format("{}", whole->get());
-  if (const auto real = node.as_floating_point()) return fmt::format("{}", real->get());
-  std::ostringstream type;
+std::string text_of(const toml::node& node, const JobOptionRecord& record, const std::string& source) {
+  if (record.is_number) {
+    if (const auto whole = node.as_integer()) return fmt::format("{}", whole->get());
+    if (const auto real = node.as_floating_point()) return fmt::format("{}", real->get());
+  } else if (const auto text = node.as_string()) {
+    return text->get();
+  }
+  std::ostringstream type, value;
   type << node.type();
-  throw InputError(fmt::format("{}: is of type {}; required a string or a number", source, type.str()));
+  if (node.is_value())
+    node.visit([&value](const auto& v) {
+      if constexpr (toml::is_value<decltype(v)>) value << ' ' << v;
+    });
+  throw InputError(fmt::format("{}:{} is of type {}; required {}", source, value.str(), type.str(),
+                               record.is_number ? "a number (without quotes)" : "a string (in quotes)"));
 }
 
 /// Whether the value of a file option names a file: a removal function may be a formula.
@@ -39,9 +47,10 @@ bool names_a_file(const std::string& value) {
 
 /// The value with its file name taken relative to the job file's folder.
 std::string rebased(const JobOptionRecord& record, const std::string& value, const std::filesystem::path& folder) {
+  if (value.empty()) return value;
   if (record.is_file && names_a_file(value)) return (folder / value).lexically_normal().string();
   constexpr std::string_view kPathFile = "file:";
-  if (record.key == "path" && value.starts_with(kPathFile)) {
+  if (record.key == "path" && value.starts_with(kPathFile) && value != kPathFile) {
     return std::string(kPathFile) + (folder / value.substr(kPathFile.size())).lexically_normal().string();
   }
   return value;
@@ -62,10 +71,7 @@ void read_job_file(const std::filesystem::path& file, JobOptions& options) {
     const std::string name(key.str());
     const JobOptionRecord& record = record_of(name, file.string());
     const std::string source = fmt::format("{}: {}", file.string(), name);
-    const std::string value = text_of(node, source);
-    if (record.is_number && node.is_string()) {
-      throw InputError(fmt::format("{}: '{}' is a string; required a number", source, value));
-    }
+    const std::string value = text_of(node, record, source);
     set_job_option(options, record, rebased(record, value, file.parent_path()), source);
   }
 }

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <system_error>
@@ -17,12 +18,30 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// An absolute path without a trailing separator, so that its parent is the folder that holds it.
+/// An absolute path without links or a trailing separator, so that its parent is the folder that holds it.
 fs::path normal(const fs::path& target) {
   if (target.empty()) throw InputError("--out: required; the folder for the plan");
-  fs::path path = fs::absolute(target).lexically_normal();
+  std::error_code error;
+  fs::path path = fs::weakly_canonical(fs::absolute(target), error);
+  if (error) path = fs::absolute(target).lexically_normal();
   if (!path.has_filename()) path = path.parent_path();
   return path;
+}
+
+/// What shows that a folder is not an earlier result; empty if it is one.
+std::string foreign_entry(const fs::path& target) {
+  bool summary = false;
+  std::error_code error;
+  for (fs::directory_iterator entry(target, error), end; !error && entry != end; entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    summary = summary || name == "summary.json";
+    if (std::find(kResultFiles.begin(), kResultFiles.end(), name) == kResultFiles.end() ||
+        !entry->is_regular_file(error)) {
+      return fmt::format("it holds '{}'", name);
+    }
+  }
+  if (error) return error.message();
+  return summary ? "" : "it holds no summary.json";
 }
 
 void check_target(const fs::path& target, const fs::path& shown) {
@@ -31,9 +50,12 @@ void check_target(const fs::path& target, const fs::path& shown) {
   if (!fs::exists(status)) return;
   if (!fs::is_directory(status))
     throw InputError(fmt::format("--out: '{}' is a file; a folder is required", shown.string()));
-  if (fs::is_empty(target, error) || fs::exists(target / "summary.json", error)) return;
-  throw InputError(fmt::format(
-      "--out: '{}' holds files that are not a plan (no summary.json); give an empty or a new folder", shown.string()));
+  if (fs::is_empty(target, error)) return;
+  const std::string other = foreign_entry(target);
+  if (other.empty()) return;
+  throw InputError(
+      fmt::format("--out: '{}' is not an earlier plan ({}) and is left alone; give an empty or a new folder",
+                  shown.string(), other));
 }
 
 [[noreturn]] void refuse(const fs::path& target, const std::string& reason) {
@@ -44,18 +66,40 @@ void check_target(const fs::path& target, const fs::path& shown) {
 
 OutputFolder::OutputFolder(const fs::path& target) : target_(normal(target)) {
   check_target(target_, target);
-  std::error_code error;
-  fs::create_directories(target_.parent_path(), error);
-  if (error) refuse(target, error.message());
   temporary_ = target_.parent_path() / fmt::format(".{}.tmp-{}", target_.filename().string(), getpid());
-  fs::remove_all(temporary_, error);
-  fs::create_directory(temporary_, error);
-  if (error) refuse(target, error.message());
+  try {
+    make_parents();
+    std::error_code error;
+    fs::remove_all(temporary_, error);
+    fs::create_directory(temporary_, error);
+    if (error) refuse(target, error.message());
+  } catch (...) {
+    remove_made();
+    throw;
+  }
 }
 
-OutputFolder::~OutputFolder() {
+OutputFolder::~OutputFolder() { remove_made(); }
+
+void OutputFolder::make_parents() {
+  std::vector<fs::path> missing;
+  std::error_code error;
+  for (fs::path parent = target_.parent_path(); !fs::exists(parent, error) && parent.has_relative_path();
+       parent = parent.parent_path()) {
+    missing.push_back(parent);
+  }
+  for (auto parent = missing.rbegin(); parent != missing.rend(); ++parent) {
+    fs::create_directory(*parent, error);
+    if (error) refuse(target_, error.message());
+    made_parents_.push_back(*parent);
+  }
+}
+
+/// Removes the temporary folder, and the parents that hold nothing else.
+void OutputFolder::remove_made() {
   std::error_code ignored;
   fs::remove_all(temporary_, ignored);
+  for (auto parent = made_parents_.rbegin(); parent != made_parents_.rend(); ++parent) fs::remove(*parent, ignored);
 }
 
 void OutputFolder::write(const std::string& name, std::string_view bytes) const { write_whole_file(path(name), bytes); }

@@ -1,19 +1,26 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace dwell {
 
+/// The files of a plan. A folder that holds nothing else, and a summary.json, is an earlier result; any other file in
+/// it is the user's and not ours to remove.
+inline constexpr std::array<std::string_view, 8> kResultFiles{"summary.json", "feed.csv",  "program.nc",   "before.png",
+                                                              "after.png",    "dwell.png", "residual.npy", "dwell.npy"};
+
 /// A folder of results that appears whole or not at all. Files go to a temporary folder beside the target; commit()
 /// puts it in place in one step (an earlier result is exchanged with it and then removed); without commit() the
-/// temporary folder is removed and the target is as it was.
+/// temporary folder is removed, with the parents that were made for it, and the target is as it was.
 class OutputFolder {
  public:
-  /// Throws InputError if the target is empty text, a file, a folder that holds anything but an earlier result (known
-  /// by its summary.json), or if its parent cannot be written. Checks before any work is done; creates the temporary
-  /// folder.
+  /// Throws InputError if the target is empty text, a file, a folder that holds anything but an earlier result
+  /// (kResultFiles), or if its parent cannot be written. Checks before any work is done; creates the temporary folder.
+  /// A link to a folder stays: what it points to is replaced.
   explicit OutputFolder(const std::filesystem::path& target);
   ~OutputFolder();
   OutputFolder(const OutputFolder&) = delete;
@@ -25,7 +32,11 @@ class OutputFolder {
   void commit();
 
  private:
+  void make_parents();
+  void remove_made();
+
   std::filesystem::path target_, temporary_;
+  std::vector<std::filesystem::path> made_parents_;  // outermost first
 };
 
 }  // namespace dwell

@@ -126,7 +126,12 @@ void schedule_feed(Plan& plan) {
   // Halts have no length; the machine moves between them at maximum feed.
   if (plan.motion == Motion::Stop) plan.feed.min_speed = plan.feed.max_speed = units::mm_per_s(o.max_feed_mm_per_min);
   plan.table = feed_table_of(plan.path, {plan.dwell.begin(), plan.dwell.end()}, plan.motion, o.max_feed_mm_per_min);
-  if (!plan.solver.converged()) plan.limits.push_back(fmt::format("solver {}: {}", o.solver, plan.solver.message));
+  if (!plan.solver.converged()) {
+    const bool time = plan.solver.status == SolverStatus::TimeLimit;
+    plan.limits.push_back(fmt::format("solver {}: {}: {}{}", o.solver, to_string(plan.solver.status),
+                                      plan.solver.message,
+                                      time ? fmt::format("; --max-solve is {} s", o.max_solve_s) : ""));
+  }
   if (plan.feed.segments_infeasible > 0) {
     plan.limits.push_back(fmt::format("{} of {} segments run faster than --max-feed {} mm/min allows",
                                       plan.feed.segments_infeasible, plan.path.size(), o.max_feed_mm_per_min));

@@ -1,0 +1,127 @@
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "core/version.h"
+#include "core/whole_file.h"
+#include "tests/cli/small_inputs.h"
+#include "tests/core/same_map.h"
+
+namespace dwell {
+namespace {
+
+using nlohmann::json;
+using test::expect_has;
+using test::ProgramResult;
+using test::SmallInputs;
+
+TEST(Help, OfEverySubcommandShowsAnExampleAndItsUnits) {
+  const test::TemporaryFolder folder;
+  for (const char* command : {"plan", "simulate", "map", "example"}) {
+    const ProgramResult result = test::run_program(folder.path(), {command, "--help"});
+    EXPECT_EQ(result.exit_code, 0) << command;
+    expect_has(result.out, "Example:\n  dwell " + std::string(command));
+    expect_has(result.out, " mm");
+    EXPECT_EQ(result.err, "") << command;
+    expect_has(test::run_program(folder.path(), {"--help"}).out, command);
+  }
+  EXPECT_EQ(folder.entries(), 0u);
+}
+
+TEST(Version, IsPrinted) {
+  const test::TemporaryFolder folder;
+  const ProgramResult result = test::run_program(folder.path(), {"--version"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.out, std::string("dwell ") + version() + "\n");
+}
+
+TEST(Usage, WithoutOrWithAnUnknownCommandIsAnError) {
+  const test::TemporaryFolder folder;
+  EXPECT_EQ(test::run_program(folder.path(), {}).exit_code, 2);
+  EXPECT_EQ(test::run_program(folder.path(), {"plam"}).exit_code, 2);
+}
+
+TEST(MapCommand, PrintsSizePitchPvAndRms) {
+  const SmallInputs inputs;
+  inputs.folder.file("flat.csv", "1,1,nan\n1,5,1\n");
+  const ProgramResult result = inputs.run({"map", "flat.csv", "--map-pixel", "0.5", "--remove", "piston"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  expect_has(result.out, "flat.csv (sha256 " + sha256_of_file(inputs / "flat.csv") + ")");
+  expect_has(result.out, "2 rows (y) x 3 columns (x), 1.5 mm in x, 1 mm in y");
+  expect_has(result.out, "0.5 mm in x, 0.5 mm in y");
+  expect_has(result.out, "5 of 6 pixels");
+  expect_has(result.out, "4 nm (piston removed)");
+  expect_has(result.out, "1.6 nm (piston removed)");  // sqrt((4 * 0.8^2 + 3.2^2) / 5)
+}
+
+TEST(MapCommand, ConvertsBetweenAllFormatsWithoutLoss) {
+  const SmallInputs inputs;
+  HeightMap map(Grid{3, 4, 0.25, 0.25, {-1.5, 2.0}});
+  for (std::size_t i = 0; i < 12; ++i) map.values[i] = i == 5 ? std::nan("") : std::sin(static_cast<double>(i)) / 3.0;
+  write_map(inputs / "a.csv", map);
+  for (const auto& [from, to] : std::initializer_list<std::pair<const char*, const char*>>{
+           {"a.csv", "b.xyz"}, {"b.xyz", "c.npy"}, {"c.npy", "d.txt"}, {"d.txt", "e.csv"}}) {
+    std::vector<std::string> words{"map", from, "--write", to, "--map-origin", "-1.5,2"};
+    if (std::string(from) == "c.npy") words.insert(words.end(), {"--map-pixel", "0.25"});
+    const ProgramResult result = inputs.run(words);
+    ASSERT_EQ(result.exit_code, 0) << from << ": " << result.err;
+  }
+  test::expect_same_map(read_map(inputs / "e.csv"), map);
+  MapReadOptions npy;
+  npy.pitch = 0.25;
+  npy.origin = Point{-1.5, 2.0};
+  test::expect_same_map(read_map(inputs / "c.npy", npy), map);
+}
+
+TEST(MapCommand, DrawsAPicture) {
+  const SmallInputs inputs;
+  ASSERT_EQ(inputs.run({"map", "map.csv", "--map-pixel", "0.5", "--png", "map.png"}).exit_code, 0);
+  EXPECT_EQ(read_whole_file(inputs / "map.png").substr(1, 3), "PNG");
+}
+
+TEST(SimulateCommand, AgreesWithThePlanForTheTableAndForTheProgram) {
+  for (const char* gcode : {"g94", "g93-per-minute", "g93-seconds"}) {
+    const SmallInputs inputs;
+    ASSERT_EQ(inputs.run(SmallInputs::plan({"--gcode", gcode})).exit_code, 0);
+    const json plan = json::parse(read_whole_file(inputs / "plan/summary.json"));
+    const double expected = plan["program"]["residual_rms_nm"], before = plan["map"]["rms_nm"];
+    for (const auto& [program, tolerance] : {std::pair{"plan/program.nc", 1e-12}, {"plan/feed.csv", 1e-5}}) {
+      const ProgramResult result =
+          inputs.run({"simulate", "--program", program, "--map", "map.csv", "--map-pixel", "0.5", "--tif", "tif.csv",
+                      "--tif-pixel", "0.5", "--threads", "1", "--json", "--residual", "left.npy"});
+      ASSERT_EQ(result.exit_code, 0) << result.err;
+      const json s = json::parse(result.out);
+      EXPECT_NEAR(s["residual"]["rms_nm"].get<double>(), expected, tolerance * expected) << gcode << " " << program;
+      EXPECT_NEAR(s["map"]["rms_nm"].get<double>(), before, 1e-12 * before);
+      EXPECT_EQ(s["inputs"].size(), 3u);
+    }
+    const MapReadOptions npy{0.5, std::nullopt, 1.0, "map"};
+    const HeightMap left = read_map(inputs / "left.npy", npy), planned = read_map(inputs / "plan/residual.npy", npy);
+    for (std::size_t i = 0; i < left.values.size(); ++i) EXPECT_NEAR(left.values[i], planned.values[i], 1e-3);
+  }
+}
+
+TEST(SimulateCommand, PrintsBeforeAndAfterWithUnits) {
+  const SmallInputs inputs;
+  ASSERT_EQ(inputs.run(SmallInputs::plan()).exit_code, 0);
+  const ProgramResult result =
+      inputs.run({"simulate", "--program", "plan/program.nc", "--map", "map.csv", "--map-pixel", "0.5", "--tif",
+                  "tif.csv", "--tif-pixel", "0.5", "--png", "left.png"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  for (const char* part : {"program   plan/program.nc", "before    RMS ", "after     RMS ", " nm", " s\n"})
+    expect_has(result.out, part);
+  EXPECT_EQ(read_whole_file(inputs / "left.png").substr(1, 3), "PNG");
+}
+
+TEST(ExampleCommand, MakesAJobThatPlans) {
+  const SmallInputs inputs;
+  const ProgramResult made =
+      inputs.run({"example", "--out", "demo", "--width", "30", "--shape", "rectangle", "--height", "24"});
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  const ProgramResult planned =
+      inputs.run({"plan", "--job", "demo/demo.toml", "--smoothness", "1", "--out", "plan", "--json"});
+  EXPECT_EQ(planned.exit_code, 0) << planned.err;
+  EXPECT_LT(json::parse(planned.out)["residual"]["rms_nm"], json::parse(planned.out)["map"]["rms_nm"]);
+}
+
+}  // namespace
+}  // namespace dwell

@@ -1,0 +1,160 @@
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <set>
+
+#include "core/whole_file.h"
+#include "tests/cli/small_inputs.h"
+
+namespace dwell {
+namespace {
+
+using nlohmann::json;
+using test::expect_has;
+using test::ProgramResult;
+using test::SmallInputs;
+
+std::set<std::string> names_in(const std::filesystem::path& folder) {
+  std::set<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) names.insert(entry.path().filename().string());
+  return names;
+}
+
+json summary_of(const SmallInputs& inputs) { return json::parse(read_whole_file(inputs / "plan/summary.json")); }
+
+TEST(PlanCommand, WritesEveryFileAndPrintsWhatItDid) {
+  const SmallInputs inputs;
+  const ProgramResult result = inputs.run(SmallInputs::plan());
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(names_in(inputs / "plan"),
+            (std::set<std::string>{"after.png", "before.png", "dwell.npy", "dwell.png", "feed.csv", "program.nc",
+                                   "residual.npy", "summary.json"}));
+  EXPECT_EQ(names_in(inputs.folder.path()), (std::set<std::string>{"map.csv", "tif.csv", "plan"}));
+  for (const char* line : {"map ", "before ", "tool ", "path ", "solver ", "dwell ", "feed ", "predicted ", "program ",
+                           "written   plan\n"}) {
+    expect_has(result.out, line);
+  }
+  for (const char* unit : {" nm", " mm", " s", " nm/s", " mm/min"}) expect_has(result.out, unit);
+  EXPECT_EQ(read_whole_file(inputs / "plan/before.png").substr(1, 3), "PNG");
+}
+
+TEST(PlanCommand, SummaryHasEveryDocumentedKeyWithItsType) {
+  const SmallInputs inputs;
+  ASSERT_EQ(inputs.run(SmallInputs::plan()).exit_code, 0);
+  const json s = summary_of(inputs);
+  EXPECT_EQ(s.at("schema"), 1);
+  const auto of_type = [&s](const char* path, auto is_type) {
+    const json::json_pointer pointer(path);
+    ASSERT_TRUE(s.contains(pointer)) << path;
+    EXPECT_TRUE(is_type(s[pointer])) << path << " is " << s[pointer].dump();
+  };
+  for (const char* path : {"/map/file", "/tif/kind", "/path/kind", "/solve/solver", "/solve/status",
+                           "/residual/removed", "/program/file", "/version", "/inputs/0/file", "/inputs/0/sha256"}) {
+    of_type(path, [](const json& j) { return j.is_string() && !j.get<std::string>().empty(); });
+  }
+  for (const char* path : {"/map/rows", "/map/columns", "/map/valid_pixels", "/path/points", "/solve/iterations",
+                           "/solve/operator_applications", "/feed/segments_limited"}) {
+    of_type(path, [](const json& j) { return j.is_number_integer() && j >= 0; });
+  }
+  for (const char* path : {"/map/pixel_mm/0",
+                           "/map/pixel_mm/1",
+                           "/map/pv_nm",
+                           "/map/rms_nm",
+                           "/tif/peak_nm_per_s",
+                           "/tif/volume_nm_mm2_per_s",
+                           "/tif/radius_mm",
+                           "/path/length_mm",
+                           "/solve/wall_s",
+                           "/dwell/total_s",
+                           "/dwell/min_s",
+                           "/dwell/max_s",
+                           "/dwell/step_rms_s",
+                           "/residual/rms_nm",
+                           "/residual/pv_nm",
+                           "/feed/min_mm_per_min",
+                           "/feed/max_mm_per_min",
+                           "/program/total_s",
+                           "/program/residual_rms_nm",
+                           "/solve/certificate/projected_gradient_relative"}) {
+    of_type(path, [](const json& j) { return j.is_number() && j >= 0; });
+  }
+  for (const char* path : {"/options", "/solve/certificate"})
+    of_type(path, [](const json& j) { return j.is_object(); });
+  EXPECT_EQ(s["map"]["rows"], 22);
+  EXPECT_EQ(s["map"]["columns"], 30);
+  EXPECT_EQ(s["inputs"].size(), 2u);
+  EXPECT_EQ(s["inputs"][0]["sha256"], sha256_of_file(inputs / "map.csv"));
+  EXPECT_EQ(s["options"]["path"], "raster:pitch=1,overrun=2");
+  EXPECT_LT(s["residual"]["rms_nm"], s["map"]["rms_nm"]);
+}
+
+TEST(PlanCommand, JsonPrintsTheSummaryAndNothingElse) {
+  const SmallInputs inputs;
+  const ProgramResult result = inputs.run(SmallInputs::plan({"--json"}));
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.out, read_whole_file(inputs / "plan/summary.json"));
+}
+
+TEST(PlanCommand, CommandLineComesOverTheJobFile) {
+  const SmallInputs inputs;
+  inputs.folder.file("job.toml",
+                     "map = 'map.csv'\nmap_pixel_mm = 0.5\ntif = 'tif.csv'\ntif_pixel_mm = 0.5\nthreads = 1\n"
+                     "path = 'raster:pitch=1,overrun=2'\nmin_dwell_s = 0.01\nsmoothness = 0.02\nout = 'plan'\n");
+  ASSERT_EQ(inputs.run({"plan", "--job", "job.toml", "--min-dwell", "0.03"}).exit_code, 0);
+  const json s = summary_of(inputs);
+  EXPECT_EQ(s["options"]["min_dwell_s"], "0.03");
+  EXPECT_EQ(s["options"]["smoothness"], "0.02");
+  EXPECT_GE(s["dwell"]["min_s"], 0.03);
+}
+
+TEST(PlanCommand, WrittenJobPlansTheSame) {
+  const SmallInputs inputs;
+  ASSERT_EQ(inputs.run(SmallInputs::plan()).exit_code, 0);
+  const std::string feed = read_whole_file(inputs / "plan/feed.csv");
+  const ProgramResult written = inputs.run(SmallInputs::plan({"--write-job"}));
+  ASSERT_EQ(written.exit_code, 0);
+  inputs.folder.file("job.toml", written.out);
+  const ProgramResult again = inputs.run({"plan", "--job", "job.toml"});
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_EQ(read_whole_file(inputs / "plan/feed.csv"), feed);
+}
+
+TEST(PlanCommand, TimeLimitStillWritesAndSaysWhyWithExitCode3) {
+  const SmallInputs inputs;
+  const ProgramResult result = inputs.run(SmallInputs::plan({"--max-solve", "1e-9"}));
+  EXPECT_EQ(result.exit_code, 3) << result.err;
+  expect_has(result.err, "limit reached");
+  expect_has(result.err, "time limit");
+  expect_has(result.err, "--max-solve is 1e-09 s");
+  const json s = summary_of(inputs);
+  ASSERT_FALSE(s["limits"].empty());
+  expect_has(s["limits"][0], "time limit");
+  EXPECT_TRUE(std::filesystem::exists(inputs / "plan/program.nc"));
+}
+
+TEST(PlanCommand, InterruptedLeavesTheEarlierResultAndNothingElse) {
+  const SmallInputs inputs;
+  ASSERT_EQ(inputs.run(SmallInputs::plan()).exit_code, 0);
+  const std::string earlier = read_whole_file(inputs / "plan/summary.json");
+  const auto before = names_in(inputs.folder.path());
+  HeightMap rough(Grid{500, 500, 0.1, 0.1, {}});  // seconds of solving: rough, without smoothness, off the lattice
+  unsigned noise = 1;
+  for (double& z : rough.values) z = static_cast<double>((noise = noise * 1664525u + 1013904223u) >> 16) / 655.36;
+  write_map(inputs / "plan-rough.npy", rough);
+  test::ProgramRun run(
+      inputs.folder.path(),
+      {"plan", "--map", "plan-rough.npy", "--map-pixel", "0.1", "--tif", "gaussian:peak=10,fwhm=1,radius=1.5", "--path",
+       "raster:pitch=0.3,angle=10", "--smoothness", "0", "--threads", "1", "--out", "plan"});
+  while (!run.ended() && run.err().find("solve:") == std::string::npos) usleep(20'000);
+  run.interrupt();
+  const ProgramResult result = run.wait();
+  EXPECT_EQ(result.exit_code, 130) << result.err;
+  expect_has(result.err, "interrupted");
+  EXPECT_EQ(result.out, "");
+  EXPECT_EQ(read_whole_file(inputs / "plan/summary.json"), earlier);
+  std::filesystem::remove(inputs / "plan-rough.npy");
+  EXPECT_EQ(names_in(inputs.folder.path()), before);
+}
+
+}  // namespace
+}  // namespace dwell

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/map_io.h"
+#include "tests/cli/program_run.h"
+#include "tests/core/temporary_folder.h"
+
+namespace dwell::test {
+
+/// A folder with a map and a spot as a user has them: plain matrices that say nothing of their pitch (0.5 mm).
+struct SmallInputs {
+  TemporaryFolder folder;
+
+  SmallInputs() {
+    std::string map, tif;
+    for (int r = 0; r < 22; ++r) {
+      for (int c = 0; c < 30; ++c)
+        map += std::to_string(15.0 * std::sin(0.2 * c) * std::cos(0.15 * r) + 0.05 * r * c) + (c < 29 ? "," : "\n");
+    }
+    for (int r = -6; r <= 6; ++r) {
+      for (int c = -6; c <= 6; ++c)
+        tif += std::to_string(10.0 * std::exp(-0.09 * (r * r + c * c))) + (c < 6 ? "," : "\n");
+    }
+    folder.file("map.csv", map);
+    folder.file("tif.csv", tif);
+  }
+
+  /// Arguments of a plan that is done in a fraction of a second; `more` replaces options or comes after them.
+  static std::vector<std::string> plan(const std::vector<std::string>& more = {}) {
+    const std::vector<std::pair<std::string, std::string>> usual{
+        {"--map", "map.csv"},   {"--map-pixel", "0.5"}, {"--tif", "tif.csv"},
+        {"--tif-pixel", "0.5"}, {"--threads", "1"},     {"--path", "raster:pitch=1,overrun=2"},
+        {"--out", "plan"}};
+    std::vector<std::string> words{"plan"};
+    for (const auto& [flag, value] : usual) {
+      if (std::find(more.begin(), more.end(), flag) == more.end()) words.insert(words.end(), {flag, value});
+    }
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  }
+
+  ProgramResult run(const std::vector<std::string>& arguments) const { return run_program(folder.path(), arguments); }
+  std::filesystem::path operator/(const std::string& name) const { return folder.path() / name; }
+};
+
+}  // namespace dwell::test

@@ -1,0 +1,190 @@
+/// Every wrong input ends with exit code 2 and a message that names the thing and what is accepted; nothing is left
+/// behind.
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <set>
+
+#include "core/whole_file.h"
+#include "tests/cli/small_inputs.h"
+
+namespace dwell {
+namespace {
+
+using test::expect_has;
+using test::ProgramResult;
+using test::SmallInputs;
+
+std::set<std::string> everything_in(const std::filesystem::path& folder) {
+  std::set<std::string> names;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) names.insert(entry.path().string());
+  return names;
+}
+
+struct Wrong {
+  const char* name;
+  std::function<void(const SmallInputs&)> prepare;
+  std::vector<std::string> options;  // after those of a good plan, the last one given counts
+  std::vector<std::string> words;    // of the message
+};
+
+void PrintTo(const Wrong& wrong, std::ostream* out) { *out << wrong.name; }
+
+std::function<void(const SmallInputs&)> file(const std::string& name, const std::string& bytes) {
+  return [name, bytes](const SmallInputs& inputs) { inputs.folder.file(name, bytes); };
+}
+
+/// The first `share` of a good file.
+std::function<void(const SmallInputs&)> cut(const std::string& name, const std::string& as, double share) {
+  return [name, as, share](const SmallInputs& inputs) {
+    const std::string whole = read_whole_file(inputs / name);
+    inputs.folder.file(as, whole.substr(0, static_cast<std::size_t>(share * static_cast<double>(whole.size()))));
+  };
+}
+
+void truncated_npy(const SmallInputs& inputs) {
+  write_map(inputs / "whole.npy", HeightMap(Grid{4, 5, 0.5, 0.5, {}}, std::vector<double>(20, 1.0)));
+  cut("whole.npy", "bad.npy", 0.9)(inputs);
+}
+
+const std::vector<Wrong>& cases() {
+  const auto none = [](const SmallInputs&) {};
+  const std::string far = "x_mm,y_mm\n500,500\n501,500\n502,500\n";
+  static const std::vector<Wrong> kCases{
+      {"truncated_map", cut("map.csv", "bad.csv", 0.503), {"--map", "bad.csv"}, {"bad.csv", "line 12", "column"}},
+      {"truncated_npy", truncated_npy, {"--map", "bad.npy"}, {"bad.npy", "bytes"}},
+      {"empty_map", file("bad.csv", ""), {"--map", "bad.csv"}, {"bad.csv", "empty"}},
+      {"ragged_map", file("bad.csv", "1,2,3\n1,2\n"), {"--map", "bad.csv"}, {"bad.csv", "line 2", "2 columns"}},
+      {"png_as_map",
+       file("bad.csv", std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16)),
+       {"--map", "bad.csv"},
+       {"bad.csv", "PNG", "matrix"}},
+      {"text_as_map",
+       file("bad.csv", "Dear Sir,\nthe mirror is fine.\n"),
+       {"--map", "bad.csv"},
+       {"bad.csv", "line 1", "number"}},
+      {"infinite_height", file("bad.csv", "1,2\ninf,4\n"), {"--map", "bad.csv"}, {"bad.csv", "line 2", "infinite"}},
+      {"all_nan_map", file("bad.csv", "nan,nan\nnan,nan\n"), {"--map", "bad.csv"}, {"bad.csv", "no data", "finite"}},
+      {"missing_map", none, {"--map", "absent.csv"}, {"absent.csv", "No such file"}},
+      {"folder_as_map", none, {"--map", "."}, {"'.'", "directory", "file is required"}},
+      {"other_pitch_than_the_header",
+       file("bad.csv", "# pitch_mm: 0.25\n1,2\n3,4\n"),
+       {"--map", "bad.csv"},
+       {"bad.csv", "0.25", "--map-pixel", "0.5", "agree"}},
+      {"tif_larger_than_map",
+       none,
+       {"--tif", "gaussian:peak=1,fwhm=20,radius=30"},
+       {"60 mm", "larger than the map", "15 x 11 mm"}},
+      {"tif_file_larger_than_map", none, {"--tif-pixel", "2"}, {"24 mm", "larger than the map", "--tif-pixel"}},
+      {"zero_tif", file("bad.csv", "0,0,0\n0,0,0\n0,0,0\n"), {"--tif", "bad.csv"}, {"bad.csv", "0 nm/s", "> 0"}},
+      {"negative_tif", file("bad.csv", "-1,-1\n-1,-2\n"), {"--tif", "bad.csv"}, {"bad.csv", "-1 nm/s", "> 0"}},
+      {"all_nan_tif", file("bad.csv", "nan,nan\n"), {"--tif", "bad.csv"}, {"tif", "bad.csv", "no data"}},
+      {"missing_tif", none, {"--tif", "absent.csv"}, {"absent.csv", "No such file"}},
+      {"narrow_tif", none, {"--tif", "gaussian:peak=1,fwhm=0.3"}, {"removal function", "0.3", "pixel"}},
+      {"unknown_tif_key", none, {"--tif", "gaussian:peak=1,width=2"}, {"width", "fwhm"}},
+      {"negative_pitch", none, {"--map-pixel", "-0.5"}, {"--map-pixel", "-0.5", "> 0"}},
+      {"nan_pitch", none, {"--map-pixel", "nan"}, {"--map-pixel", "nan", "> 0"}},
+      {"nan_option", none, {"--smoothness", "nan"}, {"--smoothness", "nan", ">= 0"}},
+      {"negative_origin_without_y", none, {"--map-origin", "-5"}, {"--map-origin", "-5", "X,Y"}},
+      {"unknown_unit", none, {"--map-unit", "inch"}, {"--map-unit", "inch", "nm, um, mm, m"}},
+      {"unknown_option", none, {"--max-fed", "1"}, {"dwell: unknown option --max-fed", "'dwell plan --help'"}},
+      {"unknown_word", none, {"--gcode", "g92"}, {"--gcode", "g92", "g94"}},
+      {"empty_value", none, {"--tif-centre", ""}, {"--tif-centre", "empty"}},
+      {"path_outside_the_part",
+       file("path.csv", far),
+       {"--path", "file:path.csv"},
+       {"path.csv", "wholly outside", "500 to 502", "map's coordinates"}},
+      {"missing_path_file", none, {"--path", "file:absent.csv"}, {"absent.csv", "No such file"}},
+      {"path_file_without_columns",
+       file("path.csv", "1,2\n3,4\n"),
+       {"--path", "file:path.csv"},
+       {"path.csv", "x_mm", "y_mm"}},
+      {"unknown_path", none, {"--path", "spiral:pitch=1"}, {"--path", "spiral", "raster", "nearest"}},
+      {"raster_without_pitch", none, {"--path", "raster:step=1"}, {"--path", "pitch"}},
+      {"negative_raster_pitch", none, {"--path", "raster:pitch=-1"}, {"pitch", "-1", "> 0"}},
+      {"aperture_outside_the_map", none, {"--aperture", "circle:100,100,3"}, {"aperture", "100", "mm"}},
+      {"unwritable_out_below_a_file", none, {"--out", "map.csv/plan"}, {"--out", "map.csv/plan", "Not a directory"}},
+      {"unwritable_out", none, {"--out", "/proc/dwell-plan"}, {"--out", "/proc/dwell-plan", "cannot write"}},
+      {"file_as_out", none, {"--out", "map.csv"}, {"--out", "map.csv", "folder"}},
+      {"folder_of_others_as_out", none, {"--out", "."}, {"--out", "'.'", "not an earlier plan"}},
+      {"unknown_job_field",
+       file("job.toml", "max_feed = 3\n"),
+       {"--job", "job.toml"},
+       {"job.toml", "unknown field 'max_feed'", "max_feed_mm_per_min"}},
+      {"broken_job", file("job.toml", "smoothness = \n"), {"--job", "job.toml"}, {"job.toml", "line 1"}},
+      {"missing_job", none, {"--job", "absent.toml"}, {"absent.toml", "No such file"}},
+      {"too_many_points_for_dense",
+       none,
+       {"--solver", "dense-nnls", "--path", "raster:pitch=0.2"},
+       {"dense-nnls", "points", "projected-cg"}},
+  };
+  return kCases;
+}
+
+class WrongInput : public testing::TestWithParam<Wrong> {};
+
+TEST_P(WrongInput, IsRefusedNamedAndLeavesNothingBehind) {
+  const SmallInputs inputs;
+  const Wrong& wrong = GetParam();
+  wrong.prepare(inputs);
+  const auto before = everything_in(inputs.folder.path());
+  const ProgramResult result = inputs.run(SmallInputs::plan(wrong.options));
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_EQ(result.out, "");
+  for (const std::string& word : wrong.words) expect_has(result.err, word);
+  EXPECT_EQ(everything_in(inputs.folder.path()), before);
+  RecordProperty("message", result.err);
+}
+
+INSTANTIATE_TEST_SUITE_P(Plan, WrongInput, testing::ValuesIn(cases()),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+TEST(WrongInputWithoutOption, NamesTheOptionThatIsMissing) {
+  const SmallInputs inputs;
+  const auto before = everything_in(inputs.folder.path());
+  const auto refused = [&](const std::vector<std::string>& arguments, const std::vector<std::string>& words) {
+    const ProgramResult result = inputs.run(arguments);
+    EXPECT_EQ(result.exit_code, 2) << result.out;
+    for (const std::string& word : words) expect_has(result.err, word);
+  };
+  refused({"plan"}, {"--out", "required"});
+  refused({"plan", "--out", "plan"}, {"--map", "required"});
+  refused({"plan", "--out", "plan", "--map", "map.csv"}, {"map.csv", "no pixel pitch", "--map-pixel"});
+  refused({"plan", "--out", "plan", "--map", "map.csv", "--map-pixel", "0.5"}, {"--tif", "required"});
+  refused({"plan", "--out", "plan", "--map", "map.csv", "--map-pixel", "0.5", "--tif", "tif.csv"},
+          {"tif.csv", "no pixel pitch", "--tif-pixel"});
+  refused({"plan", "--out", "plan", "--map", "map.csv", "--map-pixel", "0.5", "--tif", "gaussian:peak=1,fwhm=2"},
+          {"--path", "required"});
+  refused({"simulate"}, {"--program", "required"});
+  refused({"map"}, {"file", "required"});
+  refused({"map", "map.csv", "--map-pixel", "0.5", "--write", "a.tiff"}, {"a.tiff", ".csv", ".npy"});
+  refused({"map", "map.csv", "tif.csv"}, {"argument 'tif.csv' was not expected", "'dwell map --help'"});
+  refused({"plam"}, {"command 'plam' was not expected", "'dwell --help'"});
+  refused({"example"}, {"--out", "required"});
+  EXPECT_EQ(everything_in(inputs.folder.path()), before);
+}
+
+TEST(WrongProgram, IsRefusedBySimulate) {
+  const SmallInputs inputs;
+  ASSERT_EQ(inputs.run(SmallInputs::plan()).exit_code, 0);
+  cut("plan/feed.csv", "feed.csv", 0.7)(inputs);
+  cut("plan/program.nc", "program.nc", 0.7)(inputs);
+  inputs.folder.file("empty.nc", "");
+  const auto before = everything_in(inputs.folder.path());
+  for (const auto& [program, word] : {std::pair{"feed.csv", "line"},
+                                      {"program.nc", "M2"},
+                                      {"empty.nc", "empty"},
+                                      {"absent.nc", "No such file"},
+                                      {"map.csv", "G-code"}}) {
+    const ProgramResult result = inputs.run({"simulate", "--program", program, "--map", "map.csv", "--map-pixel", "0.5",
+                                             "--tif", "tif.csv", "--tif-pixel", "0.5", "--residual", "left.npy"});
+    EXPECT_EQ(result.exit_code, 2) << program;
+    expect_has(result.err, program);
+    expect_has(result.err, word);
+  }
+  EXPECT_EQ(everything_in(inputs.folder.path()), before);
+}
+
+}  // namespace
+}  // namespace dwell
