@@ -12,7 +12,7 @@
 #include "core/npy.h"
 #include "core/number_text.h"
 #include "core/point_grid.h"
-#include "core/units.h"
+#include "core/value_units.h"
 #include "core/whole_file.h"
 #include "core/xyz_text.h"
 
@@ -69,25 +69,18 @@ std::optional<Point> known_origin(const MapHeader& header, const MapReadOptions&
 
 /// A file that names its unit must be read with that unit: no file is scaled twice, or not at all, unnoticed.
 void check_unit(const MapHeader& header, const MapReadOptions& options, const std::string& where) {
-  struct Unit {
-    std::string_view name;
-    double factor;
-  };
-  using namespace units;
-  constexpr std::array kUnits{Unit{"nm", 1.0},     Unit{"um", kNmPerUm}, Unit{"mm", kNmPerMm},
-                              Unit{"m", kNmPerM},  Unit{"nm/s", 1.0},    Unit{"um/min", kNmPerUm / kSecondsPerMinute},
-                              Unit{"m/s", kNmPerM}};
   if (!header.unit) return;
-  const auto unit = std::find_if(kUnits.begin(), kUnits.end(), [&](const Unit& u) { return u.name == *header.unit; });
-  if (unit == kUnits.end()) {
-    throw InputError(
-        fmt::format("{}: header says unit '{}'; accepted: nm, um, mm, m, nm/s, um/min, m/s", where, *header.unit));
+  double factor = 0.0;
+  try {
+    factor = value_unit_factor(*header.unit);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: header says unit {}", where, error.what()));
   }
-  if (!same(unit->factor, options.scale, unit->factor)) {
+  if (!same(factor, options.scale, factor)) {
     throw InputError(
         fmt::format("{}: header says unit {} (a factor of {} to nm), but --{}-unit gives a factor of {}; they "
                     "must agree: give --{}-unit {}",
-                    where, *header.unit, unit->factor, options.name, options.scale, options.name, *header.unit));
+                    where, *header.unit, factor, options.name, options.scale, options.name, *header.unit));
   }
 }
 

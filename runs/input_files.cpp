@@ -2,30 +2,18 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
 #include <numbers>
-#include <utility>
 
 #include "core/errors.h"
 #include "core/map_io.h"
 #include "core/number_text.h"
 #include "core/spec_text.h"
-#include "core/units.h"
+#include "core/value_units.h"
 #include "core/whole_file.h"
 
 namespace dwell {
 namespace {
-
-template <std::size_t N>
-double unit_factor(const std::string& unit, const std::array<std::pair<const char*, double>, N>& accepted) {
-  std::string names;
-  for (const auto& [name, factor] : accepted) {
-    if (unit == name) return factor;
-    names += fmt::format("{}{}", names.empty() ? "" : ", ", name);
-  }
-  throw InputError(fmt::format("'{}'; accepted: {}", unit, names));
-}
 
 RemovalFunction analytic(const SpecText& spec) {
   if (spec.kind == "gaussian") {
@@ -42,21 +30,6 @@ RemovalFunction analytic(const SpecText& spec) {
 }
 
 }  // namespace
-
-double height_unit_nm(const std::string& unit) {
-  constexpr std::array<std::pair<const char*, double>, 4> kUnits{
-      {{"nm", 1.0}, {"um", units::kNmPerUm}, {"mm", units::kNmPerMm}, {"m", units::kNmPerM}}};
-  return unit_factor(unit, kUnits);
-}
-
-double rate_unit_nm_per_s(const std::string& unit) {
-  constexpr std::array<std::pair<const char*, double>, 4> kUnits{
-      {{"nm/s", 1.0},
-       {"um/s", units::kNmPerUm},
-       {"um/min", units::kNmPerUm / units::kSecondsPerMinute},
-       {"m/s", units::kNmPerM}}};
-  return unit_factor(unit, kUnits);
-}
 
 Point parse_point(const std::string& text) {
   const auto fields = split(text, ',');

@@ -10,10 +10,6 @@
 
 namespace dwell {
 
-/// Factor from a unit of height ("nm", "um", "mm", "m") to nm. Throws InputError naming the accepted ones.
-double height_unit_nm(const std::string& unit);
-/// Factor from a unit of removal rate ("nm/s", "um/s", "um/min", "m/s") to nm/s.
-double rate_unit_nm_per_s(const std::string& unit);
 /// "middle", "centroid" or "X,Y" [mm].
 TifCentre parse_tif_centre(const std::string& text);
 /// "X,Y" [mm], both finite.

@@ -8,6 +8,7 @@
 #include "core/errors.h"
 #include "core/form.h"
 #include "core/number_text.h"
+#include "core/value_units.h"
 #include "paths/path_spec.h"
 #include "runs/gcode_dialect.h"
 #include "runs/input_files.h"

@@ -108,8 +108,18 @@ void OutputFolder::commit() {
   if (rename(temporary_.c_str(), target_.c_str()) == 0) return;  // no earlier result, or an empty folder
   if (errno != EEXIST && errno != ENOTEMPTY) refuse(target_, std::strerror(errno));
   // Exchanged in one step: at no moment is there neither the old result nor the new one. The old one is then removed.
-  if (renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, target_.c_str(), RENAME_EXCHANGE) != 0)
-    refuse(target_, std::strerror(errno));
+  if (renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, target_.c_str(), RENAME_EXCHANGE) == 0) return;
+  if (errno != EINVAL && errno != ENOSYS) refuse(target_, std::strerror(errno));
+  // A file system that cannot exchange: the old result keeps a name at every moment, if not always its own.
+  const fs::path old = temporary_.string() + ".old";
+  if (rename(target_.c_str(), old.c_str()) != 0) refuse(target_, std::strerror(errno));
+  if (rename(temporary_.c_str(), target_.c_str()) != 0) {
+    const int reason = errno;
+    rename(old.c_str(), target_.c_str());
+    refuse(target_, std::strerror(reason));
+  }
+  std::error_code ignored;
+  fs::remove_all(old, ignored);
 }
 
 }  // namespace dwell

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/value_units.h"
 #include "core/whole_file.h"
 #include "tests/core/expect_error.h"
 #include "tests/core/temporary_folder.h"
