@@ -165,7 +165,7 @@ class Model {
   void add_weights_on_dwell() {
     const Index n = t_.size();
     for (Index j = 1; p_.alpha > 0.0 && !p_.smoothness.empty() && j < n; ++j) {
-      if (!p_.smoothness.joined(j)) continue;
+      if (!p_.smoothness.linked(j)) continue;
       const double root = std::sqrt(p_.alpha);
       ceres_.AddResidualBlock(
           new LinearResidual({-root * p_.smoothness.scale(j - 1), root * p_.smoothness.scale(j)}, {}, 0.0), nullptr,
