@@ -4,14 +4,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <chrono>
+#include <cerrno>
 #include <cstdlib>
 #include <stdexcept>
-#include <thread>
 
 namespace dwell::bench {
 
-ChildEnd run_child(const std::vector<std::string>& arguments, int threads, double max_seconds) {
+ChildEnd run_child(const std::vector<std::string>& arguments, int threads) {
   const std::string count = std::to_string(threads);
   std::vector<std::string> words{"dwell-bench"};
   words.insert(words.end(), arguments.begin(), arguments.end());
@@ -26,17 +25,11 @@ ChildEnd run_child(const std::vector<std::string>& arguments, int threads, doubl
     execv("/proc/self/exe", argv.data());
     _exit(127);
   }
-  const auto begin = std::chrono::steady_clock::now();
-  bool killed = false;
   int status = 0;
-  while (waitpid(child, &status, WNOHANG) == 0) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    if (killed || std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() < max_seconds)
-      continue;
-    kill(child, SIGKILL);
-    killed = true;
+  while (waitpid(child, &status, 0) < 0) {
+    if (errno != EINTR) throw std::runtime_error("lost a process");
   }
-  if (killed) return ChildEnd::Killed;
+  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM) return ChildEnd::Killed;
   return WIFEXITED(status) && WEXITSTATUS(status) == 0 ? ChildEnd::Done : ChildEnd::Failed;
 }
 

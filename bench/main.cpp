@@ -3,9 +3,14 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <filesystem>
+
 #include "bench/reference.h"
+#include "bench/report.h"
 #include "bench/results.h"
 #include "bench/solve_run.h"
+#include "bench/suite.h"
 #include "core/errors.h"
 #include "core/whole_file.h"
 
@@ -22,6 +27,8 @@ struct Options {
   std::vector<std::string> scenario;
   int threads = 2;
   double max_seconds = 600.0;
+  double budget = 600.0;
+  std::string markdown, picture;
 };
 
 nlohmann::json micro(const Options& options) {
@@ -36,10 +43,30 @@ void save(const Options& options, const nlohmann::json& all) {
   if (!options.out.empty()) write_whole_file(options.out, all.dump(1) + "\n");
 }
 
-void micro_alone(const Options& options) {
-  const nlohmann::json results = micro(options);
-  fmt::print("\n{}", micro_table(results));
-  save(options, {{"machine", to_json(this_machine())}, {"micro", results}});
+/// Writes what was asked for of JSON, Markdown and picture, and prints the Markdown.
+void deliver(const Options& options, const nlohmann::json& all) {
+  save(options, all);
+  const std::string text = markdown_report(all, std::filesystem::path(options.picture).filename().string());
+  fmt::print("\n{}", text);
+  if (!options.markdown.empty()) write_whole_file(options.markdown, text);
+  if (!options.picture.empty()) write_whole_file(options.picture, chart_of(all));
+}
+
+nlohmann::json suite(const Options& options) {
+  SuiteOptions suite;
+  suite.quick = options.quick;
+  suite.scenarios = options.scenario;
+  suite.budget = options.budget;
+  suite.data = options.data;
+  suite.references = options.references;
+  return run_suite(suite);
+}
+
+void measure(const Options& options, bool with_micro, bool with_scenarios) {
+  nlohmann::json all{{"machine", to_json(this_machine())}};
+  if (with_scenarios) all.update(suite(options));
+  if (with_micro) all["micro"] = micro(options);
+  deliver(options, all);
 }
 
 void solve(const Options& options) {
@@ -86,7 +113,18 @@ int run(int argc, char** argv) {
   CLI::App* micro_command = app.add_subcommand("micro", "operators against the bare FFTW pair; the planner");
   CLI::App* solve_command = app.add_subcommand("solve", "one solver on one scenario, once");
   CLI::App* reference_command = app.add_subcommand("reference", "make the reference objectives");
-  for (CLI::App* command : {micro_command, solve_command, reference_command}) common(command);
+  CLI::App* scenarios_command = app.add_subcommand("scenarios", "every solver on every scenario");
+  CLI::App* report_command = app.add_subcommand("report", "Markdown and picture of the JSON file of an earlier run");
+  for (CLI::App* command : {micro_command, scenarios_command, solve_command, reference_command}) common(command);
+  for (CLI::App* command : {&app, scenarios_command, report_command}) {
+    command->add_option("--markdown", options.markdown, "write the tables to this file");
+    command->add_option("--picture", options.picture, "draw quality against time into this PNG file");
+  }
+  for (CLI::App* command : {&app, scenarios_command})
+    command->add_option("--budget", options.budget, "start no solve later than this [s]");
+  scenarios_command->add_option("--scenario", options.scenario, "names; default all");
+  std::string file;
+  report_command->add_option("FILE", file, "what --out wrote")->required();
   for (CLI::App* command : {solve_command, reference_command}) {
     command->add_option("--scenario", options.scenario, "names of scenarios")->required(command == solve_command);
     command->add_option("--solver", options.solver, "word of the solver");
@@ -100,8 +138,10 @@ int run(int argc, char** argv) {
     solve(options);
   } else if (reference_command->parsed()) {
     reference(options);
+  } else if (report_command->parsed()) {
+    deliver(options, nlohmann::json::parse(read_whole_file(file)));
   } else {
-    micro_alone(options);
+    measure(options, !scenarios_command->parsed(), !micro_command->parsed());
   }
   return 0;
 }

@@ -28,7 +28,7 @@ struct SolveOptions {
 };
 
 /// Solves a scenario once, from the lower bound, and tells what happened:
-///   pair_seconds   one apply and one adjoint, median of three, in this process
+///   pair_seconds   one apply and one adjoint, the fastest of five, in this process
 ///   reached        for each quality: iterations, applications and seconds when the objective ("objective") and the
 ///                  residual ("residual") first were within it; null if never
 ///   trace          [seconds, applications, objective, residual_rms] where the objective fell by 0.1 % since the last
@@ -36,6 +36,7 @@ struct SolveOptions {
 ///   solve_memory   peak of the process while solving less what it held before [bytes], and peak_memory, of all
 /// or "refused", the words of a solver that does not take a problem of this size. Seconds are the solver's own clock
 /// as far as the callback can see it: they start when solve() is called.
+/// A solver that takes more than twice its time limit is ended with the process, by SIGALRM.
 nlohmann::json solve_once(const Scenario& scenario, const SolveOptions& options);
 
 }  // namespace dwell::bench

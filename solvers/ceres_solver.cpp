@@ -223,6 +223,7 @@ ceres::Solver::Options options_for(const SolverOptions& options, Index points) {
   o.minimizer_type = ceres::TRUST_REGION;
   o.linear_solver_type = points <= CeresSolver::kMaxDensePoints ? ceres::DENSE_NORMAL_CHOLESKY : ceres::CGNR;
   o.preconditioner_type = ceres::JACOBI;
+  o.max_linear_solver_iterations = 100;  // Ceres looks at the clock between linear solves only
   o.max_num_iterations = static_cast<int>(std::min<long>(options.max_iterations, 1'000'000));
   o.max_solver_time_in_seconds = options.max_seconds;
   o.function_tolerance = options.objective_tolerance;
