@@ -3,6 +3,7 @@ include(CMakePackageConfigHelpers)
 
 install(TARGETS dwell_core dwell_paths dwell_solvers dwell_runs EXPORT dwellTargets)
 install(TARGETS dwell RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(FILES LICENSE NOTICE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 foreach(folder IN ITEMS core paths solvers runs)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/dwell FILES_MATCHING PATTERN "*.h")
 endforeach()

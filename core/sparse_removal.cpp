@@ -53,7 +53,8 @@ void multiply(const SparseRemoval::Matrix& a, const Vector& x, Vector& y, int th
 }  // namespace
 
 SparseRemoval::SparseRemoval(Matrix matrix, int threads)
-    : RemovalOperator(matrix.rows(), matrix.cols()), a_(std::move(matrix)), threads_(threads) {
+    : RemovalOperator(matrix.rows(), matrix.cols()), threads_(threads) {
+  a_.swap(matrix);
   a_.makeCompressed();
   transposed_ = a_.transpose();
   transposed_.makeCompressed();

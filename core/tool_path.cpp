@@ -48,6 +48,7 @@ std::vector<Point> chain_nodes(const ToolPath& path, Piece piece) {
     if (k + 1 == count) return whole || taken < step ? nodes : std::vector<Point>{};  // the last may be cut short
     if (!whole) return {};
     const Point next = p[piece.first + k + 1];
+    if (!(distance(here, next) >= 0.5 * step - slack)) return {};  // turns back more sharply than 120 degrees
     const bool straight = std::abs(distance(here, next) - step) <= slack &&
                           (k == 0 || distance(next - here, here - p[piece.first + k - 1]) <= slack);
     if (!straight) continue;

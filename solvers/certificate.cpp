@@ -9,8 +9,8 @@
 namespace dwell {
 
 bool Certificate::passes(double tolerance) const {
-  return std::isfinite(objective) && std::isfinite(complementarity) && bound_violation <= 0.0 &&
-         projected_gradient <= tolerance && dual_infeasibility <= tolerance;
+  return std::isfinite(objective) && std::isfinite(residual_rms) && std::isfinite(complementarity) &&
+         bound_violation <= 0.0 && projected_gradient <= tolerance && dual_infeasibility <= tolerance;
 }
 
 Certificate certify(const DwellProblem& problem, const Vector& t) {

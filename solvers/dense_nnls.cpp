@@ -41,23 +41,22 @@ DenseProblem dense_problem(const DwellProblem& p) {
 class ActiveSet {
  public:
   ActiveSet(const DwellProblem& problem, const DenseProblem& dense, const SolverOptions& options, double scale,
-            Vector& t)
-      : p_(problem), d_(dense), o_(options), t_(t) {
+            DwellObjective& objective, Vector& t)
+      : p_(problem), d_(dense), o_(options), objective_(objective), t_(t) {
     // Rank deficiency is the rule here: a ridge far below the data's own noise keeps every block factorisable.
-    ridge_ = 1e-13 * std::max(dense.h.diagonal().maxCoeff(), 1e-300);
+    const double largest = dense.h.diagonal().maxCoeff();
+    ridge_ = largest > 0.0 ? 1e-13 * largest : 1e-100;
     tolerance_ =
         std::max(1e-12 * scale, 0.1 * o_.gradient_tolerance * scale / std::sqrt(static_cast<double>(t.size())));
   }
 
   void run(SolverSummary& summary) {
-    t_ = p_.lower;
-    at_upper_.assign(static_cast<std::size_t>(t_.size()), 0);
-    free_mark_.assign(static_cast<std::size_t>(t_.size()), 0);
-    tried_.assign(static_cast<std::size_t>(t_.size()), 0);
+    begin_from_start();
     const auto begin = std::chrono::steady_clock::now();
+    bool minimal = free_stationary();
     while (true) {
-      const Index j = most_promising();
-      if (j < 0) {
+      const Index j = minimal ? most_promising() : -1;
+      if (minimal && j < 0) {
         summary.status = SolverStatus::Converged;
         summary.message = fmt::format("converged after {} exchanges, {} points free", summary.iterations, free_.size());
         return;
@@ -69,9 +68,10 @@ class ActiveSet {
         return;
       }
       ++summary.iterations;
-      release(j);
+      if (minimal) release(j);
       minimise_over_free();
-      if (o_.progress && !o_.progress({summary.iterations, seconds, 0.5 * t_.dot(d_.h * t_) + d_.c.dot(t_), 0.0})) {
+      minimal = true;
+      if (o_.progress && !o_.progress(progress(summary.iterations, seconds))) {
         summary.status = SolverStatus::Interrupted;
         summary.message = fmt::format("interrupted after {} exchanges", summary.iterations);
         return;
@@ -80,6 +80,35 @@ class ActiveSet {
   }
 
  private:
+  /// Variables strictly between their bounds start free.
+  void begin_from_start() {
+    const auto n = static_cast<std::size_t>(t_.size());
+    at_upper_.assign(n, 0);
+    free_mark_.assign(n, 0);
+    tried_.assign(n, 0);
+    for (Index j = 0; j < t_.size(); ++j) {
+      const auto k = static_cast<std::size_t>(j);
+      if (t_[j] > p_.lower[j] && t_[j] < p_.upper_at(j)) {
+        free_.push_back(j);
+        free_mark_[k] = 1;
+      } else {
+        at_upper_[k] = t_[j] > p_.lower[j];
+      }
+    }
+  }
+
+  /// Whether the start is already the minimiser over its free variables.
+  bool free_stationary() const {
+    const Vector g = d_.h * t_ + d_.c;
+    return std::all_of(free_.begin(), free_.end(), [&](Index j) { return std::abs(g[j]) <= tolerance_; });
+  }
+
+  SolverProgress progress(long iterations, double seconds) {
+    objective_.residual(t_, r_);
+    return {iterations, seconds, objective_.value(r_, t_),
+            std::sqrt(r_.squaredNorm() / static_cast<double>(std::max<Index>(1, r_.size())))};
+  }
+
   /// The bound variable whose gradient pulls inward most, or -1. One that could not move since the last progress is
   /// passed over.
   Index most_promising() const {
@@ -164,7 +193,9 @@ class ActiveSet {
   const DwellProblem& p_;
   const DenseProblem& d_;
   const SolverOptions& o_;
+  DwellObjective& objective_;
   Vector& t_;
+  Vector r_;
   std::vector<Index> free_;
   std::vector<char> free_mark_, at_upper_, tried_;
   Index entering_ = -1;
@@ -183,7 +214,7 @@ void DenseNnls::do_solve(const DwellProblem& problem, Vector& t, SolverSummary& 
   DwellObjective objective(problem);
   const double scale = objective.gradient_scale() > 0.0 ? objective.gradient_scale() : 1.0;
   const DenseProblem dense = dense_problem(problem);
-  ActiveSet(problem, dense, options_, scale, t).run(summary);
+  ActiveSet(problem, dense, options_, scale, objective, t).run(summary);
   clip_to_bounds(problem, t);
   Vector r;
   objective.residual(t, r);

@@ -39,6 +39,8 @@ void validate(const DwellProblem& p) {
   if (p.upper.size() != 0) check_size("upper", p.upper.size(), p.removal->cols());
   if (p.reference.size() != 0) check_size("reference", p.reference.size(), p.removal->cols());
   if (p.weights.size() != 0) check_size("weights", p.weights.size(), p.removal->rows());
+  if (p.form.cols() > kMaxFormTerms)
+    reject(fmt::format("form has {} columns; at most {} accepted", p.form.cols(), kMaxFormTerms));
   if (p.form.cols() != 0) check_size("form rows", p.form.rows(), p.removal->rows());
   if (!p.smoothness.empty()) check_size("smoothness", p.smoothness.size(), p.removal->cols());
   check_finite("target", p.target);
@@ -68,7 +70,7 @@ DwellObjective::DwellObjective(const DwellProblem& problem) : problem_(problem),
 void DwellObjective::weigh_and_project(Vector& v) const {
   if (problem_.weights.size() != 0) v.array() *= problem_.weights.array();
   if (problem_.form.cols() != 0) {
-    const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 4, 1> c = problem_.form.transpose() * v;
+    const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxFormTerms, 1> c = problem_.form.transpose() * v;
     v.noalias() -= problem_.form * c;
   }
 }

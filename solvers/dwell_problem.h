@@ -7,6 +7,9 @@
 
 namespace dwell {
 
+/// Form terms that a specification may leave out: piston, tilt in x and y, power.
+inline constexpr Index kMaxFormTerms = 4;
+
 /// The dwell problem (docs/math.md):
 ///
 ///   minimise  1/2 |W P (A t - z)|^2 + alpha/2 |D t|^2 + beta/2 |t - t0|^2 + gamma 1't   subject to  l <= t <= u
@@ -17,7 +20,7 @@ namespace dwell {
 struct DwellProblem {
   RemovalOperator* removal = nullptr;  // A, not owned [nm/s]
   Vector target;                       // z, m [nm]
-  Eigen::MatrixXd form;                // Q, m x 0..4
+  Eigen::MatrixXd form;                // Q, m x 0..kMaxFormTerms
   Vector weights;                      // diagonal of W, m, >= 0; empty = all one
   PathSmoothness smoothness;           // D; empty = none
   double alpha = 0.0;                  // >= 0 [nm^2/s^2]

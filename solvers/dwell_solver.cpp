@@ -105,9 +105,9 @@ SolverSummary DwellSolver::solve(const DwellProblem& problem, Vector& t) {
   do_solve(problem, t, summary);
   summary.operator_applications = problem.removal->applications() - before;
   summary.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  if (!t.allFinite()) {
+  if (!t.allFinite() || !std::isfinite(summary.objective)) {
     summary.status = SolverStatus::Failed;
-    summary.message = "failed: the dwell has a value that is not finite";
+    summary.message = "failed: the dwell or its objective is not finite";
   }
   return summary;
 }

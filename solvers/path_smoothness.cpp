@@ -1,6 +1,9 @@
 #include "solvers/path_smoothness.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 namespace dwell {
@@ -12,6 +15,8 @@ PathSmoothness::PathSmoothness(const std::vector<double>& lengths, const std::ve
   double sum = 0.0;
   Index moving = 0;
   for (double l : lengths) {
+    if (!(std::isfinite(l) && l >= 0.0))
+      throw std::invalid_argument(fmt::format("path smoothness: length {} mm; required finite and >= 0", l));
     if (l > 0.0) {
       sum += l;
       ++moving;

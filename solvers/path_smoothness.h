@@ -15,6 +15,7 @@ class PathSmoothness {
  public:
   PathSmoothness() = default;
   /// joined[j]: dwell point j continues from j - 1 without a lift. lengths [mm], one a stroke. Both of size n.
+  /// Throws std::invalid_argument if the sizes differ or a length is negative or not finite.
   PathSmoothness(const std::vector<double>& lengths, const std::vector<char>& joined);
 
   bool empty() const { return scale_.size() == 0; }

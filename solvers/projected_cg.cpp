@@ -32,11 +32,18 @@ class Run {
     double checkpoint = value_;
     long checkpoint_iteration = 0;
     while (!finished()) {
+      const long before = summary_.iterations;
       if (!face_unchanged_) find_face();
       if (finished()) break;
       minimise_on_face();
-      if (summary_.iterations - checkpoint_iteration < o_.settle_iterations) continue;
-      if (value_ >= checkpoint * (1.0 - o_.objective_tolerance)) {
+      if (summary_.iterations == before && limits_allow()) {
+        stop(SolverStatus::Settled, fmt::format("settled: no step lowers the objective {:.6g}; |pg| {:.2g}", value_,
+                                                gradient_norm() / scale_));
+      }
+      // The slower the objective falls, the longer it is watched: a fixed number of iterations would stop ever earlier.
+      const long watched = std::max(o_.settle_iterations, checkpoint_iteration / 2);
+      if (summary_.iterations - checkpoint_iteration < watched) continue;
+      if (value_ >= checkpoint - o_.objective_tolerance * std::abs(checkpoint)) {
         stop(SolverStatus::Settled,
              fmt::format("settled: objective {:.6g} fell by {:.2g} of itself in {} iterations; |pg| {:.2g}", value_,
                          checkpoint > 0.0 ? (checkpoint - value_) / checkpoint : 0.0,
@@ -65,7 +72,9 @@ class Run {
   bool finished() {
     if (summary_.status != SolverStatus::NotRun) return true;
     const double norm = gradient_norm();
-    if (norm <= o_.gradient_tolerance * scale_) {
+    if (!std::isfinite(norm) || !std::isfinite(value_)) {
+      stop(SolverStatus::Failed, fmt::format("failed: objective {}, |pg| {}", value_, norm));
+    } else if (norm <= o_.gradient_tolerance * scale_) {
       stop(SolverStatus::Converged, fmt::format("converged: |pg| {:.3g} <= {:.3g} |A'z| after {} iterations",
                                                 norm / scale_, o_.gradient_tolerance, summary_.iterations));
     } else if (!limits_allow()) {
@@ -110,7 +119,8 @@ class Run {
       t_ += a * direction_;
       clip_to_bounds(p_, t_);  // rounding only
       r_ += a * image_;
-      if (curvature > 0.0) spectral_step_ = direction_.squaredNorm() / curvature;
+      // Without curvature the objective falls in a straight line: only a bound ends that, so make for it.
+      spectral_step_ = curvature > 0.0 ? direction_.squaredNorm() / curvature : 10.0 * spectral_step_;
       objective_.gradient(r_, t_, g_);
       value_ = objective_.value(r_, t_);
       count_iteration();
@@ -174,11 +184,12 @@ class Run {
       if (step_[j] > 0.0) first_bound = std::min(first_bound, (p_.upper_at(j) - t_[j]) / step_[j]);
     }
     if (first_bound >= 1.0) {
+      const bool moved = !step_.isZero(0.0);  // not where the face has a gradient but no curvature
       t_ += step_;
       clip_to_bounds(p_, t_);
       r_ += step_image_;
       adopt();
-      face_unchanged_ = mark_free() == 0;
+      face_unchanged_ = moved && mark_free() == 0;
       cg_share_ = std::max(cg_share_ * 0.1, 1e-6);
       cg_limit_ = std::min<long>(cg_limit_ * 2, 400);
       return;

@@ -114,13 +114,23 @@ std::string read_text(const std::filesystem::path& file) {
   return text;
 }
 
+// A concept too long for one source may take a second that extends its name: feed_table_reader.cpp, feed_table.h.
+bool has_header(const std::string& source, const std::set<std::string>& paths) {
+  const std::size_t name_begin = source.rfind('/') + 1;
+  std::size_t end = source.size() - std::string_view(".cpp").size();
+  while (end != std::string::npos && end > name_begin) {
+    if (paths.contains(source.substr(0, end) + ".h")) return true;
+    end = source.rfind('_', end - 1);
+  }
+  return false;
+}
+
 void check_headers_beside_sources(const std::vector<SourceFile>& files, std::vector<Violation>& violations) {
   std::set<std::string> paths;
   for (const SourceFile& file : files) paths.insert(file.path);
   for (const SourceFile& file : files) {
     if (!file.path.ends_with(".cpp") || file.path.starts_with("cli/")) continue;
-    const std::string header = file.path.substr(0, file.path.size() - 4) + ".h";
-    if (!paths.contains(header)) violations.push_back({file.path, 0, "no header beside it: " + header});
+    if (!has_header(file.path, paths)) violations.push_back({file.path, 0, "no header beside it has its name"});
   }
 }
 

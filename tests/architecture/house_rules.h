@@ -36,8 +36,9 @@ std::vector<SourceFile> read_house(const std::filesystem::path& root);
 ///  - it is a .h or a .cpp of at most kMaxLines lines.
 std::vector<Violation> check_file(const SourceFile& file);
 
-/// Checks all files together: each by itself; a header beside every .cpp outside cli/ (whose commands share a header);
-/// exactly one file that includes fftw3.h; no ranked folder empty.
+/// Checks all files together: each by itself; beside every .cpp outside cli/ (whose commands share a header) a .h of
+/// its name or of the beginning of it (a_b.cpp: a_b.h or a.h); exactly one file that includes fftw3.h; no ranked folder
+/// empty.
 std::vector<Violation> check_house(const std::vector<SourceFile>& files);
 
 }  // namespace dwell::architecture

@@ -97,7 +97,18 @@ INSTANTIATE_TEST_SUITE_P(, FileAllowance,
 TEST(HouseRules, AskForAHeaderBesideEverySourceOutsideCli) {
   std::vector<SourceFile> files = sound_house();
   files.push_back({"runs/export.cpp", ""});
-  EXPECT_THAT(check_house(files), ElementsAre(violation("runs/export.cpp", 0, "runs/export.h")));
+  files.push_back({"runs/planner.cpp", ""});    // does not extend "plan" by a whole word
+  files.push_back({"solvers/plan_b.cpp", ""});  // plan.h is in another folder
+  EXPECT_THAT(check_house(files),
+              ElementsAre(violation("runs/export.cpp", 0, "no header"), violation("runs/planner.cpp", 0, "no header"),
+                          violation("solvers/plan_b.cpp", 0, "no header")));
+}
+
+TEST(HouseRules, LetSourcesThatExtendAHeadersNameShareIt) {
+  std::vector<SourceFile> files = sound_house();
+  files.push_back({"runs/plan_reader.cpp", ""});
+  files.push_back({"runs/plan_reader_text.cpp", ""});
+  EXPECT_THAT(check_house(files), IsEmpty());
 }
 
 TEST(HouseRules, GiveFftwOneUser) {

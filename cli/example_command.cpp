@@ -1,0 +1,46 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "cli/commands.h"
+#include "cli/terminal.h"
+#include "runs/example_files.h"
+
+namespace dwell::cli {
+namespace {
+
+struct ExampleArguments {
+  std::string out, shape = "round";
+  ExampleOptions mirror;
+  ExampleTifOptions tif;
+};
+
+int run_example(ExampleArguments& arguments) {
+  arguments.mirror.shape = arguments.shape == "round" ? ExampleOptions::Shape::Round : ExampleOptions::Shape::Rectangle;
+  write_example(arguments.out, arguments.mirror, arguments.tif);
+  fmt::print("written   {0}/mirror.csv, {0}/tif.csv, {0}/demo.toml, {0}/MANIFEST\n", arguments.out);
+  return kDone;
+}
+
+}  // namespace
+
+void add_example_command(CLI::App& program, int& exit_code) {
+  CLI::App* command = program.add_subcommand("example", "make an example mirror, removal function and job file");
+  auto arguments = std::make_shared<ExampleArguments>();
+  ExampleOptions& m = arguments->mirror;
+  command->add_option("--out", arguments->out, "folder for the files")->type_name("FOLDER")->required();
+  command->add_option("--shape", arguments->shape, "round or rectangle (default round)")
+      ->check(CLI::IsMember({"round", "rectangle"}));
+  command->add_option("--width", m.width, fmt::format("width along x or diameter in mm (default {})", m.width))
+      ->type_name("MM");
+  command->add_option("--height", m.height, fmt::format("height along y in mm, rectangle only (default {})", m.height))
+      ->type_name("MM");
+  command->add_option("--hole", m.hole, "diameter of a central hole in mm, round only (default 0)")->type_name("MM");
+  command->add_option("--pitch", m.pitch, fmt::format("pixel pitch in mm (default {})", m.pitch))->type_name("MM");
+  command->add_option("--seed", m.seed, fmt::format("seed of the roughness and the noise (default {})", m.seed))
+      ->type_name("N");
+  command->footer("Example:\n  dwell example --out example\n  dwell plan --job example/demo.toml --out plan");
+  command->callback([arguments, &exit_code] { exit_code = run_example(*arguments); });
+}
+
+}  // namespace dwell::cli

@@ -1,0 +1,41 @@
+#include "cli/job_arguments.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "runs/job_file.h"
+
+namespace dwell::cli {
+
+std::vector<std::string> every_flag() {
+  std::vector<std::string> flags;
+  for (const JobOptionRecord& record : job_option_table()) flags.push_back(record.flag);
+  return flags;
+}
+
+JobArguments::JobArguments(CLI::App& command, const std::vector<std::string>& flags, bool with_job) {
+  if (with_job) {
+    command.add_option("--job", job_, "job file (TOML); options on the command line come on top of it")
+        ->type_name("FILE");
+  }
+  const JobOptions defaults;
+  for (const JobOptionRecord& record : job_option_table()) {
+    if (std::find(flags.begin(), flags.end(), record.flag) == flags.end()) continue;
+    const std::string fallback = record.get(defaults);
+    const std::string help = fallback.empty() ? record.help : fmt::format("{} (default {})", record.help, fallback);
+    given_.push_back({&record, command.add_option("--" + record.flag, help)->type_name(record.value)->expected(1)});
+  }
+}
+
+JobOptions JobArguments::options() const {
+  JobOptions options;
+  if (!job_.empty()) read_job_file(job_, options);
+  for (const Given& given : given_) {
+    if (given.option->count() == 0) continue;
+    set_job_option(options, *given.record, given.option->results().back(), "--" + given.record->flag);
+  }
+  return options;
+}
+
+}  // namespace dwell::cli

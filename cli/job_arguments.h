@@ -1,0 +1,33 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <string>
+#include <vector>
+
+#include "runs/job_options.h"
+
+namespace dwell::cli {
+
+/// Command-line options made from the table of job options. A command names those it uses.
+class JobArguments {
+ public:
+  /// Adds --job FILE as well, if `with_job`.
+  JobArguments(CLI::App& command, const std::vector<std::string>& flags, bool with_job);
+
+  /// The job file, if one is given, then what the command line says over it. Throws InputError.
+  JobOptions options() const;
+
+ private:
+  struct Given {
+    const JobOptionRecord* record;
+    CLI::Option* option;
+  };
+  std::vector<Given> given_;
+  std::string job_;
+};
+
+/// All flags of the table.
+std::vector<std::string> every_flag();
+
+}  // namespace dwell::cli

@@ -1,0 +1,70 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "cli/commands.h"
+#include "cli/job_arguments.h"
+#include "cli/terminal.h"
+#include "core/map_io.h"
+#include "core/whole_file.h"
+#include "runs/picture.h"
+#include "runs/simulation.h"
+
+namespace dwell::cli {
+namespace {
+
+struct SimulateArguments {
+  std::unique_ptr<JobArguments> job;
+  std::string program, gcode, residual, png;
+  bool json = false;
+};
+
+int run_simulate(const SimulateArguments& arguments) {
+  std::optional<GcodeDialect> dialect;
+  if (!arguments.gcode.empty()) dialect = parse_gcode_dialect(arguments.gcode);
+  const Simulation s = simulate_file(arguments.program, dialect, arguments.job->options(), terminal_hooks());
+  finish_progress();
+  const std::string removed = to_string(s.terms);
+  if (!arguments.residual.empty()) write_map(arguments.residual, s.residual);
+  if (!arguments.png.empty()) {
+    const std::string title = fmt::format("After {}: RMS {:.4g} nm, PV {:.4g} nm ({} removed)", s.program.file,
+                                          s.after.rms, s.after.pv, removed);
+    write_whole_file(arguments.png, map_picture(s.residual, {title, "nm", true, {}, {}}));
+  }
+  if (arguments.json) {
+    fmt::print("{}", simulation_json(s));
+    return kDone;
+  }
+  fmt::print("program   {}: {} steps, {:.6g} mm with removal, {:.2f} s\n", s.program.file, s.program.steps.size(),
+             s.program.removing_length(), s.program.total_seconds());
+  fmt::print("before    RMS {:.4g} nm, PV {:.4g} nm ({} removed, {} pixels)\n", s.before.rms, s.before.pv, removed,
+             s.before.valid_pixels);
+  fmt::print("after     RMS {:.4g} nm, PV {:.4g} nm\n", s.after.rms, s.after.pv);
+  return kDone;
+}
+
+}  // namespace
+
+void add_simulate_command(CLI::App& program, int& exit_code) {
+  CLI::App* command =
+      program.add_subcommand("simulate", "predict the surface that a feed table or G-code program leaves");
+  auto arguments = std::make_shared<SimulateArguments>();
+  command->add_option("--program", arguments->program, "feed.csv or program.nc")->type_name("FILE")->required();
+  const std::vector<std::string> flags{"map",      "map-pixel",  "map-unit", "map-origin", "tif",    "tif-pixel",
+                                       "tif-unit", "tif-centre", "remove",   "aperture",   "threads"};
+  arguments->job = std::make_unique<JobArguments>(*command, flags, false);
+  command
+      ->add_option("--gcode", arguments->gcode,
+                   "what F means in a G93 program that does not say so: g93-per-minute or g93-seconds")
+      ->type_name("DIALECT");
+  command->add_option("--residual", arguments->residual, "write the residual map [nm]: .csv, .txt, .xyz or .npy")
+      ->type_name("FILE");
+  command->add_option("--png", arguments->png, "draw the residual map")->type_name("FILE");
+  command->add_flag("--json", arguments->json, "print the result as JSON");
+  command->footer(
+      "Example:\n  dwell simulate --program plan/program.nc --map mirror.csv --map-pixel 0.0938 --tif spot.csv "
+      "--tif-pixel 0.0938");
+  command->callback([arguments, &exit_code] { exit_code = run_simulate(*arguments); });
+}
+
+}  // namespace dwell::cli

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "runs/run_hooks.h"
+
+namespace dwell::cli {
+
+/// Exit codes of the program (docs/formats.md, "Exit codes").
+enum ExitCode : int { kDone = 0, kInternalFault = 1, kBadInput = 2, kLimitReached = 3, kInterrupted = 130 };
+
+/// Progress on standard error, from the second second on, one line a second (one line in place on a terminal); stops on
+/// SIGINT and SIGTERM.
+RunHooks terminal_hooks();
+
+/// Ends the line in place, if one is shown.
+void finish_progress();
+
+/// Installs the handlers that make a run stop cleanly.
+void catch_interrupts();
+
+}  // namespace dwell::cli

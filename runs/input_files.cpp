@@ -1,0 +1,114 @@
+#include "runs/input_files.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "core/errors.h"
+#include "core/map_io.h"
+#include "core/number_text.h"
+#include "core/spec_text.h"
+#include "core/units.h"
+#include "core/whole_file.h"
+
+namespace dwell {
+namespace {
+
+template <std::size_t N>
+double unit_factor(const std::string& unit, const std::array<std::pair<const char*, double>, N>& accepted) {
+  std::string names;
+  for (const auto& [name, factor] : accepted) {
+    if (unit == name) return factor;
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", name);
+  }
+  throw InputError(fmt::format("'{}'; accepted: {}", unit, names));
+}
+
+RemovalFunction analytic(const SpecText& spec) {
+  if (spec.kind == "gaussian") {
+    spec.accept_only({"peak", "fwhm", "sigma", "radius"});
+    if (spec.has("fwhm") == spec.has("sigma")) {
+      throw InputError(fmt::format("tif '{}': give either fwhm or sigma [mm]", spec.text));
+    }
+    const double fwhm =
+        spec.has("fwhm") ? spec.number("fwhm") : spec.number("sigma") * std::sqrt(8.0 * std::numbers::ln2);
+    return gaussian_removal(spec.number("peak"), fwhm, spec.number("radius", 1.5 * fwhm));
+  }
+  spec.accept_only({"slope", "radius"});
+  return spinning_disc_removal(spec.number("slope"), spec.number("radius"));
+}
+
+}  // namespace
+
+double height_unit_nm(const std::string& unit) {
+  constexpr std::array<std::pair<const char*, double>, 4> kUnits{
+      {{"nm", 1.0}, {"um", units::kNmPerUm}, {"mm", units::kNmPerMm}, {"m", units::kNmPerM}}};
+  return unit_factor(unit, kUnits);
+}
+
+double rate_unit_nm_per_s(const std::string& unit) {
+  constexpr std::array<std::pair<const char*, double>, 4> kUnits{
+      {{"nm/s", 1.0},
+       {"um/s", units::kNmPerUm},
+       {"um/min", units::kNmPerUm / units::kSecondsPerMinute},
+       {"m/s", units::kNmPerM}}};
+  return unit_factor(unit, kUnits);
+}
+
+Point parse_point(const std::string& text) {
+  const auto fields = split(text, ',');
+  if (fields.size() == 2) {
+    const auto x = finite_number(fields[0]), y = finite_number(fields[1]);
+    if (x && y) return {*x, *y};
+  }
+  throw InputError(fmt::format("'{}'; required X,Y in mm, for instance -12.5,3", text));
+}
+
+TifCentre parse_tif_centre(const std::string& text) {
+  if (text == "middle") return {TifCentre::Kind::Middle, {}};
+  if (text == "centroid") return {TifCentre::Kind::Centroid, {}};
+  try {
+    return {TifCentre::Kind::Given, parse_point(text)};
+  } catch (const InputError&) {
+    throw InputError(fmt::format("'{}'; accepted: middle, centroid, or X,Y in mm", text));
+  }
+}
+
+HeightMap load_map(const JobOptions& options, std::vector<InputFile>& inputs) {
+  if (options.map.empty()) throw InputError("--map: required; a height-error map (matrix CSV/TXT, XYZ or NPY)");
+  const MapReadOptions read{options.map_pixel_mm, options.map_origin_mm, height_unit_nm(options.map_unit), "map"};
+  HeightMap map = read_map(options.map, read);
+  inputs.push_back({"map", options.map, sha256_of_file(options.map)});
+  return map;
+}
+
+RemovalFunction load_removal_function(const JobOptions& options, std::vector<InputFile>& inputs) {
+  if (options.tif.empty()) throw InputError("--tif: required; a file of rates, or gaussian:peak=1,fwhm=2.8,radius=5");
+  const std::string kind = split_kind(options.tif).first;
+  if (kind == "gaussian" || kind == "disc") return analytic(parse_spec_text(options.tif, "tif"));
+  const MapReadOptions read{options.tif_pixel_mm, std::nullopt, rate_unit_nm_per_s(options.tif_unit), "tif"};
+  const HeightMap rates = read_map(options.tif, read);
+  inputs.push_back({"tif", options.tif, sha256_of_file(options.tif)});
+  try {
+    return measured_removal(rates, parse_tif_centre(options.tif_centre));
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", options.tif, error.what()));
+  }
+}
+
+void check_tool_fits(const RemovalFunction& tif, const Grid& map) {
+  if (2.0 * tif.radius > map.width() && 2.0 * tif.radius > map.height()) {
+    throw InputError(fmt::format(
+        "removal function of {:.4g} mm diameter is larger than the map of {:.4g} x {:.4g} mm both ways; "
+        "check --tif-pixel ({}) and --map-pixel (the map has {:.6g} mm)",
+        2.0 * tif.radius, map.width(), map.height(),
+        tif.kind == RemovalFunction::Kind::Measured ? fmt::format("the file has {:.6g} mm", tif.samples.grid.pitch_x)
+                                                    : "not used",
+        map.pitch_x));
+  }
+}
+
+}  // namespace dwell

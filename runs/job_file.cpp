@@ -1,0 +1,91 @@
+#include "runs/job_file.h"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <sstream>
+
+#include "core/errors.h"
+#include "core/spec_text.h"
+#include "core/version.h"
+#include "core/whole_file.h"
+
+namespace dwell {
+namespace {
+
+const JobOptionRecord& record_of(const std::string& key, const std::string& file) {
+  std::string known;
+  for (const JobOptionRecord& record : job_option_table()) {
+    if (record.key == key) return record;
+    known += fmt::format("{}{}", known.empty() ? "" : ", ", record.key);
+  }
+  throw InputError(fmt::format("{}: unknown field '{}'; accepted: {}", file, key, known));
+}
+
+std::string text_of(const toml::node& node, const std::string& source) {
+  if (const auto text = node.as_string()) return text->get();
+  if (const auto whole = node.as_integer()) return fmt::format("{}", whole->get());
+  if (const auto real = node.as_floating_point()) return fmt::format("{}", real->get());
+  std::ostringstream type;
+  type << node.type();
+  throw InputError(fmt::format("{}: is of type {}; required a string or a number", source, type.str()));
+}
+
+/// Whether the value of a file option names a file: a removal function may be a formula.
+bool names_a_file(const std::string& value) {
+  const std::string kind = split_kind(value).first;
+  return kind != "gaussian" && kind != "disc";
+}
+
+/// The value with its file name taken relative to the job file's folder.
+std::string rebased(const JobOptionRecord& record, const std::string& value, const std::filesystem::path& folder) {
+  if (record.is_file && names_a_file(value)) return (folder / value).lexically_normal().string();
+  constexpr std::string_view kPathFile = "file:";
+  if (record.key == "path" && value.starts_with(kPathFile)) {
+    return std::string(kPathFile) + (folder / value.substr(kPathFile.size())).lexically_normal().string();
+  }
+  return value;
+}
+
+}  // namespace
+
+void read_job_file(const std::filesystem::path& file, JobOptions& options) {
+  const std::string text = read_whole_file(file);
+  toml::table table;
+  try {
+    table = toml::parse(text, file.string());
+  } catch (const toml::parse_error& error) {
+    throw InputError(
+        fmt::format("{}: line {}: {}", file.string(), error.source().begin.line, std::string(error.description())));
+  }
+  for (const auto& [key, node] : table) {
+    const std::string name(key.str());
+    const JobOptionRecord& record = record_of(name, file.string());
+    const std::string source = fmt::format("{}: {}", file.string(), name);
+    const std::string value = text_of(node, source);
+    if (record.is_number && node.is_string()) {
+      throw InputError(fmt::format("{}: '{}' is a string; required a number", source, value));
+    }
+    set_job_option(options, record, rebased(record, value, file.parent_path()), source);
+  }
+}
+
+std::string job_file_text(const JobOptions& options) {
+  std::string text = fmt::format(
+      "# Job file of dwell {}: dwell plan --job THIS.toml\n# File names are relative to this file's folder.\n",
+      version());
+  for (const JobOptionRecord& record : job_option_table()) {
+    const std::string value = record.get(options);
+    std::ostringstream quoted;
+    quoted << toml::value<std::string>(value);
+    text += fmt::format("\n# {}\n", record.help);
+    if (value.empty()) {
+      text += fmt::format("# {} = {}\n", record.key, record.is_number ? "" : "\"\"");
+    } else {
+      text += fmt::format("{} = {}\n", record.key, record.is_number ? value : quoted.str());
+    }
+  }
+  return text;
+}
+
+}  // namespace dwell

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/form.h"
+#include "core/height_map.h"
+#include "core/map_statistics.h"
+#include "core/removal_kernel.h"
+#include "core/tool_path.h"
+#include "paths/feed.h"
+#include "paths/path_metrics.h"
+#include "runs/feed_table.h"
+#include "runs/input_files.h"
+#include "runs/job_options.h"
+#include "runs/run_hooks.h"
+#include "solvers/certificate.h"
+#include "solvers/dwell_solver.h"
+
+namespace dwell {
+
+/// Everything a plan is, before it is written: map + removal function -> path -> dwell -> feed.
+struct Plan {
+  JobOptions options;
+  std::vector<InputFile> inputs;
+  int threads = 1;
+
+  HeightMap map;         // within the aperture, as measured [nm]
+  Index map_pixels = 0;  // valid pixels of the whole file
+  FormTerms terms;
+  MapStatistics before;
+  RemovalFunction tif;
+  RemovalKernel kernel;
+
+  Motion motion = Motion::Moving;
+  ToolPath path;  // coordinates rounded to what the feed table holds
+  std::vector<Stroke> strokes;
+  PathMetrics metrics;
+
+  Vector dwell;  // [s], path order
+  SolverSummary solver;
+  Certificate certificate;
+  MapStatistics residual;  // as the solver predicts, form terms removed
+
+  FeedTable table;
+  FeedSchedule feed;
+
+  /// Limits that were reached, one sentence each; not empty = exit code 3.
+  std::vector<std::string> limits;
+};
+
+/// Plans a job. Throws InputError for anything the user gave that cannot be used, Interrupted if the hooks say stop.
+/// Cost: the solver's operator applications dominate (docs/math.md).
+Plan make_plan(const JobOptions& options, const RunHooks& hooks);
+
+/// The number of threads to run: `asked`, or one for every processor if 0.
+int thread_count(int asked);
+
+}  // namespace dwell

@@ -1,0 +1,102 @@
+#include "runs/plan_output.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/npy.h"
+#include "core/version.h"
+#include "runs/gcode.h"
+#include "runs/picture.h"
+#include "runs/plan_summary.h"
+#include "runs/program_reader.h"
+#include "runs/simulate.h"
+
+namespace dwell {
+namespace {
+
+void write_program(Plan& plan, const OutputFolder& folder) {
+  plan.table.version = version();
+  std::vector<std::string> header = {fmt::format("dwell {}", version())};
+  for (const InputFile& input : plan.inputs) {
+    plan.table.inputs.emplace_back(input.role + " " + input.file, input.sha256);
+    header.push_back(fmt::format("input: {} {} sha256={}", input.role, input.file, input.sha256));
+  }
+  folder.write("feed.csv", feed_table_text(plan.table));
+  GcodeOptions gcode;
+  gcode.dialect = parse_gcode_dialect(plan.options.gcode);
+  gcode.lift_height_mm = plan.options.lift_height_mm;
+  gcode.max_feed_mm_per_min = plan.options.max_feed_mm_per_min;
+  gcode.header = header;
+  folder.write("program.nc", gcode_text(program_of(plan.table), gcode));
+}
+
+void write_pictures(const Plan& plan, const HeightMap& before, const HeightMap& after, const OutputFolder& folder) {
+  const std::string removed = to_string(plan.terms);
+  folder.write("before.png", map_picture(before, {fmt::format("Before: RMS {:.4g} nm, PV {:.4g} nm ({} removed)",
+                                                              plan.before.rms, plan.before.pv, removed),
+                                                  "nm",
+                                                  true,
+                                                  {},
+                                                  {}}));
+  const MapStatistics left = map_statistics(after, {});
+  folder.write("after.png",
+               map_picture(after, {fmt::format("After (simulated program): RMS {:.4g} nm, PV {:.4g} nm ({} removed)",
+                                               left.rms, left.pv, removed),
+                                   "nm",
+                                   true,
+                                   {},
+                                   {}}));
+  folder.write(
+      "dwell.png",
+      dwell_picture(
+          plan.path, plan.table.dwell_s,
+          {fmt::format("Dwell: {} points, total {:.4g} s", plan.path.size(), plan.dwell.sum()), "s", false, {}, {}}));
+}
+
+/// feed.csv and program.nc are two writings of one program: they must remove the same.
+void compare(Plan& plan, const MapStatistics& from_gcode, const MapStatistics& from_table) {
+  const double solver = plan.residual.rms;
+  const auto differs = [](double a, double b, double tolerance) {
+    return !(std::abs(a - b) <= tolerance * std::max(std::abs(a), std::abs(b)));
+  };
+  if (differs(from_gcode.rms, solver, kSimulationTolerance)) {
+    plan.limits.push_back(fmt::format("the simulated program leaves {:.4g} nm RMS, the solver expected {:.4g} nm",
+                                      from_gcode.rms, solver));
+  }
+  if (differs(from_gcode.rms, from_table.rms, 1e-3)) {
+    plan.limits.push_back(
+        fmt::format("program.nc leaves {:.6g} nm RMS but feed.csv {:.6g} nm", from_gcode.rms, from_table.rms));
+  }
+}
+
+}  // namespace
+
+WrittenPlan write_plan(Plan& plan, const OutputFolder& folder, const RunHooks& hooks) {
+  hooks.report("write: feed table and program");
+  write_program(plan, folder);
+  hooks.check();
+
+  hooks.report("simulate: the program as read back from disk");
+  const Program program = read_program(folder.path("program.nc"));
+  const HeightMap after = surface_after(plan.map, simulate(program, plan.map, plan.kernel, plan.threads));
+  const HeightMap from_table = surface_after(
+      plan.map, simulate(program_of(read_feed_table(folder.path("feed.csv"))), plan.map, plan.kernel, plan.threads));
+  WrittenPlan written;
+  written.simulated = map_statistics(after, plan.terms);
+  written.program_seconds = program.total_seconds();
+  compare(plan, written.simulated, map_statistics(from_table, plan.terms));
+  hooks.check();
+
+  hooks.report("write: pictures and arrays");
+  const HeightMap residual = without_form(after, plan.terms);
+  write_pictures(plan, without_form(plan.map, plan.terms), residual, folder);
+  folder.write("residual.npy", npy_bytes(residual));
+  folder.write("dwell.npy", npy_bytes(std::span<const double>(plan.table.dwell_s)));
+  written.summary = plan_summary_text(plan, written);
+  folder.write("summary.json", written.summary);
+  hooks.check();
+  return written;
+}
+
+}  // namespace dwell

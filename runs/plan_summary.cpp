@@ -1,0 +1,108 @@
+#include "runs/plan_summary.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+#include "core/units.h"
+#include "core/version.h"
+#include "runs/inputs_json.h"
+
+namespace dwell {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// RMS of t[j+1] - t[j] along the path [s].
+double step_rms(const Vector& t) {
+  if (t.size() < 2) return 0.0;
+  return std::sqrt((t.tail(t.size() - 1) - t.head(t.size() - 1)).squaredNorm() / static_cast<double>(t.size() - 1));
+}
+
+Json map_json(const Plan& plan) {
+  const Grid& g = plan.map.grid;
+  return {{"file", plan.options.map},
+          {"rows", g.rows},
+          {"columns", g.cols},
+          {"pixel_mm", {g.pitch_x, g.pitch_y}},
+          {"origin_mm", {g.origin.x, g.origin.y}},
+          {"valid_pixels", plan.map_pixels},
+          {"aperture", plan.options.aperture},
+          {"aperture_pixels", plan.before.valid_pixels},
+          {"pv_nm", plan.before.pv},
+          {"rms_nm", plan.before.rms}};
+}
+
+Json tif_json(const Plan& plan) {
+  return {{"kind", to_string(plan.tif.kind)},       {"peak_nm_per_s", plan.tif.peak},
+          {"volume_nm_mm2_per_s", plan.tif.volume}, {"fwhm_mm", plan.tif.fwhm},
+          {"radius_mm", plan.tif.radius},           {"volume_factor", plan.kernel.volume_factor}};
+}
+
+Json solve_json(const Plan& plan) {
+  const Certificate& c = plan.certificate;
+  return {{"solver", to_string(plan.solver.kind)},
+          {"status", to_string(plan.solver.status)},
+          {"message", plan.solver.message},
+          {"iterations", plan.solver.iterations},
+          {"operator_applications", plan.solver.operator_applications},
+          {"wall_s", plan.solver.seconds},
+          {"certificate",
+           {{"objective_nm2", c.objective},
+            {"bound_violation_s", c.bound_violation},
+            {"projected_gradient_relative", c.projected_gradient},
+            {"dual_infeasibility_relative", c.dual_infeasibility},
+            {"complementarity_s", c.complementarity}}}};
+}
+
+Json options_json(const Plan& plan) {
+  Json options = Json::object();
+  for (const JobOptionRecord& record : job_option_table()) {
+    if (record.key == "out") continue;  // where a plan lies is not part of what it is
+    const std::string value = record.get(plan.options);
+    if (!value.empty()) options[record.key] = value;
+  }
+  options["threads"] = std::to_string(plan.threads);
+  return options;
+}
+
+}  // namespace
+
+std::string plan_summary_text(const Plan& plan, const WrittenPlan& written) {
+  const Json summary = {
+      {"schema", 1},
+      {"version", version()},
+      {"map", map_json(plan)},
+      {"tif", tif_json(plan)},
+      {"path",
+       {{"kind", plan.path.kind},
+        {"points", plan.metrics.points},
+        {"length_mm", plan.metrics.length},
+        {"longest_jump_mm", plan.metrics.longest_jump},
+        {"lifts", plan.metrics.lifts}}},
+      {"solve", solve_json(plan)},
+      {"dwell",
+       {{"total_s", plan.dwell.sum()},
+        {"min_s", plan.dwell.minCoeff()},
+        {"max_s", plan.dwell.maxCoeff()},
+        {"step_rms_s", step_rms(plan.dwell)}}},
+      {"residual", {{"removed", to_string(plan.terms)}, {"rms_nm", plan.residual.rms}, {"pv_nm", plan.residual.pv}}},
+      {"feed",
+       {{"motion", to_string(plan.motion)},
+        {"min_mm_per_min", units::mm_per_min(plan.feed.min_speed)},
+        {"max_mm_per_min", units::mm_per_min(plan.feed.max_speed)},
+        {"segments_limited", plan.feed.segments_limited},
+        {"segments_infeasible", plan.feed.segments_infeasible}}},
+      {"program",
+       {{"file", "program.nc"},
+        {"total_s", written.program_seconds},
+        {"residual_rms_nm", written.simulated.rms},
+        {"residual_pv_nm", written.simulated.pv}}},
+      {"limits", plan.limits},
+      {"options", options_json(plan)},
+      {"inputs", inputs_json(plan.inputs)},
+  };
+  return summary.dump(2) + "\n";
+}
+
+}  // namespace dwell

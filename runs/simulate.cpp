@@ -1,0 +1,36 @@
+#include "runs/simulate.h"
+
+#include "core/scattered_removal.h"
+
+namespace dwell {
+
+RemovingSteps removing_steps(const Program& program) {
+  RemovingSteps removing;
+  for (const ProgramStep& step : program.steps) {
+    if (!step.removes) continue;
+    removing.strokes.push_back({step.start, midpoint(step.start, step.finish), step.finish});
+    removing.seconds.push_back(step.seconds);
+  }
+  return removing;
+}
+
+HeightMap simulate(const Program& program, const HeightMap& map, const RemovalKernel& kernel, int threads) {
+  const RemovingSteps removing = removing_steps(program);
+  const std::vector<Index> pixels = finite_pixels(map);
+  ScatteredRemoval removal(map.grid, pixels, kernel, removing.strokes, threads);
+  Vector at_pixels;
+  removal.apply(Eigen::Map<const Vector>(removing.seconds.data(), static_cast<Index>(removing.seconds.size())),
+                at_pixels);
+  HeightMap result(map.grid);
+  for (std::size_t i = 0; i < pixels.size(); ++i)
+    result.values[static_cast<std::size_t>(pixels[i])] = at_pixels[static_cast<Index>(i)];
+  return result;
+}
+
+HeightMap surface_after(const HeightMap& map, const HeightMap& removal) {
+  HeightMap after = map;
+  for (std::size_t i = 0; i < after.values.size(); ++i) after.values[i] -= removal.values[i];
+  return after;
+}
+
+}  // namespace dwell

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "core/height_map.h"
+#include "core/removal_kernel.h"
+#include "core/tool_path.h"
+#include "runs/program.h"
+
+namespace dwell {
+
+/// Strokes and times of what a program removes with: every removing move at its constant speed, every halt.
+struct RemovingSteps {
+  std::vector<Stroke> strokes;
+  std::vector<double> seconds;
+};
+RemovingSteps removing_steps(const Program& program);
+
+/// The removal [nm] that a program makes on the finite pixels of a map (NaN elsewhere), the tool moving continuously as
+/// the program says. Steps that do not remove count nothing. Cost: one operator set-up over all steps, one application.
+HeightMap simulate(const Program& program, const HeightMap& map, const RemovalKernel& kernel, int threads);
+
+/// The surface left: map - removal on the map's finite pixels [nm].
+HeightMap surface_after(const HeightMap& map, const HeightMap& removal);
+
+}  // namespace dwell

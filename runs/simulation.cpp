@@ -1,0 +1,54 @@
+#include "runs/simulation.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/aperture.h"
+#include "core/removal_kernel.h"
+#include "core/version.h"
+#include "core/whole_file.h"
+#include "runs/inputs_json.h"
+#include "runs/plan.h"
+#include "runs/program_reader.h"
+#include "runs/simulate.h"
+
+namespace dwell {
+
+Simulation simulate_file(const std::filesystem::path& program, std::optional<GcodeDialect> dialect,
+                         const JobOptions& options, const RunHooks& hooks) {
+  Simulation s;
+  hooks.report("read: program, map and removal function");
+  s.program = read_program(program, dialect);
+  s.inputs.push_back({"program", program.string(), sha256_of_file(program)});
+  const HeightMap map = within(load_map(options, s.inputs), parse_aperture(options.aperture));
+  const RemovalFunction tif = load_removal_function(options, s.inputs);
+  check_tool_fits(tif, map.grid);
+  const RemovalKernel kernel = removal_kernel(tif, map.grid.pitch_x, map.grid.pitch_y);
+  s.terms = parse_form_terms(options.remove);
+  s.before = map_statistics(map, s.terms);
+  hooks.check();
+  hooks.report(fmt::format("simulate: {} steps", s.program.steps.size()));
+  s.removal = simulate(s.program, map, kernel, thread_count(options.threads));
+  hooks.check();
+  s.residual = without_form(surface_after(map, s.removal), s.terms);
+  s.after = map_statistics(s.residual, {});
+  return s;
+}
+
+std::string simulation_json(const Simulation& s) {
+  using Json = nlohmann::ordered_json;
+  const Json json = {
+      {"schema", 1},
+      {"version", version()},
+      {"program",
+       {{"file", s.program.file},
+        {"steps", s.program.steps.size()},
+        {"total_s", s.program.total_seconds()},
+        {"removing_length_mm", s.program.removing_length()}}},
+      {"map", {{"valid_pixels", s.before.valid_pixels}, {"pv_nm", s.before.pv}, {"rms_nm", s.before.rms}}},
+      {"residual", {{"removed", to_string(s.terms)}, {"rms_nm", s.after.rms}, {"pv_nm", s.after.pv}}},
+      {"inputs", inputs_json(s.inputs)}};
+  return json.dump(2) + "\n";
+}
+
+}  // namespace dwell

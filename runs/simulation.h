@@ -1,0 +1,37 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/map_statistics.h"
+#include "runs/gcode_dialect.h"
+#include "runs/input_files.h"
+#include "runs/job_options.h"
+#include "runs/program.h"
+#include "runs/run_hooks.h"
+
+namespace dwell {
+
+/// What a program on disk does to a map.
+struct Simulation {
+  std::vector<InputFile> inputs;
+  Program program;
+  FormTerms terms;
+  MapStatistics before;
+  MapStatistics after;
+  HeightMap removal;   // [nm], within the aperture
+  HeightMap residual;  // [nm], form terms removed
+};
+
+/// Simulates a program file (feed.csv or G-code) on the job's map with the job's removal function, the tool moving
+/// continuously. `dialect`: for a G93 program that does not name its own. Uses of the job: map, tif, remove, aperture,
+/// threads. Throws InputError, Interrupted.
+Simulation simulate_file(const std::filesystem::path& program, std::optional<GcodeDialect> dialect,
+                         const JobOptions& options, const RunHooks& hooks);
+
+/// As JSON text: program, map, residual, inputs; units in the keys.
+std::string simulation_json(const Simulation& simulation);
+
+}  // namespace dwell
