@@ -46,7 +46,7 @@ nlohmann::json make_reference(const Scenario& scenario, SolverKind kind, int thr
           {"total_dwell", t.sum()},
           {"projected_gradient", c.projected_gradient},
           {"settled", settled || s.status == SolverStatus::Converged},
-          {"change_when_doubled", change},
+          {"change_when_doubled", s.status == SolverStatus::Converged ? 0.0 : change},
           {"iterations", s.iterations},
           {"applications", s.operator_applications},
           {"status", s.message},

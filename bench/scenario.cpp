@@ -10,8 +10,7 @@
 #include "bench/mirror.h"
 #include "core/errors.h"
 #include "core/form.h"
-#include "core/lattice_removal.h"
-#include "core/scattered_removal.h"
+#include "core/removal_geometry.h"
 #include "runs/example.h"
 
 namespace dwell::bench {
@@ -161,27 +160,27 @@ const Scenario& find_scenario(const std::vector<Scenario>& all, const std::strin
 Instance make_instance(const Scenario& scenario, int threads) {
   const Parts parts = scenario.make();
   const Grid& grid = parts.map.grid;
+  auto geometry = std::make_shared<RemovalGeometry>();
+  geometry->map = grid;
+  geometry->pixels = finite_pixels(parts.map);
+  geometry->kernel = removal_kernel(parts.tif, grid.pitch_x, grid.pitch_y);
+  geometry->strokes = parts.moving ? moving_strokes(parts.path) : halting_strokes(parts.path);
+  geometry->threads = threads;
   Instance i;
-  i.pixels = finite_pixels(parts.map);
-  i.kernel = removal_kernel(parts.tif, grid.pitch_x, grid.pitch_y);
-  i.strokes = parts.moving ? moving_strokes(parts.path) : halting_strokes(parts.path);
-  if (LatticeRemoval::commensurate(grid, i.strokes)) {
-    i.removal = std::make_unique<LatticeRemoval>(grid, i.pixels, i.kernel, i.strokes, threads);
-  } else {
-    i.removal = std::make_unique<ScatteredRemoval>(grid, i.pixels, i.kernel, i.strokes, threads);
-  }
+  i.removal = make_removal_operator(*geometry);
   DwellProblem& p = i.problem;
   p.removal = i.removal.get();
-  p.target.resize(static_cast<Index>(i.pixels.size()));
-  for (std::size_t k = 0; k < i.pixels.size(); ++k)
-    p.target[static_cast<Index>(k)] = parts.map.values[static_cast<std::size_t>(i.pixels[k])];
-  p.form = form_basis(grid, i.pixels, {true, true, false});
+  p.target.resize(static_cast<Index>(geometry->pixels.size()));
+  for (std::size_t k = 0; k < geometry->pixels.size(); ++k)
+    p.target[static_cast<Index>(k)] = parts.map.values[static_cast<std::size_t>(geometry->pixels[k])];
+  p.form = form_basis(grid, geometry->pixels, {true, true, false});
   remove_form(p.form, p.target);
-  p.smoothness = path_smoothness(parts.path, i.strokes);
+  p.smoothness = path_smoothness(parts.path, geometry->strokes);
   p.lower = Vector::Constant(i.removal->cols(), parts.least);
   const double rms = std::sqrt(p.target.squaredNorm() / static_cast<double>(p.target.size()));
-  p.alpha = scenario.smoothness * i.kernel.energy;
+  p.alpha = scenario.smoothness * geometry->kernel.energy;
   p.gamma = scenario.price * rms * parts.tif.volume / (grid.pitch_x * grid.pitch_y);
+  p.geometry = std::move(geometry);
   return i;
 }
 

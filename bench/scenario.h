@@ -45,9 +45,6 @@ const Scenario& find_scenario(const std::vector<Scenario>& all, const std::strin
 
 /// A scenario ready to be solved.
 struct Instance {
-  std::vector<Index> pixels;
-  RemovalKernel kernel;
-  std::vector<Stroke> strokes;
   std::unique_ptr<RemovalOperator> removal;
   DwellProblem problem;  // refers to `removal`
 };

@@ -158,6 +158,7 @@ bool is_peer(SolverKind kind) {
     case SolverKind::NloptMma:
     case SolverKind::NloptTnewton:
     case SolverKind::NloptSlsqp:
+    case SolverKind::Fourier:
       return true;
     default:
       return false;

@@ -9,6 +9,7 @@
 #include "core/errors.h"
 #include "solvers/ceres_solver.h"
 #include "solvers/dense_nnls.h"
+#include "solvers/fourier_deconvolution.h"
 #include "solvers/lbfgsb_solver.h"
 #include "solvers/nlopt_solver.h"
 #include "solvers/projected_cg.h"
@@ -33,6 +34,8 @@ std::string to_string(SolverKind kind) {
       return "nlopt-tnewton";
     case SolverKind::NloptSlsqp:
       return "nlopt-slsqp";
+    case SolverKind::Fourier:
+      return "fourier";
   }
   return "unknown";
 }
@@ -40,7 +43,7 @@ std::string to_string(SolverKind kind) {
 const std::vector<SolverKind>& solver_kinds() {
   static const std::vector<SolverKind> kKinds{SolverKind::ProjectedCg,  SolverKind::DenseNnls,  SolverKind::Ceres,
                                               SolverKind::Lbfgsb,       SolverKind::NloptLbfgs, SolverKind::NloptMma,
-                                              SolverKind::NloptTnewton, SolverKind::NloptSlsqp};
+                                              SolverKind::NloptTnewton, SolverKind::NloptSlsqp, SolverKind::Fourier};
   return kKinds;
 }
 
@@ -128,6 +131,8 @@ std::unique_ptr<DwellSolver> make_solver(const SolverOptions& options) {
     case SolverKind::NloptTnewton:
     case SolverKind::NloptSlsqp:
       return std::make_unique<NloptSolver>(options);
+    case SolverKind::Fourier:
+      return std::make_unique<FourierDeconvolution>(options);
   }
   throw InputError("SolverOptions.kind is not a known solver");
 }

@@ -19,6 +19,7 @@ enum class SolverKind {
   NloptMma,      // NLopt LD_MMA
   NloptTnewton,  // NLopt LD_TNEWTON_PRECOND_RESTART
   NloptSlsqp,    // NLopt LD_SLSQP; small problems
+  Fourier,       // Wiener deconvolution, clipped to the bounds: no optimum, but what many use
 };
 
 /// Every kind, in the order above.
