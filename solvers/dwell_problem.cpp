@@ -43,6 +43,10 @@ void validate(const DwellProblem& p) {
     reject(fmt::format("form has {} columns; at most {} accepted", p.form.cols(), kMaxFormTerms));
   if (p.form.cols() != 0) check_size("form rows", p.form.rows(), p.removal->rows());
   if (!p.smoothness.empty()) check_size("smoothness", p.smoothness.size(), p.removal->cols());
+  if (p.geometry) {
+    check_size("geometry pixels", static_cast<Index>(p.geometry->pixels.size()), p.removal->rows());
+    check_size("geometry strokes", static_cast<Index>(p.geometry->strokes.size()), p.removal->cols());
+  }
   check_finite("target", p.target);
   check_finite("lower", p.lower);
   check_finite("reference", p.reference);

@@ -2,6 +2,9 @@
 
 #include <Eigen/Core>
 
+#include <memory>
+
+#include "core/removal_geometry.h"
 #include "core/removal_operator.h"
 #include "solvers/path_smoothness.h"
 
@@ -29,6 +32,8 @@ struct DwellProblem {
   Vector reference;                    // t0, n [s]; empty = zero
   Vector lower;                        // l, n, finite [s]
   Vector upper;                        // u, n, > = l, may be infinite [s]; empty = infinite
+  /// What `removal` is made of, if it is made of a removal function and strokes: lets solvers work on coarser pixels.
+  std::shared_ptr<const RemovalGeometry> geometry;
 
   Index pixels() const { return target.size(); }
   Index points() const { return lower.size(); }

@@ -7,7 +7,11 @@
 #include <stdexcept>
 
 #include "core/errors.h"
+#include "solvers/ceres_solver.h"
 #include "solvers/dense_nnls.h"
+#include "solvers/fourier_deconvolution.h"
+#include "solvers/lbfgsb_solver.h"
+#include "solvers/nlopt_solver.h"
 #include "solvers/projected_cg.h"
 
 namespace dwell {
@@ -18,15 +22,38 @@ std::string to_string(SolverKind kind) {
       return "projected-cg";
     case SolverKind::DenseNnls:
       return "dense-nnls";
+    case SolverKind::Ceres:
+      return "ceres";
+    case SolverKind::Lbfgsb:
+      return "lbfgsb";
+    case SolverKind::NloptLbfgs:
+      return "nlopt-lbfgs";
+    case SolverKind::NloptMma:
+      return "nlopt-mma";
+    case SolverKind::NloptTnewton:
+      return "nlopt-tnewton";
+    case SolverKind::NloptSlsqp:
+      return "nlopt-slsqp";
+    case SolverKind::Fourier:
+      return "fourier";
   }
   return "unknown";
 }
 
+const std::vector<SolverKind>& solver_kinds() {
+  static const std::vector<SolverKind> kKinds{SolverKind::ProjectedCg,  SolverKind::DenseNnls,  SolverKind::Ceres,
+                                              SolverKind::Lbfgsb,       SolverKind::NloptLbfgs, SolverKind::NloptMma,
+                                              SolverKind::NloptTnewton, SolverKind::NloptSlsqp, SolverKind::Fourier};
+  return kKinds;
+}
+
 SolverKind parse_solver_kind(const std::string& text) {
-  for (SolverKind kind : {SolverKind::ProjectedCg, SolverKind::DenseNnls}) {
+  std::string accepted;
+  for (SolverKind kind : solver_kinds()) {
     if (text == to_string(kind)) return kind;
+    accepted += (accepted.empty() ? "" : ", ") + to_string(kind);
   }
-  throw InputError(fmt::format("solver = '{}'; accepted: projected-cg, dense-nnls", text));
+  throw InputError(fmt::format("solver = '{}'; accepted: {}", text, accepted));
 }
 
 std::string to_string(SolverStatus status) {
@@ -45,6 +72,8 @@ std::string to_string(SolverStatus status) {
       return "interrupted";
     case SolverStatus::Failed:
       return "failed";
+    case SolverStatus::Stalled:
+      return "stalled";
   }
   return "unknown";
 }
@@ -93,6 +122,17 @@ std::unique_ptr<DwellSolver> make_solver(const SolverOptions& options) {
       return std::make_unique<ProjectedCg>(options);
     case SolverKind::DenseNnls:
       return std::make_unique<DenseNnls>(options);
+    case SolverKind::Ceres:
+      return std::make_unique<CeresSolver>(options);
+    case SolverKind::Lbfgsb:
+      return std::make_unique<LbfgsbSolver>(options);
+    case SolverKind::NloptLbfgs:
+    case SolverKind::NloptMma:
+    case SolverKind::NloptTnewton:
+    case SolverKind::NloptSlsqp:
+      return std::make_unique<NloptSolver>(options);
+    case SolverKind::Fourier:
+      return std::make_unique<FourierDeconvolution>(options);
   }
   throw InputError("SolverOptions.kind is not a known solver");
 }

@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "solvers/dwell_problem.h"
 
@@ -10,9 +11,19 @@ namespace dwell {
 
 /// Solvers of the dwell problem. All solve the same problem to the same certificate.
 enum class SolverKind {
-  ProjectedCg,  // native, matrix-free: spectral projected gradient to find the face, conjugate gradients on it
-  DenseNnls,    // Lawson-Hanson active set on the dense normal equations; small problems, oracle
+  ProjectedCg,   // native, matrix-free: spectral projected gradient to find the face, conjugate gradients on it
+  DenseNnls,     // Lawson-Hanson active set on the dense normal equations; small problems, oracle
+  Ceres,         // Ceres, bounded least squares on the explicit matrix; small problems
+  Lbfgsb,        // L-BFGS-B 3.0
+  NloptLbfgs,    // NLopt LD_LBFGS
+  NloptMma,      // NLopt LD_MMA
+  NloptTnewton,  // NLopt LD_TNEWTON_PRECOND_RESTART
+  NloptSlsqp,    // NLopt LD_SLSQP; small problems
+  Fourier,       // Wiener deconvolution, clipped to the bounds: no optimum, but what many use
 };
+
+/// Every kind, in the order above.
+const std::vector<SolverKind>& solver_kinds();
 
 std::string to_string(SolverKind kind);
 /// Throws InputError naming the accepted words.
@@ -26,6 +37,7 @@ enum class SolverStatus {
   TimeLimit,
   Interrupted,  // the progress callback said stop
   Failed,
+  Stalled,  // another's solver gave up before any of our rules was met: feasible, but no optimum within tolerance
 };
 std::string to_string(SolverStatus status);
 

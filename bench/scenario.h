@@ -1,0 +1,53 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/height_map.h"
+#include "core/removal_kernel.h"
+#include "core/tool_path.h"
+#include "solvers/dwell_problem.h"
+
+namespace dwell::bench {
+
+/// What a scenario is made of, before an operator is made of it.
+struct Parts {
+  HeightMap map;
+  RemovalFunction tif;
+  ToolPath path;
+  bool moving = false;  // the tool runs through its points; else it halts at each
+  double least = 0.0;   // lower bound of every dwell time [s]
+};
+
+/// A fixed dwell problem that all solvers are measured on. Piston and tilt are projected out. Two terms make it well
+/// posed (an ill-posed one has no time to quality: the residual falls for ever while the dwell grows):
+///   alpha = smoothness * (sum of squared samples of the removal function)
+///   gamma = price * (RMS of the target) * (sum of the samples of the removal function)
+/// that is, a second is worth spending as long as the tool sits on more than `price` of the RMS.
+struct Scenario {
+  std::string name;
+  std::string what;
+  bool quick = false;    // is part of --quick
+  bool peers = true;     // false: too large for any solver but the native ones
+  double pairs = 400.0;  // time limit of a solve, in operator pairs at its number of threads
+  double smoothness = 0.1;
+  double price = 1e-4;
+  std::function<Parts()> make;
+};
+
+/// All scenarios, in the order of the report. Those of measured mirrors only if `data` has them.
+std::vector<Scenario> scenarios(const std::filesystem::path& data);
+/// Throws InputError naming the known ones.
+const Scenario& find_scenario(const std::vector<Scenario>& all, const std::string& name);
+
+/// A scenario ready to be solved.
+struct Instance {
+  std::unique_ptr<RemovalOperator> removal;
+  DwellProblem problem;  // refers to `removal`
+};
+Instance make_instance(const Scenario& scenario, int threads);
+
+}  // namespace dwell::bench

@@ -1,0 +1,163 @@
+#include "bench/solve_run.h"
+
+#include <malloc.h>
+#include <omp.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <fstream>
+#include <limits>
+
+#include "core/errors.h"
+#include "solvers/certificate.h"
+
+namespace dwell::bench {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
+
+/// A field of /proc/self/status [bytes]; 0 where there is none.
+double memory_field(const std::string& name) {
+  std::ifstream stream("/proc/self/status");
+  for (std::string line; std::getline(stream, line);) {
+    if (line.starts_with(name + ":")) return 1024.0 * std::stod(line.substr(name.size() + 1));
+  }
+  return 0.0;
+}
+
+/// Gives back what is free and makes the kernel forget the peak so far.
+void reset_peak_memory() {
+  malloc_trim(0);
+  std::ofstream("/proc/self/clear_refs") << "5";
+}
+
+double pair_seconds(RemovalOperator& removal) {
+  Vector t = Vector::Ones(removal.cols()), r;
+  removal.apply(t, r);
+  removal.apply_adjoint(r, t);
+  double fastest = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < 5; ++k) {
+    t.setOnes();
+    const auto begin = Clock::now();
+    removal.apply(t, r);
+    removal.apply_adjoint(r, t);
+    fastest = std::min(fastest, since(begin));
+  }
+  return fastest;
+}
+
+/// Watches a solve through its progress callback.
+class Watch {
+ public:
+  Watch(const RemovalOperator& removal, const SolveOptions& options)
+      : removal_(removal), options_(options), before_(removal.applications()) {}
+
+  bool see(const SolverProgress& p) { return see(p, removal_.applications() - before_, since(begin_)); }
+
+  bool see(const SolverProgress& p, long applications, double seconds) {
+    if (options_.target) {
+      for (std::size_t q = 0; q < std::size(kQualities); ++q) {
+        note(objective_[q], p.objective <= (1.0 + kQualities[q]) * options_.target->objective, p, applications,
+             seconds);
+        note(residual_[q], p.residual_rms <= (1.0 + kQualities[q]) * options_.target->residual_rms, p, applications,
+             seconds);
+      }
+    }
+    if (!(p.objective > 0.999 * last_)) {
+      trace_.push_back({seconds, applications, p.objective, p.residual_rms});
+      last_ = p.objective;
+    }
+    constexpr double kClose = 1e-4;
+    return !(options_.stop_at_target && options_.target && p.objective <= (1.0 + kClose) * options_.target->objective);
+  }
+
+  nlohmann::json trace() const { return trace_; }
+  nlohmann::json reached() const {
+    nlohmann::json all;
+    for (std::size_t q = 0; q < std::size(kQualities); ++q) {
+      all["objective"].push_back(objective_[q]);
+      all["residual"].push_back(residual_[q]);
+    }
+    return all;
+  }
+
+ private:
+  static void note(nlohmann::json& slot, bool reached, const SolverProgress& p, long applications, double seconds) {
+    if (!reached || !slot.is_null()) return;
+    slot = {{"iterations", p.iterations}, {"applications", applications}, {"seconds", seconds}};
+  }
+
+  const RemovalOperator& removal_;
+  const SolveOptions& options_;
+  long before_;
+  Clock::time_point begin_ = Clock::now();
+  std::array<nlohmann::json, std::size(kQualities)> objective_, residual_;
+  nlohmann::json trace_ = nlohmann::json::array();
+  double last_ = std::numeric_limits<double>::infinity();
+};
+
+void describe_end(nlohmann::json& result, const SolverSummary& s, const DwellProblem& problem, const Vector& t) {
+  const Certificate c = certify(problem, t);
+  result["status"] = s.status == SolverStatus::Interrupted ? "1e-4 reached" : to_string(s.status);
+  result["message"] = s.message;
+  result["iterations"] = s.iterations;
+  result["applications"] = s.operator_applications;
+  result["seconds"] = s.seconds;
+  result["total_dwell"] = t.sum();
+  result["certificate"] = {{"objective", c.objective},
+                           {"residual_rms", c.residual_rms},
+                           {"bound_violation", c.bound_violation},
+                           {"projected_gradient", c.projected_gradient},
+                           {"dual_infeasibility", c.dual_infeasibility},
+                           {"complementarity", c.complementarity}};
+}
+
+}  // namespace
+
+nlohmann::json solve_once(const Scenario& scenario, const SolveOptions& options) {
+  omp_set_num_threads(options.threads);
+  const auto begin = Clock::now();
+  const Instance instance = make_instance(scenario, options.threads);
+  nlohmann::json result{{"scenario", scenario.name},           {"solver", to_string(options.kind)},
+                        {"threads", options.threads},          {"points", instance.problem.points()},
+                        {"pixels", instance.problem.pixels()}, {"operator", instance.removal->name()},
+                        {"build_seconds", since(begin)}};
+  const double pair = pair_seconds(*instance.removal);
+  result["pair_seconds"] = pair;
+
+  SolverOptions solver;
+  solver.kind = options.kind;
+  solver.objective_tolerance = 0.0;
+  solver.max_iterations = 1'000'000;
+  constexpr double kLeastSeconds = 2.0, kMostSeconds = 60.0;
+  solver.max_seconds = std::clamp(scenario.pairs * pair, kLeastSeconds, kMostSeconds);
+  result["max_seconds"] = solver.max_seconds;
+  // Not every solver looks at the clock often enough: the signal ends the process.
+  alarm(static_cast<unsigned>(std::ceil(2.0 * solver.max_seconds)) + 3U);
+  reset_peak_memory();
+  const double held = memory_field("VmRSS");
+  Vector t;
+  try {
+    Watch watch(*instance.removal, options);
+    solver.progress = [&](const SolverProgress& p) { return watch.see(p); };
+    const SolverSummary s = make_solver(solver)->solve(instance.problem, t);
+    // What a solver ends with counts as well: not every one reports on its way.
+    result["peak_memory"] = memory_field("VmHWM");
+    result["solve_memory"] = memory_field("VmHWM") - held;
+    const double rms = certify(instance.problem, t).residual_rms;
+    watch.see({s.iterations, s.seconds, s.objective, rms}, s.operator_applications, s.seconds);
+    result["reached"] = watch.reached();
+    result["trace"] = watch.trace();
+    describe_end(result, s, instance.problem, t);
+  } catch (const InputError& e) {
+    result["refused"] = e.what();
+  }
+  return result;
+}
+
+}  // namespace dwell::bench

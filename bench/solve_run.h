@@ -1,0 +1,42 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <optional>
+
+#include "bench/scenario.h"
+#include "solvers/dwell_solver.h"
+
+namespace dwell::bench {
+
+/// How good "as good as the reference" is: within these shares of its objective, and of its residual.
+inline constexpr double kQualities[] = {0.1, 0.01, 0.001};
+
+struct Target {
+  double objective = 0.0;     // of the reference [nm^2]
+  double residual_rms = 0.0;  // [nm]
+};
+
+struct SolveOptions {
+  SolverKind kind = SolverKind::ProjectedCg;
+  int threads = 1;
+  /// Without: the run ends at the time limit or by the solver's own certificate 1e-6.
+  std::optional<Target> target;
+  /// Ends a run that comes within 1e-4 of the target's objective. Else it goes on to the certificate.
+  bool stop_at_target = true;
+};
+
+/// Solves a scenario once, from the lower bound, and tells what happened:
+///   pair_seconds   one apply and one adjoint, the fastest of five, in this process
+///   reached        for each quality: iterations, applications and seconds when the objective ("objective") and the
+///                  residual ("residual") first were within it; null if never
+///   trace          [seconds, applications, objective, residual_rms] where the objective fell by 0.1 % since the last
+///   certificate, total_dwell, status, message, iterations, applications, seconds at the end
+///   solve_memory   peak of the process while solving less what it held before [bytes], and peak_memory, of all
+/// or "refused", the words of a solver that does not take a problem of this size. Seconds are the solver's own clock
+/// as far as the callback can see it: they start when solve() is called.
+/// A solver that takes more than twice its time limit is ended with the process, by SIGALRM.
+nlohmann::json solve_once(const Scenario& scenario, const SolveOptions& options);
+
+}  // namespace dwell::bench
