@@ -134,7 +134,7 @@ nlohmann::json solve_once(const Scenario& scenario, const SolveOptions& options)
   solver.kind = options.kind;
   solver.objective_tolerance = 0.0;
   solver.max_iterations = 1'000'000;
-  constexpr double kLeastSeconds = 2.0, kMostSeconds = 60.0;
+  constexpr double kLeastSeconds = 4.0, kMostSeconds = 60.0;
   solver.max_seconds = std::clamp(scenario.pairs * pair, kLeastSeconds, kMostSeconds);
   result["max_seconds"] = solver.max_seconds;
   // Not every solver looks at the clock often enough: the signal ends the process.

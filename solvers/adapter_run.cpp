@@ -76,8 +76,9 @@ void AdapterRun::ask_limits() {
   } else if (seconds() >= options_.max_seconds) {
     stop(SolverStatus::TimeLimit, fmt::format("stopped after {:.1f} s and {} iterations, objective {:.6g}", seconds(),
                                               summary_.iterations, best_value_));
-  } else if (settles_ && summary_.iterations - checkpoint_iteration_ >=
-                             std::max(options_.settle_iterations, checkpoint_iteration_ / 2)) {
+  } else if (settles_ && options_.objective_tolerance > 0.0 &&
+             summary_.iterations - checkpoint_iteration_ >=
+                 std::max(options_.settle_iterations, checkpoint_iteration_ / 2)) {
     if (checkpoint_ - best_value_ <= options_.objective_tolerance * std::abs(checkpoint_)) {
       settled(fmt::format("objective changed by less than {:.3g} of itself in {} iterations",
                           options_.objective_tolerance, summary_.iterations - checkpoint_iteration_));

@@ -22,7 +22,8 @@ class AdapterRun {
   /// The best objective so far; infinite before the first evaluation.
   double best_value() const { return best_value_; }
   bool stopped() const { return summary_.status != SolverStatus::NotRun; }
-  /// Whether `settle_iterations` evaluations without gain stop the run; else the other solver judges that itself.
+  /// Whether evaluations without gain settle the run (never if objective_tolerance is zero: truncated Newton methods
+  /// evaluate for a long while without going anywhere); else the other solver judges that itself.
   void settle_by_evaluations(bool yes) { settles_ = yes; }
   /// The other solver says, with its reason, that the objective has settled.
   void settled(const std::string& reason);
