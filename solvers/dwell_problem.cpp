@@ -41,6 +41,10 @@ void validate(const DwellProblem& p) {
   if (p.weights.size() != 0) check_size("weights", p.weights.size(), p.removal->rows());
   if (p.form.cols() != 0) check_size("form rows", p.form.rows(), p.removal->rows());
   if (!p.smoothness.empty()) check_size("smoothness", p.smoothness.size(), p.removal->cols());
+  if (p.geometry) {
+    check_size("geometry pixels", static_cast<Index>(p.geometry->pixels.size()), p.removal->rows());
+    check_size("geometry strokes", static_cast<Index>(p.geometry->strokes.size()), p.removal->cols());
+  }
   check_finite("target", p.target);
   check_finite("lower", p.lower);
   check_finite("reference", p.reference);
@@ -56,6 +60,14 @@ void validate(const DwellProblem& p) {
     if (!(p.lower[j] <= p.upper_at(j)))
       reject(fmt::format("lower[{}] = {} s exceeds upper[{}] = {} s", j, p.lower[j], j, p.upper_at(j)));
   }
+}
+
+double penalty(const DwellProblem& p, const Vector& t) {
+  double f = 0.0;
+  if (p.alpha > 0.0 && !p.smoothness.empty()) f += 0.5 * p.alpha * p.smoothness.squared_norm(t);
+  if (p.beta > 0.0) f += 0.5 * p.beta * (p.reference.size() != 0 ? (t - p.reference).squaredNorm() : t.squaredNorm());
+  if (p.gamma > 0.0) f += p.gamma * t.sum();
+  return f;
 }
 
 void clip_to_bounds(const DwellProblem& p, Vector& t) {
@@ -118,15 +130,7 @@ double DwellObjective::curvature(const Vector& d, const Vector& image) const {
 }
 
 double DwellObjective::value(const Vector& r, const Vector& t) const {
-  double f = 0.5 * r.squaredNorm();
-  if (problem_.alpha > 0.0 && !problem_.smoothness.empty())
-    f += 0.5 * problem_.alpha * problem_.smoothness.squared_norm(t);
-  if (problem_.beta > 0.0) {
-    f += 0.5 * problem_.beta *
-         (problem_.reference.size() != 0 ? (t - problem_.reference).squaredNorm() : t.squaredNorm());
-  }
-  if (problem_.gamma > 0.0) f += problem_.gamma * t.sum();
-  return f;
+  return 0.5 * r.squaredNorm() + penalty(problem_, t);
 }
 
 double DwellObjective::gradient_scale() {

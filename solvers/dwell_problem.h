@@ -2,6 +2,9 @@
 
 #include <Eigen/Core>
 
+#include <memory>
+
+#include "core/removal_geometry.h"
 #include "core/removal_operator.h"
 #include "solvers/path_smoothness.h"
 
@@ -26,6 +29,8 @@ struct DwellProblem {
   Vector reference;                    // t0, n [s]; empty = zero
   Vector lower;                        // l, n, finite [s]
   Vector upper;                        // u, n, > = l, may be infinite [s]; empty = infinite
+  /// What `removal` is made of, if it is made of a removal function and strokes: lets solvers work on coarser pixels.
+  std::shared_ptr<const RemovalGeometry> geometry;
 
   Index pixels() const { return target.size(); }
   Index points() const { return lower.size(); }
@@ -35,6 +40,9 @@ struct DwellProblem {
 /// Throws std::invalid_argument naming the field, index and value of the first thing wrong: a size, NaN, infinity where
 /// none may be, a negative weight, l > u.
 void validate(const DwellProblem& problem);
+
+/// The objective's terms that do not see the surface: smoothness, distance from the reference, price of time [nm^2].
+double penalty(const DwellProblem& problem, const Vector& t);
 
 /// Moves t into [l, u] componentwise.
 void clip_to_bounds(const DwellProblem& problem, Vector& t);

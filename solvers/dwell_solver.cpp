@@ -7,13 +7,19 @@
 #include <stdexcept>
 
 #include "core/errors.h"
+#include "solvers/auto_solver.h"
 #include "solvers/dense_nnls.h"
 #include "solvers/projected_cg.h"
+#include "solvers/spectral_projected_gradient.h"
 
 namespace dwell {
 
 std::string to_string(SolverKind kind) {
   switch (kind) {
+    case SolverKind::Auto:
+      return "auto";
+    case SolverKind::SpectralProjectedGradient:
+      return "spectral-projected-gradient";
     case SolverKind::ProjectedCg:
       return "projected-cg";
     case SolverKind::DenseNnls:
@@ -23,10 +29,11 @@ std::string to_string(SolverKind kind) {
 }
 
 SolverKind parse_solver_kind(const std::string& text) {
-  for (SolverKind kind : {SolverKind::ProjectedCg, SolverKind::DenseNnls}) {
+  for (SolverKind kind : {SolverKind::Auto, SolverKind::SpectralProjectedGradient, SolverKind::ProjectedCg,
+                          SolverKind::DenseNnls}) {
     if (text == to_string(kind)) return kind;
   }
-  throw InputError(fmt::format("solver = '{}'; accepted: projected-cg, dense-nnls", text));
+  throw InputError(fmt::format("solver = '{}'; accepted: auto, spectral-projected-gradient, projected-cg, dense-nnls", text));
 }
 
 std::string to_string(SolverStatus status) {
@@ -57,6 +64,7 @@ void validate(const SolverOptions& o) {
     reject("gradient_tolerance", o.gradient_tolerance, "> 0");
   if (!(std::isfinite(o.objective_tolerance) && o.objective_tolerance >= 0.0))
     reject("objective_tolerance", o.objective_tolerance, ">= 0");
+  if (!(std::isfinite(o.gap_tolerance) && o.gap_tolerance >= 0.0)) reject("gap_tolerance", o.gap_tolerance, ">= 0");
   if (!(o.settle_iterations >= 1)) reject("settle_iterations", o.settle_iterations, ">= 1");
   if (!(o.max_iterations >= 0)) reject("max_iterations", o.max_iterations, ">= 0");
   if (!(o.max_seconds > 0.0)) reject("max_seconds", o.max_seconds, "> 0");
@@ -89,6 +97,10 @@ SolverSummary DwellSolver::solve(const DwellProblem& problem, Vector& t) {
 std::unique_ptr<DwellSolver> make_solver(const SolverOptions& options) {
   validate(options);
   switch (options.kind) {
+    case SolverKind::Auto:
+      return std::make_unique<AutoSolver>(options);
+    case SolverKind::SpectralProjectedGradient:
+      return std::make_unique<SpectralProjectedGradient>(options);
     case SolverKind::ProjectedCg:
       return std::make_unique<ProjectedCg>(options);
     case SolverKind::DenseNnls:

@@ -20,6 +20,10 @@ class PathSmoothness {
   bool empty() const { return scale_.size() == 0; }
   Index size() const { return scale_.size(); }  // n
 
+  /// Dwell point j is linked to j - 1.
+  bool linked(Index j) const { return j > 0 && joined_[static_cast<std::size_t>(j)] != 0; }
+  double scale(Index j) const { return scale_[j]; }  // s_j
+
   /// |D t|^2 [s^2].
   double squared_norm(const Vector& t) const;
   /// out += weight * D' D t.
