@@ -21,7 +21,7 @@ constexpr Index kLevels = 3;
 constexpr double kLevelGain = 0.04;  // a level is left when four times the work gains less than this share
 constexpr long kFirstBudget = 20;    // products with the first model of a level
 constexpr long kLargestLevelBudget = 320;
-constexpr double kLeadsOn = 0.02;    // a model that yields less than this share of its promise leads on no more
+constexpr double kLeadsOn = 0.02;  // a model that yields less than this share of its promise leads on no more
 
 class Run {
  public:
@@ -149,12 +149,12 @@ class Run {
       if (done()) return;
       const double gained = before - point_.value;
       if (gained <= o_.gap_tolerance * std::abs(point_.value) && o_.gap_tolerance > 0.0) {
-        limits_.stop(SolverStatus::Settled,
-                     fmt::format("settled: objective {:.6g} fell by {:.2g} of itself when the work was doubled; {} "
-                                 "operator pairs and {:.1f} pairs' worth on {} x {} pixels; |pg| {:.2g}",
-                                 point_.value, gained / std::abs(point_.value), summary_.iterations,
-                                 summary_.coarse_pairs, factor.x, factor.y,
-                                 projected_gradient_norm(p_.lower, p_.upper, point_) / scale_));
+        limits_.stop(
+            SolverStatus::Settled,
+            fmt::format("settled: objective {:.6g} fell by {:.2g} of itself when the work was doubled; {} "
+                        "operator pairs and {:.1f} pairs' worth on {} x {} pixels; |pg| {:.2g}",
+                        point_.value, gained / std::abs(point_.value), summary_.iterations, summary_.coarse_pairs,
+                        factor.x, factor.y, projected_gradient_norm(p_.lower, p_.upper, point_) / scale_));
         return;
       }
       if (!(gained > kLeadsOn * promised)) {

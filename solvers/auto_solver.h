@@ -4,11 +4,11 @@
 
 namespace dwell {
 
-/// The default. A removal function cannot correct what is finer than itself, so the work is done on pixels matched to it
-/// and only judged on the full problem (iterative refinement). Repeatedly: take the gradient on the full problem (one
-/// operator pair), minimise the quadratic model that has this gradient and the Hessian of coarser pixels within the
-/// bounds, and move to the exact minimiser of the full objective along the way there. The Hessians are accurate to a
-/// few percent (solvers/resolution_matched_hessian.h), so that almost every step is taken whole.
+/// The default. A removal function cannot correct what is finer than itself, so the work is done on pixels matched to
+/// it and only judged on the full problem (iterative refinement). Repeatedly: take the gradient on the full problem
+/// (one operator pair), minimise the quadratic model that has this gradient and the Hessian of coarser pixels within
+/// the bounds, and move to the exact minimiser of the full objective along the way there. The Hessians are accurate to
+/// a few percent (solvers/resolution_matched_hessian.h), so that almost every step is taken whole.
 ///
 /// Where dwell points lie much closer than the removal function is wide and no start is given, the first models have
 /// smooth dwell on a coarse lattice as variables, twice finer each time; the last has the dwell points themselves. If a

@@ -29,11 +29,12 @@ std::string to_string(SolverKind kind) {
 }
 
 SolverKind parse_solver_kind(const std::string& text) {
-  for (SolverKind kind : {SolverKind::Auto, SolverKind::SpectralProjectedGradient, SolverKind::ProjectedCg,
-                          SolverKind::DenseNnls}) {
+  for (SolverKind kind :
+       {SolverKind::Auto, SolverKind::SpectralProjectedGradient, SolverKind::ProjectedCg, SolverKind::DenseNnls}) {
     if (text == to_string(kind)) return kind;
   }
-  throw InputError(fmt::format("solver = '{}'; accepted: auto, spectral-projected-gradient, projected-cg, dense-nnls", text));
+  throw InputError(
+      fmt::format("solver = '{}'; accepted: auto, spectral-projected-gradient, projected-cg, dense-nnls", text));
 }
 
 std::string to_string(SolverStatus status) {

@@ -10,7 +10,7 @@ namespace dwell {
 
 /// Solvers of the dwell problem. All solve the same problem to the same certificate.
 enum class SolverKind {
-  Auto,         // native: most of the work on pixels matched to the removal function, judged on the full problem
+  Auto,  // native: most of the work on pixels matched to the removal function, judged on the full problem
   SpectralProjectedGradient,  // native, matrix-free: the simplest; one operator pair and three vectors an iteration
   ProjectedCg,  // native, matrix-free: spectral projected gradient to find the face, conjugate gradients on it
   DenseNnls,    // Lawson-Hanson active set on the dense normal equations; small problems, oracle
@@ -53,7 +53,8 @@ struct SolverOptions {
   /// gradient says little. If it falls as work^-p, what is left to gain is that share / (2^p - 1): for p between 0.4
   /// and 1, as measured, 3e-3 means within 1 % of the optimum. 0 = go on to gradient_tolerance. Relative; >= 0.
   double gap_tolerance = 3e-3;
-  /// Iterations, each one operator pair (one apply, one adjoint); coarse work counts by its share. >= 0; 0 leaves the start unchanged.
+  /// Iterations, each one operator pair (one apply, one adjoint); coarse work counts by its share. >= 0; 0 leaves the
+  /// start unchanged.
   long max_iterations = 2000;
   /// Wall clock [s]; > 0.
   double max_seconds = 3600.0;

@@ -76,10 +76,9 @@ void ProjectedCg::do_solve(const DwellProblem& problem, Vector& t, SolverSummary
     evaluate();  // the gradient carried along gathers rounding; what is reported does not
     if (!limits.stopped() && !(point.value < before) &&
         !limits.converged(projected_gradient_norm(problem.lower, problem.upper, point), scale)) {
-      limits.stop(SolverStatus::Settled, fmt::format("settled: objective {:.6g} falls no more in rounding; |pg| {:.2g}",
-                                                     point.value,
-                                                     projected_gradient_norm(problem.lower, problem.upper, point) /
-                                                         scale));
+      limits.stop(SolverStatus::Settled,
+                  fmt::format("settled: objective {:.6g} falls no more in rounding; |pg| {:.2g}", point.value,
+                              projected_gradient_norm(problem.lower, problem.upper, point) / scale));
     }
   }
   summary.objective = point.value;

@@ -122,8 +122,8 @@ void SmoothDwell::refine(const SmoothDwell& coarse, const Vector& coarse_s, Vect
       for (Index dx = -2; dx <= 2; ++dx) {
         const Index r = row + dy, k = col + dx;
         if (r < 0 || k < 0 || r >= lattice_.rows || k >= lattice_.cols) continue;
-        s[r * lattice_.cols + k] += c[static_cast<std::size_t>(dy + 2)] * c[static_cast<std::size_t>(dx + 2)] *
-                                    coarse_s[i];
+        s[r * lattice_.cols + k] +=
+            c[static_cast<std::size_t>(dy + 2)] * c[static_cast<std::size_t>(dx + 2)] * coarse_s[i];
       }
     }
   }
@@ -219,8 +219,7 @@ void SmoothDwellHessian::product(const Vector& d, Vector& hd) {
   pixels_.apply(surface_, weighed_);
   convolution_->correlate(weighed_.data());
   for (std::size_t i = 0; i < field_node_.size(); ++i) {
-    correlated_[static_cast<Index>(i)] =
-        field_node_[i] >= 0 ? field[static_cast<std::size_t>(field_node_[i])] : 0.0;
+    correlated_[static_cast<Index>(i)] = field_node_[i] >= 0 ? field[static_cast<std::size_t>(field_node_[i])] : 0.0;
   }
   points_.apply(correlated_, hd);
   penalty_.apply(d, part_);

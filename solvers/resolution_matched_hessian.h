@@ -58,7 +58,7 @@ class SmoothDwell {
   /// Grid of the map's pitch that holds every dwell point, on the map's lattice.
   const Grid& cover() const { return cover_; }
   Index size() const { return nodes_; }
-  void prolong(const Vector& s, Vector& t) const;       // t = P s
+  void prolong(const Vector& s, Vector& t) const;           // t = P s
   void restrict_to(const Vector& g, Vector& coarse) const;  // coarse = P' g
 
   /// s of the same dwell as `coarse_s` on a lattice twice as coarse whose nodes are all in this one.
@@ -89,7 +89,6 @@ class SmoothDwellHessian final : public QuadraticForm {
   double relative_cost() const { return relative_cost_; }
 
  private:
-
   MatchedPixels pixels_;
   SplineGram points_, penalty_;  // P'P; alpha P'D'D P + beta P'P
   std::optional<PaddedConvolution> convolution_;

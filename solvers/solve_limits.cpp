@@ -42,9 +42,9 @@ bool SolveLimits::count_iteration(const Vector& t, double value) {
 
 bool SolveLimits::converged(double projected_gradient, double scale) {
   if (!(projected_gradient <= options_.gradient_tolerance * scale)) return false;
-  stop(SolverStatus::Converged, fmt::format("converged: |pg| {:.3g} <= {:.3g} |A'z| after {} iterations",
-                                            projected_gradient / scale, options_.gradient_tolerance,
-                                            summary_.iterations));
+  stop(SolverStatus::Converged,
+       fmt::format("converged: |pg| {:.3g} <= {:.3g} |A'z| after {} iterations", projected_gradient / scale,
+                   options_.gradient_tolerance, summary_.iterations));
   return true;
 }
 

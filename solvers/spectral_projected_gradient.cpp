@@ -12,8 +12,8 @@
 namespace dwell {
 namespace {
 
-constexpr std::size_t kMemory = 10;     // M of the paper
-constexpr double kSufficient = 1e-4;    // gamma of the paper
+constexpr std::size_t kMemory = 10;                   // M of the paper
+constexpr double kSufficient = 1e-4;                  // gamma of the paper
 constexpr double kShortest = 1e-30, kLongest = 1e30;  // of the spectral length
 
 }  // namespace
