@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <optional>
 
 #include "solvers/bounded_quadratic.h"
 #include "solvers/projected_cg.h"
@@ -38,13 +38,13 @@ class Run {
     objective_.gradient(r_, t_, point_.gradient);
     point_.value = objective_.value(r_, t_);
     if (!done() && t_ == p_.lower) smooth_levels(factor);
-    if (!done()) points_level(factor);
+    if (!done()) points_levels(factor);
     t_ = point_.x;
     summary_.objective = point_.value;
   }
 
-  /// The model is used up but the gradient is not small enough.
-  bool model_exhausted() const { return exhausted_; }
+  /// The models are used up but the gradient is not small enough.
+  bool unfinished() const { return !limits_.stopped(); }
 
  private:
   bool done() {
@@ -55,12 +55,13 @@ class Run {
   bool go_on() {
     summary_.coarse_pairs += product_cost_;
     ++products_;
+    ++total_products_;
     return products_ < budget_ && limits_.allow(point_.value);
   }
 
   /// Coarsest first, on lattices each of which holds the one before.
   void smooth_levels(CoarseFactor finest) {
-    const auto n = static_cast<Index>(p_.points());
+    const Index n = p_.points();
     Index level = 0;
     std::optional<SmoothDwell> dwell, before;
     Vector s;
@@ -133,35 +134,43 @@ class Run {
     return a;
   }
 
-  void points_level(CoarseFactor factor) {
-    ResolutionMatchedHessian hessian(p_, factor);
+  /// The dwell points themselves, on pixels made finer each time the model no longer leads on.
+  void points_levels(CoarseFactor factor) {
     BoundedCg cg(p_.lower, p_.upper);
-    QuadraticPoint model = point_;
+    model_ = point_;
+    for (; !done() && std::min(factor.x, factor.y) >= 2; factor = {factor.x / 2, factor.y / 2})
+      points_level(cg, factor);
+  }
+
+  /// Returns when stopped, or when the model's promise and the full problem's gain differ too much.
+  void points_level(BoundedCg& cg, CoarseFactor factor) {
+    ResolutionMatchedHessian hessian(p_, factor);
     product_cost_ = hessian.relative_cost();
-    for (long budget = 2 * kFirstBudget; !done(); budget *= 2) {
-      model.x = point_.x;
-      model.gradient = point_.gradient;
-      model.value = point_.value;
-      minimise(cg, hessian, budget, model);
-      d_ = model.x - point_.x;
-      const double promised = point_.value - model.value, before = point_.value;
+    while (!done()) {
+      // Each budget is all the work done before it, so that the gain of a step is the gain of doubling the work.
+      const long budget = std::max(total_products_, 2 * kFirstBudget);
+      model_.x = point_.x;
+      model_.gradient = point_.gradient;
+      model_.value = point_.value;
+      minimise(cg, hessian, budget, model_);
+      d_ = model_.x - point_.x;
+      const double promised = point_.value - model_.value, before = point_.value;
+      if (!(promised > 0.0)) return;
       move_along_d();
       if (done()) return;
       const double gained = before - point_.value;
-      if (gained <= o_.gap_tolerance * std::abs(point_.value) && o_.gap_tolerance > 0.0) {
-        limits_.stop(
-            SolverStatus::Settled,
-            fmt::format("settled: objective {:.6g} fell by {:.2g} of itself when the work was doubled; {} "
-                        "operator pairs and {:.1f} pairs' worth on {} x {} pixels; |pg| {:.2g}",
-                        point_.value, gained / std::abs(point_.value), summary_.iterations, summary_.coarse_pairs,
-                        factor.x, factor.y, projected_gradient_norm(p_.lower, p_.upper, point_) / scale_));
-        return;
-      }
-      if (!(gained > kLeadsOn * promised)) {
-        exhausted_ = true;
-        return;
-      }
+      if (!(gained > kLeadsOn * promised)) return;
+      if (gained <= o_.gap_tolerance * std::abs(point_.value)) settle(gained, factor);
     }
+  }
+
+  void settle(double gained, CoarseFactor factor) {
+    limits_.stop(
+        SolverStatus::Settled,
+        fmt::format("settled: objective {:.6g} fell by {:.2g} of itself when the work was doubled; {} operator "
+                    "pairs and {:.1f} pairs' worth on {} x {} pixels; |pg| {:.2g}",
+                    point_.value, gained / std::abs(point_.value), summary_.iterations, summary_.coarse_pairs, factor.x,
+                    factor.y, projected_gradient_norm(p_.lower, p_.upper, point_) / scale_));
   }
 
   const DwellProblem& p_;
@@ -171,11 +180,11 @@ class Run {
   DwellObjective objective_;
   Vector& t_;
   QuadraticPoint point_;  // dwell, its gradient and objective on the full problem
+  QuadraticPoint model_;  // of the dwell points
   Vector r_, d_, image_;
   BoundedCg::Monitor monitor_;
   double scale_ = 1.0, product_cost_ = 0.0;
-  long products_ = 0, budget_ = 0;
-  bool exhausted_ = false;
+  long products_ = 0, budget_ = 0, total_products_ = 0;
 };
 
 }  // namespace
@@ -190,9 +199,9 @@ void AutoSolver::do_solve(const DwellProblem& problem, Vector& t, SolverSummary&
     } else {
       Run run(problem, options_, t, summary);
       run.run(factor);
-      if (!run.model_exhausted()) return;
-      why = fmt::format("model on {} x {} pixels used up after {} operator pairs and {:.1f} pairs' worth", factor.x,
-                        factor.y, summary.iterations, summary.coarse_pairs);
+      if (!run.unfinished()) return;
+      why = fmt::format("coarse models used up after {} operator pairs and {:.1f} pairs' worth", summary.iterations,
+                        summary.coarse_pairs);
     }
   }
   SolverOptions rest = options_;

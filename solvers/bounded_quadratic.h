@@ -60,7 +60,7 @@ class BoundedCg {
   void mask(Vector& v) const;
 
   const Vector &lower_, &upper_;
-  Vector direction_, product_, step_, step_product_, descent_;
+  Vector direction_, product_, step_, step_product_, descent_, preconditioned_;
   std::vector<char> free_;
   long products_ = 0;
   double spectral_length_ = 0.0;  // kept from one call to the next; 0 = not known

@@ -38,6 +38,8 @@ class ResolutionMatchedHessian final : public QuadraticForm {
  public:
   ResolutionMatchedHessian(const DwellProblem& problem, CoarseFactor factor);
   void product(const Vector& d, Vector& hd) override;
+  /// The smoothness along the path with a ridge, solved exactly: what is left of H where the removal is blind.
+  void precondition(const std::vector<char>& free, const Vector& r, Vector& out) override;
   /// Cost of a product in operator pairs of the full problem, by transform_cost.
   double relative_cost() const { return relative_cost_; }
 
@@ -45,7 +47,7 @@ class ResolutionMatchedHessian final : public QuadraticForm {
   const DwellProblem& problem_;
   MatchedPixels pixels_;
   std::optional<ScatteredRemoval> removal_;
-  Vector surface_, weighed_;
+  Vector surface_, weighed_, scratch_;
   double relative_cost_ = 1.0;
 };
 
