@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -16,11 +17,13 @@ namespace {
 
 constexpr double kKernelTolerance = 0.01;       // of matched_factor, for smooth dwell and where the kernel allows
 constexpr double kLooseKernelTolerance = 0.03;  // for measured removal functions, whose noise is not worth pixels
-constexpr Index kPointsPerVariable = 4;         // smooth dwell pays with at least so many dwell points a variable
+// Smooth dwell pays with so many dwell points a variable; finer levels of it only where the points are too many to do
+// the work themselves.
+constexpr Index kPointsPerVariable = 4;
+constexpr Index kPointsPerFinerVariable = 32;
 constexpr Index kLevels = 3;
-constexpr double kLevelGain = 0.04;  // a level is left when four times the work gains less than this share
-constexpr long kFirstBudget = 20;    // products with the first model of a level
-constexpr long kLargestLevelBudget = 320;
+constexpr std::array<long, 3> kLevelBudgets = {20, 80, 320};  // products with the models of a level
+constexpr long kFirstBudget = 40;                             // and with the first of the dwell points
 constexpr double kLeadsOn = 0.02;  // a model that yields less than this share of its promise leads on no more
 
 class Run {
@@ -70,7 +73,7 @@ class Run {
       const CoarseFactor factor{finest.x / unit * step, finest.y / unit * step};
       if (std::min(factor.x, factor.y) < 2) break;
       dwell.emplace(*p_.geometry, factor);
-      const Index worth = level + 1 < kLevels ? kPointsPerVariable : 2 * kPointsPerVariable;
+      const Index worth = level == 0 ? kPointsPerVariable : kPointsPerFinerVariable;
       if (dwell->size() * worth > n) break;
       const Vector coarse = s;
       if (before) {
@@ -94,15 +97,14 @@ class Run {
     Vector step = at.x - s;
     if (step.squaredNorm() > 0.0) advance(dwell, step, at);
     product_cost_ = hessian.relative_cost();
-    for (long budget = kFirstBudget; !done(); budget = std::min(4 * budget, kLargestLevelBudget)) {
+    for (const long budget : kLevelBudgets) {
+      if (done()) break;
       dwell.restrict_to(point_.gradient, at.gradient);
       at.value = point_.value;
       model = at;
       minimise(cg, hessian, budget, model);
       step = model.x - at.x;
-      const double before = point_.value;
       advance(dwell, step, at);
-      if (budget > kFirstBudget && !(before - point_.value > kLevelGain * std::abs(point_.value))) break;
     }
     s = at.x;
   }
@@ -148,7 +150,7 @@ class Run {
     product_cost_ = hessian.relative_cost();
     while (!done()) {
       // Each budget is all the work done before it, so that the gain of a step is the gain of doubling the work.
-      const long budget = std::max(total_products_, 2 * kFirstBudget);
+      const long budget = std::max(total_products_, kFirstBudget);
       model_.x = point_.x;
       model_.gradient = point_.gradient;
       model_.value = point_.value;
