@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/bspline.h"
 
@@ -37,6 +38,13 @@ SplineSurface::SplineSurface(const Grid& grid, const std::vector<double>& values
     interpolate_line(&c_[static_cast<std::size_t>(r * grid_.cols)], grid_.cols, 1, scratch);
   for (Index c = 0; c < grid_.cols; ++c)
     interpolate_line(&c_[static_cast<std::size_t>(c)], grid_.rows, grid_.cols, scratch);
+}
+
+SplineSurface SplineSurface::with_coefficients(const Grid& grid, std::vector<double> coefficients) {
+  SplineSurface surface;
+  surface.grid_ = grid;
+  surface.c_ = std::move(coefficients);
+  return surface;
 }
 
 double SplineSurface::operator()(Point p) const {

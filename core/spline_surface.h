@@ -17,6 +17,9 @@ class SplineSurface {
   /// values: row-major, one a grid point, all finite. Cost O(size).
   SplineSurface(const Grid& grid, const std::vector<double>& values);
 
+  /// The surface with these coefficients, one a grid point, row-major. No ring.
+  static SplineSurface with_coefficients(const Grid& grid, std::vector<double> coefficients);
+
   /// The surface at p, in the units of the samples. Cost O(1).
   double operator()(Point p) const;
 

@@ -42,6 +42,15 @@ int whole(const std::string& text) {
 std::string shown(double value) { return fmt::format("{}", value); }
 std::string shown(const std::optional<double>& value) { return value ? shown(*value) : ""; }
 
+/// The solvers, as a user names them.
+std::string solver_words() {
+  std::string words;
+  for (const SolverKind kind : solver_kinds()) {
+    if (kind != SolverKind::Auto) words += (words.empty() ? "" : ", ") + to_string(kind);
+  }
+  return words;
+}
+
 using Options = JobOptions;
 
 std::vector<JobOptionRecord> make_table() {
@@ -101,7 +110,7 @@ std::vector<JobOptionRecord> make_table() {
        "price of machine time: half the mean square residual in nm^2 that a second may cost", false, true,
        [](Options& o, const std::string& t) { o.time_price_nm2_per_s = not_negative(t); },
        [](const Options& o) { return shown(o.time_price_nm2_per_s); }},
-      {"solver", "solver", "NAME", "projected-cg, or dense-nnls for small problems", false, false,
+      {"solver", "solver", "NAME", "auto, or another of " + solver_words(), false, false,
        [](Options& o, const std::string& t) { parse_solver_kind(t), o.solver = t; },
        [](const Options& o) { return o.solver; }},
       {"max-solve", "max_solve_s", "S", "time limit of the solver in s", false, true,

@@ -27,7 +27,7 @@ struct JobOptions {
   double max_feed_mm_per_min = 3000.0;
   double smoothness = 0.1;
   double time_price_nm2_per_s = 0.0;
-  std::string solver = "projected-cg";
+  std::string solver = "auto";
   double max_solve_s = 3600.0;
   int threads = 0;
   std::string gcode = "g94";

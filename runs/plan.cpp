@@ -7,8 +7,7 @@
 
 #include "core/aperture.h"
 #include "core/errors.h"
-#include "core/lattice_removal.h"
-#include "core/scattered_removal.h"
+#include "core/removal_geometry.h"
 #include "core/units.h"
 #include "core/whole_file.h"
 #include "paths/path_spec.h"
@@ -56,11 +55,9 @@ void lay_path(Plan& plan, const RunHooks& hooks) {
   hooks.report(fmt::format("path: {} dwell points, {:.4g} mm", plan.path.size(), plan.metrics.length));
 }
 
-std::unique_ptr<RemovalOperator> make_operator(const Plan& plan, const std::vector<Index>& pixels) {
-  if (LatticeRemoval::commensurate(plan.map.grid, plan.strokes)) {
-    return std::make_unique<LatticeRemoval>(plan.map.grid, pixels, plan.kernel, plan.strokes, plan.threads);
-  }
-  return std::make_unique<ScatteredRemoval>(plan.map.grid, pixels, plan.kernel, plan.strokes, plan.threads);
+std::shared_ptr<const RemovalGeometry> geometry_of(const Plan& plan) {
+  return std::make_shared<const RemovalGeometry>(
+      RemovalGeometry{plan.map.grid, finite_pixels(plan.map), plan.kernel, plan.strokes, plan.threads});
 }
 
 /// What the dwell has to remove: the map, less what the moves between halts remove on their way.
@@ -78,7 +75,8 @@ Vector target_of(const Plan& plan, const std::vector<Index>& pixels, double max_
 
 FeedLimits feed_limits(const JobOptions& o) { return {o.min_dwell_s, units::mm_per_s(o.max_feed_mm_per_min)}; }
 
-DwellProblem problem_of(const Plan& plan, RemovalOperator& removal, const std::vector<Index>& pixels) {
+DwellProblem problem_of(const Plan& plan, RemovalOperator& removal, std::shared_ptr<const RemovalGeometry> geometry) {
+  const std::vector<Index>& pixels = geometry->pixels;
   const JobOptions& o = plan.options;
   const FeedLimits limits = feed_limits(o);
   DwellProblem problem;
@@ -89,14 +87,16 @@ DwellProblem problem_of(const Plan& plan, RemovalOperator& removal, const std::v
   problem.alpha = o.smoothness * plan.kernel.energy;
   problem.gamma = o.time_price_nm2_per_s * static_cast<double>(pixels.size());
   problem.lower = minimum_dwell(plan.strokes, limits);
+  problem.geometry = std::move(geometry);
   return problem;
 }
 
 void solve_dwell(Plan& plan, const RunHooks& hooks) {
-  const std::vector<Index> pixels = finite_pixels(plan.map);
-  const auto removal = make_operator(plan, pixels);
+  const auto geometry = geometry_of(plan);
+  const std::vector<Index>& pixels = geometry->pixels;
+  const auto removal = make_removal_operator(*geometry);
   hooks.check();
-  const DwellProblem problem = problem_of(plan, *removal, pixels);
+  const DwellProblem problem = problem_of(plan, *removal, geometry);
   SolverOptions options;
   options.kind = parse_solver_kind(plan.options.solver);
   options.max_seconds = plan.options.max_solve_s;

@@ -46,6 +46,7 @@ Json solve_json(const Plan& plan) {
           {"message", plan.solver.message},
           {"iterations", plan.solver.iterations},
           {"operator_applications", plan.solver.operator_applications},
+          {"coarse_pairs", plan.solver.coarse_pairs},
           {"wall_s", plan.solver.seconds},
           {"certificate",
            {{"objective_nm2", c.objective},

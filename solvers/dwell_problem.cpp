@@ -64,6 +64,14 @@ void validate(const DwellProblem& p) {
   }
 }
 
+double penalty(const DwellProblem& p, const Vector& t) {
+  double f = 0.0;
+  if (p.alpha > 0.0 && !p.smoothness.empty()) f += 0.5 * p.alpha * p.smoothness.squared_norm(t);
+  if (p.beta > 0.0) f += 0.5 * p.beta * (p.reference.size() != 0 ? (t - p.reference).squaredNorm() : t.squaredNorm());
+  if (p.gamma > 0.0) f += p.gamma * t.sum();
+  return f;
+}
+
 void clip_to_bounds(const DwellProblem& p, Vector& t) {
   t = t.cwiseMax(p.lower);
   if (p.upper.size() != 0) t = t.cwiseMin(p.upper);
@@ -124,15 +132,7 @@ double DwellObjective::curvature(const Vector& d, const Vector& image) const {
 }
 
 double DwellObjective::value(const Vector& r, const Vector& t) const {
-  double f = 0.5 * r.squaredNorm();
-  if (problem_.alpha > 0.0 && !problem_.smoothness.empty())
-    f += 0.5 * problem_.alpha * problem_.smoothness.squared_norm(t);
-  if (problem_.beta > 0.0) {
-    f += 0.5 * problem_.beta *
-         (problem_.reference.size() != 0 ? (t - problem_.reference).squaredNorm() : t.squaredNorm());
-  }
-  if (problem_.gamma > 0.0) f += problem_.gamma * t.sum();
-  return f;
+  return 0.5 * r.squaredNorm() + penalty(problem_, t);
 }
 
 double DwellObjective::gradient_scale() {

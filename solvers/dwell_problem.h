@@ -44,6 +44,9 @@ struct DwellProblem {
 /// none may be, a negative weight, l > u.
 void validate(const DwellProblem& problem);
 
+/// The objective's terms that do not see the surface: smoothness, distance from the reference, price of time [nm^2].
+double penalty(const DwellProblem& problem, const Vector& t);
+
 /// Moves t into [l, u] componentwise.
 void clip_to_bounds(const DwellProblem& problem, Vector& t);
 

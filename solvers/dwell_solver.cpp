@@ -7,17 +7,23 @@
 #include <stdexcept>
 
 #include "core/errors.h"
+#include "solvers/auto_solver.h"
 #include "solvers/ceres_solver.h"
 #include "solvers/dense_nnls.h"
 #include "solvers/fourier_deconvolution.h"
 #include "solvers/lbfgsb_solver.h"
 #include "solvers/nlopt_solver.h"
 #include "solvers/projected_cg.h"
+#include "solvers/spectral_projected_gradient.h"
 
 namespace dwell {
 
 std::string to_string(SolverKind kind) {
   switch (kind) {
+    case SolverKind::Auto:
+      return "auto";
+    case SolverKind::SpectralProjectedGradient:
+      return "spectral-projected-gradient";
     case SolverKind::ProjectedCg:
       return "projected-cg";
     case SolverKind::DenseNnls:
@@ -41,9 +47,12 @@ std::string to_string(SolverKind kind) {
 }
 
 const std::vector<SolverKind>& solver_kinds() {
-  static const std::vector<SolverKind> kKinds{SolverKind::ProjectedCg,  SolverKind::DenseNnls,  SolverKind::Ceres,
-                                              SolverKind::Lbfgsb,       SolverKind::NloptLbfgs, SolverKind::NloptMma,
-                                              SolverKind::NloptTnewton, SolverKind::NloptSlsqp, SolverKind::Fourier};
+  static const std::vector<SolverKind> kKinds{SolverKind::Auto,         SolverKind::SpectralProjectedGradient,
+                                              SolverKind::ProjectedCg,  SolverKind::DenseNnls,
+                                              SolverKind::Ceres,        SolverKind::Lbfgsb,
+                                              SolverKind::NloptLbfgs,   SolverKind::NloptMma,
+                                              SolverKind::NloptTnewton, SolverKind::NloptSlsqp,
+                                              SolverKind::Fourier};
   return kKinds;
 }
 
@@ -86,6 +95,7 @@ void validate(const SolverOptions& o) {
     reject("gradient_tolerance", o.gradient_tolerance, "> 0");
   if (!(std::isfinite(o.objective_tolerance) && o.objective_tolerance >= 0.0))
     reject("objective_tolerance", o.objective_tolerance, ">= 0");
+  if (!(std::isfinite(o.gap_tolerance) && o.gap_tolerance >= 0.0)) reject("gap_tolerance", o.gap_tolerance, ">= 0");
   if (!(o.settle_iterations >= 1)) reject("settle_iterations", o.settle_iterations, ">= 1");
   if (!(o.max_iterations >= 0)) reject("max_iterations", o.max_iterations, ">= 0");
   if (!(o.max_seconds > 0.0)) reject("max_seconds", o.max_seconds, "> 0");
@@ -118,6 +128,10 @@ SolverSummary DwellSolver::solve(const DwellProblem& problem, Vector& t) {
 std::unique_ptr<DwellSolver> make_solver(const SolverOptions& options) {
   validate(options);
   switch (options.kind) {
+    case SolverKind::Auto:
+      return std::make_unique<AutoSolver>(options);
+    case SolverKind::SpectralProjectedGradient:
+      return std::make_unique<SpectralProjectedGradient>(options);
     case SolverKind::ProjectedCg:
       return std::make_unique<ProjectedCg>(options);
     case SolverKind::DenseNnls:

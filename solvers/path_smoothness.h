@@ -29,6 +29,10 @@ class PathSmoothness {
   double squared_norm(const Vector& t) const;
   /// out += weight * D' D t.
   void add_normal(double weight, const Vector& t, Vector& out) const;
+  /// out = ((weight D' D + ridge I) restricted to the free variables)^-1 r, zero elsewhere; scratch of n. The matrix is
+  /// tridiagonal along the path. weight >= 0, ridge > 0. Cost O(n), no allocation if out and scratch have size n.
+  void solve_normal(double weight, double ridge, const std::vector<char>& free, const Vector& r, Vector& out,
+                    Vector& scratch) const;
   /// Dense D' D, n x n, for oracles and small dense solvers.
   Eigen::MatrixXd dense_normal() const;
 

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <chrono>
+
+#include "solvers/bounded_quadratic.h"
+#include "solvers/dwell_solver.h"
+
+namespace dwell {
+
+/// What ends a solve, shared by the native solvers: limits, the progress callback, the gradient tolerance.
+class SolveLimits {
+ public:
+  SolveLimits(const DwellProblem& problem, const SolverOptions& options, SolverSummary& summary)
+      : problem_(problem), options_(options), summary_(summary) {}
+
+  bool stopped() const { return summary_.status != SolverStatus::NotRun; }
+  void stop(SolverStatus status, std::string message);
+  double seconds() const;
+
+  /// False, and stopped, if work or time is used up.
+  bool allow(double value);
+  /// Counts an iteration, tells the progress callback and asks allow(). value [nm^2] belongs to dwell t.
+  bool count_iteration(const Vector& t, double value);
+  /// True, and stopped, if |projected gradient| <= gradient_tolerance * scale.
+  bool converged(double projected_gradient, double scale);
+
+ private:
+  const DwellProblem& problem_;
+  const SolverOptions& options_;
+  SolverSummary& summary_;
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace dwell
