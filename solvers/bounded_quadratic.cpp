@@ -70,12 +70,14 @@ void BoundedCg::minimise(QuadraticForm& form, double tolerance, QuadraticPoint& 
   cg_limit_ = kFirstLimit;
   face_unchanged_ = false;
   while (running_ && projected_gradient_norm(lower_, upper_, point) > tolerance) {
+    const long before = products_;
     if (!face_unchanged_) {
       for (int k = 0; k < kSpectralSteps && running_; ++k) {
         if (!spectral_step()) return;
       }
     }
     if (running_) minimise_on_face();
+    if (products_ == before) return;  // nothing left to try
   }
 }
 
@@ -96,7 +98,9 @@ bool BoundedCg::spectral_step() {
   const Segment segment{direction_, product_, slope, direction_.dot(product_)};
   if (!(segment.curvature > 0.0) && !direction_.allFinite()) return false;
   move(segment, segment.best_step());
-  if (segment.curvature > 0.0) spectral_length_ = direction_.squaredNorm() / segment.curvature;
+  // Without curvature the objective falls in a straight line: only a bound ends that, so make for it.
+  spectral_length_ =
+      segment.curvature > 0.0 ? direction_.squaredNorm() / segment.curvature : std::min(10.0 * spectral_length_, 1e300);
   running_ = (*go_on_)(p);
   return true;
 }
@@ -151,10 +155,16 @@ void BoundedCg::minimise_on_face() {
   }
   if (first_bound() >= 1.0) {
     take_whole_step();
-  } else {
+  } else if (running_) {
     face_unchanged_ = false;
     if (!search()) running_ = false;
+  } else {
+    take_first_stretch();  // stopped: nothing that costs a product
   }
+}
+
+void BoundedCg::take_first_stretch() {
+  move({step_, step_product_, point_->gradient.dot(step_), step_.dot(step_product_)}, first_bound());
 }
 
 /// How far along step_ the first bound is met, at most 1.
@@ -168,8 +178,9 @@ double BoundedCg::first_bound() const {
 }
 
 void BoundedCg::take_whole_step() {
+  const bool moved = !step_.isZero(0.0);  // not where the face has a gradient but no curvature
   move({step_, step_product_, point_->gradient.dot(step_), step_.dot(step_product_)}, 1.0);
-  face_unchanged_ = mark_free() == 0;
+  face_unchanged_ = mark_free() == 0 && moved;
   cg_share_ = std::max(cg_share_ * 0.1, kLeastShare);
   cg_limit_ = std::min<long>(cg_limit_ * 2, kLargestLimit);
 }
@@ -193,7 +204,7 @@ bool BoundedCg::search() {
     running_ = running_ && go_on;
     if (enough || !running_) return true;
   }
-  move({step_, step_product_, point_->gradient.dot(step_), step_.dot(step_product_)}, first);
+  take_first_stretch();
   return true;
 }
 

@@ -56,6 +56,7 @@ class BoundedCg {
   void minimise_on_face();
   bool search();
   void take_whole_step();
+  void take_first_stretch();
   double first_bound() const;
   Index mark_free();
   void mask(Vector& v) const;

@@ -53,7 +53,9 @@ class ProgramRun {
     std::filesystem::remove_all(capture_, ignored);
   }
 
-  void interrupt() const { kill(pid_, SIGINT); }
+  void interrupt() const {
+    if (pid_ > 0) kill(pid_, SIGINT);  // 0 would be the whole process group
+  }
   /// What has been written to standard error so far.
   std::string err() const { return text_of("err"); }
   /// Whether it has ended; its result is kept for wait().

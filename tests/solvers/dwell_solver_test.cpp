@@ -49,7 +49,8 @@ void expect_solved(const SmallProblem& small, SolverKind kind, const Vector& opt
 }
 
 class EverySolver : public testing::TestWithParam<SolverKind> {};
-INSTANTIATE_TEST_SUITE_P(Native, EverySolver, testing::Values(SolverKind::ProjectedCg, SolverKind::DenseNnls));
+INSTANTIATE_TEST_SUITE_P(Native, EverySolver,
+                         testing::Values(SolverKind::ProjectedCg, SolverKind::DenseNnls, SolverKind::Auto));
 
 TEST(Oracles, AgreeWithEachOtherAndHoldBoundsOnBothSides) {
   long low = 0, high = 0, free = 0;

@@ -25,12 +25,12 @@ SolverOptions tight(SolverKind kind) {
   return o;
 }
 
-class EverySolver : public testing::TestWithParam<SolverKind> {};
+class NativeSolvers : public testing::TestWithParam<SolverKind> {};
 
 /// For convex q and any feasible t: q(t) - q(t*) <= projected gradient . (t - t*), since where the gradient is not in
 /// the projected one it pushes t out of the box, and t* is inside. So a gradient of eps |A'z| bounds the gap by
 /// eps |A'z| |t - t*|: no conditioning enters. The oracle is as good as its own certificate, so both sides count.
-TEST_P(EverySolver, AgreesWithTheOracle) {
+TEST_P(NativeSolvers, AgreesWithTheOracle) {
   for (Special special : {Special::None, Special::ZeroTarget, Special::NegativeTarget, Special::OnePoint,
                           Special::OnePixel, Special::Repeated}) {
     const unsigned seeds = special == Special::None || special == Special::Repeated ? 100 : 15;
@@ -62,7 +62,7 @@ TEST_P(EverySolver, AgreesWithTheOracle) {
   }
 }
 
-TEST_P(EverySolver, BoundsOfBothKindsHoldInTheRandomProblems) {
+TEST_P(NativeSolvers, BoundsOfBothKindsHoldInTheRandomProblems) {
   Index at_lower = 0, at_upper = 0, free = 0;
   for (unsigned seed = 0; seed < 20; ++seed) {
     RandomProblem random(seed, Special::None);
@@ -80,7 +80,7 @@ TEST_P(EverySolver, BoundsOfBothKindsHoldInTheRandomProblems) {
   EXPECT_GT(free, 20);
 }
 
-TEST_P(EverySolver, WarmStartFromTheAnswerIsNoWorse) {
+TEST_P(NativeSolvers, WarmStartFromTheAnswerIsNoWorse) {
   RandomProblem random(3, Special::None);
   Vector t;
   const SolverSummary first = make_solver(tight(GetParam()))->solve(random.problem, t);
@@ -91,7 +91,7 @@ TEST_P(EverySolver, WarmStartFromTheAnswerIsNoWorse) {
   EXPECT_LE(second.iterations, 3);
 }
 
-TEST_P(EverySolver, TheSameInputGivesTheSameBytes) {
+TEST_P(NativeSolvers, TheSameInputGivesTheSameBytes) {
   RandomProblem a(5, Special::None), b(5, Special::None);
   Vector ta, tb;
   make_solver(tight(GetParam()))->solve(a.problem, ta);
@@ -99,7 +99,7 @@ TEST_P(EverySolver, TheSameInputGivesTheSameBytes) {
   EXPECT_TRUE(ta == tb);
 }
 
-TEST_P(EverySolver, LimitsLeaveAUsableDwell) {
+TEST_P(NativeSolvers, LimitsLeaveAUsableDwell) {
   RandomProblem random(1, Special::None);
   random.problem.upper.resize(0);  // or three iterations reach the corner of the box
   Vector start = random.problem.lower;
@@ -134,7 +134,7 @@ TEST_P(EverySolver, LimitsLeaveAUsableDwell) {
   EXPECT_LE(certify(random.problem, t).objective, before);
 }
 
-TEST_P(EverySolver, RefusesWhatIsNotFinite) {
+TEST_P(NativeSolvers, RefusesWhatIsNotFinite) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   RandomProblem random(2, Special::None);
   const auto solver = make_solver(tight(GetParam()));
@@ -152,7 +152,7 @@ TEST_P(EverySolver, RefusesWhatIsNotFinite) {
   EXPECT_THROW(solver->solve(random.problem, start), std::invalid_argument);
 }
 
-INSTANTIATE_TEST_SUITE_P(Native, EverySolver,
+INSTANTIATE_TEST_SUITE_P(Native, NativeSolvers,
                          testing::Values(SolverKind::Auto, SolverKind::SpectralProjectedGradient,
                                          SolverKind::ProjectedCg),
                          [](const auto& instance) {
