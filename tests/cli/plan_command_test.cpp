@@ -99,11 +99,11 @@ TEST(PlanCommand, CommandLineComesOverTheJobFile) {
   const SmallInputs inputs;
   inputs.folder.file("job.toml",
                      "map = 'map.csv'\nmap_pixel_mm = 0.5\ntif = 'tif.csv'\ntif_pixel_mm = 0.5\nthreads = 1\n"
-                     "path = 'raster:pitch=1,overrun=2'\nmin_dwell_s = 0.01\nsmoothness = 0.02\nout = 'plan'\n");
+                     "path = 'raster:pitch=1,overrun=2'\nmin_dwell_s = 0.01\nsmoothness = 1.5\nout = 'plan'\n");
   ASSERT_EQ(inputs.run({"plan", "--job", "job.toml", "--min-dwell", "0.03"}).exit_code, 0);
   const json s = summary_of(inputs);
   EXPECT_EQ(s["options"]["min_dwell_s"], "0.03");
-  EXPECT_EQ(s["options"]["smoothness"], "0.02");
+  EXPECT_EQ(s["options"]["smoothness"], "1.5");
   EXPECT_GE(s["dwell"]["min_s"], 0.03);
 }
 
