@@ -133,7 +133,6 @@ nlohmann::json solve_once(const Scenario& scenario, const SolveOptions& options)
   SolverOptions solver;
   solver.kind = options.kind;
   solver.objective_tolerance = 0.0;
-  solver.gap_tolerance = 0.0;
   solver.max_iterations = 1'000'000;
   constexpr double kLeastSeconds = 4.0, kMostSeconds = 60.0;
   solver.max_seconds = std::clamp(scenario.pairs * pair, kLeastSeconds, kMostSeconds);

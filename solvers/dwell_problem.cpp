@@ -72,6 +72,15 @@ double penalty(const DwellProblem& p, const Vector& t) {
   return f;
 }
 
+void add_penalty_gradient(const DwellProblem& p, const Vector& t, Vector& g) {
+  if (p.alpha > 0.0 && !p.smoothness.empty()) p.smoothness.add_normal(p.alpha, t, g);
+  if (p.beta > 0.0) {
+    g += p.beta * t;
+    if (p.reference.size() != 0) g -= p.beta * p.reference;
+  }
+  if (p.gamma > 0.0) g.array() += p.gamma;
+}
+
 void clip_to_bounds(const DwellProblem& p, Vector& t) {
   t = t.cwiseMax(p.lower);
   if (p.upper.size() != 0) t = t.cwiseMin(p.upper);
@@ -110,12 +119,7 @@ void DwellObjective::adjoint_of_weighted(const Vector& r, Vector& g) {
 
 void DwellObjective::gradient(const Vector& r, const Vector& t, Vector& g) {
   adjoint_of_weighted(r, g);
-  if (problem_.alpha > 0.0 && !problem_.smoothness.empty()) problem_.smoothness.add_normal(problem_.alpha, t, g);
-  if (problem_.beta > 0.0) {
-    g += problem_.beta * t;
-    if (problem_.reference.size() != 0) g -= problem_.beta * problem_.reference;
-  }
-  if (problem_.gamma > 0.0) g.array() += problem_.gamma;
+  add_penalty_gradient(problem_, t, g);
 }
 
 void DwellObjective::hessian_times(const Vector& d, const Vector& image, Vector& h) {

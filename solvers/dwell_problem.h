@@ -47,6 +47,9 @@ void validate(const DwellProblem& problem);
 /// The objective's terms that do not see the surface: smoothness, distance from the reference, price of time [nm^2].
 double penalty(const DwellProblem& problem, const Vector& t);
 
+/// g += gradient of the penalty: alpha D'D t + beta (t - t0) + gamma 1.
+void add_penalty_gradient(const DwellProblem& problem, const Vector& t, Vector& g);
+
 /// Moves t into [l, u] componentwise.
 void clip_to_bounds(const DwellProblem& problem, Vector& t);
 

@@ -14,6 +14,7 @@
 #include "solvers/lbfgsb_solver.h"
 #include "solvers/nlopt_solver.h"
 #include "solvers/projected_cg.h"
+#include "solvers/projected_lbfgs.h"
 #include "solvers/spectral_projected_gradient.h"
 
 namespace dwell {
@@ -26,6 +27,8 @@ std::string to_string(SolverKind kind) {
       return "spectral-projected-gradient";
     case SolverKind::ProjectedCg:
       return "projected-cg";
+    case SolverKind::ProjectedLbfgs:
+      return "projected-lbfgs";
     case SolverKind::DenseNnls:
       return "dense-nnls";
     case SolverKind::Ceres:
@@ -47,12 +50,12 @@ std::string to_string(SolverKind kind) {
 }
 
 const std::vector<SolverKind>& solver_kinds() {
-  static const std::vector<SolverKind> kKinds{SolverKind::Auto,         SolverKind::SpectralProjectedGradient,
-                                              SolverKind::ProjectedCg,  SolverKind::DenseNnls,
-                                              SolverKind::Ceres,        SolverKind::Lbfgsb,
-                                              SolverKind::NloptLbfgs,   SolverKind::NloptMma,
-                                              SolverKind::NloptTnewton, SolverKind::NloptSlsqp,
-                                              SolverKind::Fourier};
+  static const std::vector<SolverKind> kKinds{SolverKind::Auto,        SolverKind::SpectralProjectedGradient,
+                                              SolverKind::ProjectedCg, SolverKind::ProjectedLbfgs,
+                                              SolverKind::DenseNnls,   SolverKind::Ceres,
+                                              SolverKind::Lbfgsb,      SolverKind::NloptLbfgs,
+                                              SolverKind::NloptMma,    SolverKind::NloptTnewton,
+                                              SolverKind::NloptSlsqp,  SolverKind::Fourier};
   return kKinds;
 }
 
@@ -95,7 +98,6 @@ void validate(const SolverOptions& o) {
     reject("gradient_tolerance", o.gradient_tolerance, "> 0");
   if (!(std::isfinite(o.objective_tolerance) && o.objective_tolerance >= 0.0))
     reject("objective_tolerance", o.objective_tolerance, ">= 0");
-  if (!(std::isfinite(o.gap_tolerance) && o.gap_tolerance >= 0.0)) reject("gap_tolerance", o.gap_tolerance, ">= 0");
   if (!(o.settle_iterations >= 1)) reject("settle_iterations", o.settle_iterations, ">= 1");
   if (!(o.max_iterations >= 0)) reject("max_iterations", o.max_iterations, ">= 0");
   if (!(o.max_seconds > 0.0)) reject("max_seconds", o.max_seconds, "> 0");
@@ -134,6 +136,8 @@ std::unique_ptr<DwellSolver> make_solver(const SolverOptions& options) {
       return std::make_unique<SpectralProjectedGradient>(options);
     case SolverKind::ProjectedCg:
       return std::make_unique<ProjectedCg>(options);
+    case SolverKind::ProjectedLbfgs:
+      return std::make_unique<ProjectedLbfgs>(options);
     case SolverKind::DenseNnls:
       return std::make_unique<DenseNnls>(options);
     case SolverKind::Ceres:

@@ -13,15 +13,16 @@ namespace dwell {
 enum class SolverKind {
   Auto,  // native: most of the work on pixels matched to the removal function, judged on the full problem
   SpectralProjectedGradient,  // native, matrix-free: the simplest; one operator pair and three vectors an iteration
-  ProjectedCg,   // native, matrix-free: spectral projected gradient to find the face, conjugate gradients on it
-  DenseNnls,     // Lawson-Hanson active set on the dense normal equations; small problems, oracle
-  Ceres,         // Ceres, bounded least squares on the explicit matrix; small problems
-  Lbfgsb,        // L-BFGS-B 3.0
-  NloptLbfgs,    // NLopt LD_LBFGS
-  NloptMma,      // NLopt LD_MMA
-  NloptTnewton,  // NLopt LD_TNEWTON_PRECOND_RESTART
-  NloptSlsqp,    // NLopt LD_SLSQP; small problems
-  Fourier,       // Wiener deconvolution, clipped to the bounds: no optimum, but what many use
+  ProjectedCg,     // native, matrix-free: spectral projected gradient to find the face, conjugate gradients on it
+  ProjectedLbfgs,  // native, matrix-free: projected quasi-Newton steps of exact length
+  DenseNnls,       // Lawson-Hanson active set on the dense normal equations; small problems, oracle
+  Ceres,           // Ceres, bounded least squares on the explicit matrix; small problems
+  Lbfgsb,          // L-BFGS-B 3.0
+  NloptLbfgs,      // NLopt LD_LBFGS
+  NloptMma,        // NLopt LD_MMA
+  NloptTnewton,    // NLopt LD_TNEWTON_PRECOND_RESTART
+  NloptSlsqp,      // NLopt LD_SLSQP; small problems
+  Fourier,         // Wiener deconvolution, clipped to the bounds: no optimum, but what many use
 };
 
 /// Every kind, in the order above.
@@ -61,13 +62,6 @@ struct SolverOptions {
   /// after the residual has stopped to change and while the gradient is still far from its tolerance.
   double objective_tolerance = 5e-3;
   long settle_iterations = 20;
-  /// auto only, in place of the two above: Settled when doubling the work lowered the objective by at most this share.
-  /// The dwell problem is ill-posed: its objective creeps down long after the surface has ceased to gain, and its
-  /// gradient says little (from 1e-6 the residual of a public case still fell tenfold). A bound from duality over all
-  /// dwell of the same total time was tried: 100 to 1000 times the true gap. This is a rule, not a guarantee: where the
-  /// gain of each doubling is half of the one before, what is left is about the last gain; on badly conditioned
-  /// problems gains shrink more slowly and several per cent can be left. 0 = go on to gradient_tolerance. >= 0.
-  double gap_tolerance = 1e-2;
   /// Iterations, each one operator pair (one apply, one adjoint); coarse work counts by its share. >= 0; 0 leaves the
   /// start unchanged.
   long max_iterations = 2000;

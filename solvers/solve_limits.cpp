@@ -36,12 +36,23 @@ bool SolveLimits::allow(double value) {
 bool SolveLimits::count_iteration(const Vector& t, double value) {
   ++summary_.iterations;
   if (options_.progress && !stopped()) {
-    const double rms = std::sqrt(std::max(0.0, 2.0 * (value - penalty(problem_, t))) /
-                                 static_cast<double>(std::max<Index>(1, problem_.pixels())));
-    if (!options_.progress({summary_.iterations, seconds(), value, rms}))
-      stop(SolverStatus::Interrupted, fmt::format("interrupted after {} iterations", summary_.iterations));
+    residual_rms_ = std::sqrt(std::max(0.0, 2.0 * (value - penalty(problem_, t))) /
+                              static_cast<double>(std::max<Index>(1, problem_.pixels())));
+    report(value);
   }
   return allow(value);
+}
+
+bool SolveLimits::poll(double value) {
+  constexpr double kQuarterSecond = 0.25;
+  if (options_.progress && !stopped() && seconds() - reported_seconds_ >= kQuarterSecond) report(value);
+  return allow(value);
+}
+
+void SolveLimits::report(double value) {
+  reported_seconds_ = seconds();
+  if (!options_.progress({summary_.iterations, reported_seconds_, value, residual_rms_}))
+    stop(SolverStatus::Interrupted, fmt::format("interrupted after {} iterations", summary_.iterations));
 }
 
 bool SolveLimits::converged(double projected_gradient, double scale) {

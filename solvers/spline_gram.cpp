@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/bspline.h"
+#include "solvers/simd.h"
 
 namespace dwell {
 namespace {
@@ -35,13 +36,19 @@ std::vector<std::array<double, 10>> products_by_phase(Index factor, bool slope) 
 
 }  // namespace
 
-SplineGram::SplineGram(const Grid& map, CoarseFactor factor) : map_(map), factor_(factor) {
-  lattice_.rows = (map.rows - 1) / factor.y + 4;
-  lattice_.cols = (map.cols - 1) / factor.x + 4;
-  lattice_.pitch_x = map.pitch_x * static_cast<double>(factor.x);
-  lattice_.pitch_y = map.pitch_y * static_cast<double>(factor.y);
-  lattice_.origin = map.origin - Point{lattice_.pitch_x, lattice_.pitch_y};
-  stencil_.assign(static_cast<std::size_t>(lattice_.size() * kWidth * kWidth), 0.0);
+Grid SplineGram::lattice_of(const Grid& map, CoarseFactor factor) {
+  Grid lattice;
+  lattice.rows = (map.rows - 1) / factor.y + 4;
+  lattice.cols = (map.cols - 1) / factor.x + 4;
+  lattice.pitch_x = map.pitch_x * static_cast<double>(factor.x);
+  lattice.pitch_y = map.pitch_y * static_cast<double>(factor.y);
+  lattice.origin = map.origin - Point{lattice.pitch_x, lattice.pitch_y};
+  return lattice;
+}
+
+SplineGram::SplineGram(const Grid& map, CoarseFactor factor, int threads)
+    : map_(map), lattice_(lattice_of(map, factor)), factor_(factor), threads_(threads) {
+  stencil_.assign(static_cast<std::size_t>(lattice_.size() * kWidth * kWidth), 0.0F);
 }
 
 // The weights are products of x and y, so sums are gathered first along a row of pixels within one coarse column (10
@@ -89,8 +96,8 @@ void SplineGram::add_band(Cells& cells, Index first_row) {
         const Index a = ab / 4, b = ab % 4;
         const Index offset = (j - i + kReach) * kWidth + (b - a + kReach);
         stencil_[static_cast<std::size_t>(((first_row + i) * kWidth * kWidth + offset) * lattice_.cols + c + a)] +=
-            cell[triangle(static_cast<std::size_t>(i), static_cast<std::size_t>(j)) * 10 +
-                 triangle(static_cast<std::size_t>(a), static_cast<std::size_t>(b))];
+            static_cast<float>(cell[triangle(static_cast<std::size_t>(i), static_cast<std::size_t>(j)) * 10 +
+                                    triangle(static_cast<std::size_t>(a), static_cast<std::size_t>(b))]);
       }
     }
     cell.fill(0.0);
@@ -98,30 +105,51 @@ void SplineGram::add_band(Cells& cells, Index first_row) {
 }
 
 void SplineGram::apply(const Vector& d, Vector& out) const {
-  out.setZero(lattice_.size());
+  out.resize(lattice_.size());
+  constexpr Index kWorthThreads = 8000;  // nodes
+#pragma omp parallel for num_threads(threads_) schedule(static) if (threads_ > 1 && lattice_.size() >= kWorthThreads)
+  for (Index r = 0; r < lattice_.rows; ++r) apply_row(r, d, out);
+}
+
+namespace {
+
+DWELL_SIMD void add_product(const float* a, const double* b, double* to, Index n) {
+  for (Index i = 0; i < n; ++i) to[i] += static_cast<double>(a[i]) * b[i];
+}
+
+}  // namespace
+
+void SplineGram::apply_row(Index r, const Vector& d, Vector& out) const {
   const Index cols = lattice_.cols;
-  for (Index r = 0; r < lattice_.rows; ++r) {
-    double* to = out.data() + r * cols;
-    for (Index dy = std::max(-kReach, -r); dy <= std::min(kReach, lattice_.rows - 1 - r); ++dy) {
-      const double* from = d.data() + (r + dy) * cols;
-      for (Index dx = -kReach; dx <= kReach; ++dx) {
-        const double* s = stencil_.data() + ((r * kWidth + dy + kReach) * kWidth + dx + kReach) * cols;
-        const Index begin = std::max<Index>(0, -dx), end = std::min(cols, cols - dx);
-        for (Index c = begin; c < end; ++c) to[c] += s[c] * from[c + dx];
-      }
+  double* to = out.data() + r * cols;
+  std::fill(to, to + cols, 0.0);
+  for (Index dy = std::max(-kReach, -r); dy <= std::min(kReach, lattice_.rows - 1 - r); ++dy) {
+    const double* from = d.data() + (r + dy) * cols;
+    for (Index dx = -kReach; dx <= kReach; ++dx) {
+      const float* s = stencil_.data() + ((r * kWidth + dy + kReach) * kWidth + dx + kReach) * cols;
+      const Index begin = std::max<Index>(0, -dx), end = std::min(cols, cols - dx);
+      add_product(s + begin, from + begin + dx, to + begin, end - begin);
     }
   }
 }
 
+// Summed along a row within one coarse column first, as in add().
 void SplineGram::spread(const std::vector<Index>& pixels, const Vector& v, Vector& out) const {
   out.setZero(lattice_.size());
-  for (std::size_t i = 0; i < pixels.size(); ++i) {
-    const Index row = pixels[i] / map_.cols, col = pixels[i] % map_.cols;
-    const auto y = line_weights(row % factor_.y, factor_.y, false), x = line_weights(col % factor_.x, factor_.x, false);
-    for (Index j = 0; j < 4; ++j) {
-      double* to = out.data() + (row / factor_.y + j) * lattice_.cols + col / factor_.x;
-      for (Index k = 0; k < 4; ++k)
-        to[k] += v[static_cast<Index>(i)] * y[static_cast<std::size_t>(j)] * x[static_cast<std::size_t>(k)];
+  std::vector<std::array<double, 4>> along_x(static_cast<std::size_t>(factor_.x));
+  for (Index k = 0; k < factor_.x; ++k) along_x[static_cast<std::size_t>(k)] = line_weights(k, factor_.x, false);
+  for (std::size_t i = 0; i < pixels.size();) {
+    const Index row = pixels[i] / map_.cols, cell = pixels[i] % map_.cols / factor_.x,
+                cell_end = std::min(row * map_.cols + (cell + 1) * factor_.x, (row + 1) * map_.cols);
+    std::array<double, 4> sum{};
+    for (; i < pixels.size() && pixels[i] < cell_end; ++i) {
+      const auto& x = along_x[static_cast<std::size_t>(pixels[i] - row * map_.cols - cell * factor_.x)];
+      for (std::size_t k = 0; k < 4; ++k) sum[k] += x[k] * v[static_cast<Index>(i)];
+    }
+    const auto y = line_weights(row % factor_.y, factor_.y, false);
+    for (std::size_t j = 0; j < 4; ++j) {
+      double* to = out.data() + (row / factor_.y + static_cast<Index>(j)) * lattice_.cols + cell;
+      for (std::size_t k = 0; k < 4; ++k) to[k] += y[j] * sum[k];
     }
   }
 }

@@ -69,7 +69,7 @@ struct Mirror {
 
 SolverOptions options(double gap, double gradient, long iterations) {
   SolverOptions o;
-  o.gap_tolerance = gap;
+  o.objective_tolerance = gap;
   o.gradient_tolerance = gradient;
   o.max_iterations = iterations;
   return o;

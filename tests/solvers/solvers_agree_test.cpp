@@ -20,7 +20,6 @@ SolverOptions tight(SolverKind kind) {
   o.kind = kind;
   o.gradient_tolerance = kGradientTolerance;
   o.objective_tolerance = 0.0;
-  o.gap_tolerance = 0.0;
   o.max_iterations = kind == SolverKind::SpectralProjectedGradient ? 200'000 : 20'000;
   return o;
 }
