@@ -18,6 +18,7 @@ constexpr double kKernelTolerance = 0.01;       // of matched_factor, for smooth
 constexpr double kLooseKernelTolerance = 0.03;  // for measured removal functions, whose noise is not worth pixels
 // Smooth dwell pays with so many dwell points a variable.
 constexpr Index kPointsPerVariable = 3;
+constexpr double kSmoothPitch = 0.4;  // of the lattice of smooth dwell, in sigmas: 0.8 leaves 2 to 9 % of the objective
 // A round with a model is half as much work again as all before it, and at least so many products.
 constexpr long kLeastProducts = 16;
 constexpr double kRoundOfWork = 0.5;
@@ -44,7 +45,7 @@ class Run {
     objective_.residual(t_, r_);
     objective_.gradient(r_, t_, point_.gradient);
     point_.value = objective_.value(r_, t_);
-    if (!done() && t_ == p_.lower) smooth_level({factor.x / 2, factor.y / 2});
+    if (!done() && t_ == p_.lower) smooth_level(factor);
     if (!done()) points_levels(factor);
     t_ = point_.x;
     summary_.objective = point_.value;
@@ -78,7 +79,10 @@ class Run {
     lbfgs.minimise(hessian, 0.1 * o_.gradient_tolerance * scale_, model, monitor_);
   }
 
-  void smooth_level(CoarseFactor factor) {
+  void smooth_level(CoarseFactor matched) {
+    const double finest = kSmoothPitch * equivalent_sigma(p_.geometry->kernel);
+    const Index part = std::max<Index>(2, std::lround(static_cast<double>(std::min(matched.x, matched.y)) / finest));
+    const CoarseFactor factor{matched.x / part, matched.y / part};
     if (std::min(factor.x, factor.y) < 2) return;
     SmoothDwell dwell(*p_.geometry, factor);
     if (dwell.size() * kPointsPerVariable > p_.points()) return;
@@ -185,13 +189,21 @@ class Run {
   long products_ = 0, budget_ = 0;          // of the running round
 };
 
+/// Pixels that hold the removal function to kKernelTolerance; or, if noise or an edge asks for pixels much finer than a
+/// Gaussian of the same energy would, to kLooseKernelTolerance.
+CoarseFactor pixels_for(const RemovalKernel& kernel) {
+  const CoarseFactor factor = matched_factor(kernel, kKernelTolerance);
+  const double gaussian = 0.8 * equivalent_sigma(kernel);
+  if (static_cast<double>(std::min(factor.x, factor.y)) > 0.6 * gaussian) return factor;
+  return matched_factor(kernel, kLooseKernelTolerance);
+}
+
 }  // namespace
 
 void AutoSolver::do_solve(const DwellProblem& problem, Vector& t, SolverSummary& summary) {
   std::string why = "no removal geometry to coarsen";
   if (problem.geometry) {
-    CoarseFactor factor = matched_factor(problem.geometry->kernel, kKernelTolerance);
-    if (std::min(factor.x, factor.y) < 8) factor = matched_factor(problem.geometry->kernel, kLooseKernelTolerance);
+    const CoarseFactor factor = pixels_for(problem.geometry->kernel);
     if (std::min(factor.x, factor.y) < 2) {
       why = "removal function too narrow to coarsen the map";
     } else {

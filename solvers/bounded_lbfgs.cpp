@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "solvers/blocks.h"
 #include "solvers/simd.h"
@@ -42,10 +43,64 @@ DWELL_SIMD void add_two(float a, const float* x, float b, const float* y, float*
   for (Index i = 0; i < n; ++i) to[i] += a * x[i] + b * y[i];
 }
 
+/// Marks with 1 the variables that may move, 0 the others, and masks the gradient; returns its squared norm.
+DWELL_SIMD double mark_free(const double* x, const double* g, const double* lower, const double* upper, float* mask,
+                            float* masked, Index n) {
+  std::array<double, kLanes> sum{};
+  const auto mark = [&](Index i, double& to) {
+    const bool held = (x[i] <= lower[i] && g[i] >= 0.0) || (x[i] >= upper[i] && g[i] <= 0.0);
+    const double kept = held ? 0.0 : g[i];
+    mask[i] = held ? 0.0F : 1.0F;
+    masked[i] = static_cast<float>(kept);
+    to += kept * kept;
+  };
+  Index i = 0;
+  for (; i + kLanes <= n; i += kLanes) {
+    for (Index k = 0; k < kLanes; ++k) mark(i + k, sum[static_cast<std::size_t>(k)]);
+  }
+  for (; i < n; ++i) mark(i, sum[0]);
+  return std::accumulate(sum.begin(), sum.end(), 0.0);
+}
+
+/// d = what the bounds allow of g_share * g + rest on the free variables; returns g'd.
+DWELL_SIMD double aim_block(const double* x, const double* g, const double* lower, const double* upper,
+                            const float* mask, double g_share, const float* rest, double* d, Index n) {
+  std::array<double, kLanes> sum{};
+  const auto aim = [&](Index i, double& to) {
+    const double wish = x[i] + static_cast<double>(mask[i]) * (g_share * g[i] + static_cast<double>(rest[i]));
+    const double raised = wish > lower[i] ? wish : lower[i];
+    d[i] = (raised < upper[i] ? raised : upper[i]) - x[i];
+    to += g[i] * d[i];
+  };
+  Index i = 0;
+  for (; i + kLanes <= n; i += kLanes) {
+    for (Index k = 0; k < kLanes; ++k) aim(i + k, sum[static_cast<std::size_t>(k)]);
+  }
+  for (; i < n; ++i) aim(i, sum[0]);
+  return std::accumulate(sum.begin(), sum.end(), 0.0);
+}
+
+/// x += a d, kept within the bounds against rounding; g += a hd.
+DWELL_SIMD void move_block(double a, const double* d, const double* hd, const double* lower, const double* upper,
+                           double* x, double* g, Index n) {
+  for (Index i = 0; i < n; ++i) {
+    const double to = x[i] + a * d[i], raised = to > lower[i] ? to : lower[i];
+    x[i] = raised < upper[i] ? raised : upper[i];
+    g[i] += a * hd[i];
+  }
+}
+
+DWELL_SIMD void scale_block(double scale, const double* from, float* to, Index n) {
+  for (Index i = 0; i < n; ++i) to[i] = static_cast<float>(scale * from[i]);
+}
+
 }  // namespace
 
 BoundedLbfgs::BoundedLbfgs(const Vector& lower, const Vector& upper, int threads)
-    : lower_(lower), upper_(upper), threads_(threads), free_(static_cast<std::size_t>(lower.size()), 0) {
+    : lower_(lower),
+      upper_(upper.size() != 0 ? upper : Vector::Constant(lower.size(), std::numeric_limits<double>::infinity())),
+      threads_(threads),
+      free_(lower.size()) {
   const Index n = lower.size();
   direction_.resize(n);
   product_.resize(n);
@@ -57,10 +112,6 @@ BoundedLbfgs::BoundedLbfgs(const Vector& lower, const Vector& upper, int threads
 void BoundedLbfgs::forget() {
   pairs_ = 0;
   spectral_length_ = 0.0;
-}
-
-double BoundedLbfgs::upper_at(Index j) const {
-  return upper_.size() != 0 ? upper_[j] : std::numeric_limits<double>::infinity();
 }
 
 void BoundedLbfgs::minimise(QuadraticForm& form, double tolerance, QuadraticPoint& point, const Monitor& go_on) {
@@ -85,20 +136,10 @@ void BoundedLbfgs::minimise(QuadraticForm& form, double tolerance, QuadraticPoin
 BoundedLbfgs::Products BoundedLbfgs::free_products() {
   const QuadraticPoint& p = *point_;
   for_blocks(p.x.size(), threads_, [&](Index b, Index begin, Index length) {
-    Block gradient, mask;
-    double gg = 0.0;
-    for (Index i = 0; i < length; ++i) {
-      const Index j = begin + i;
-      const auto k = static_cast<std::size_t>(i);
-      const double x = p.x[j], g = p.gradient[j];
-      const bool held = (x <= lower_[j] && g >= 0.0) || (x >= upper_at(j) && g <= 0.0);
-      free_[static_cast<std::size_t>(j)] = !held;
-      gg += held ? 0.0 : g * g;
-      mask[k] = held ? 0.0F : 1.0F;
-      gradient[k] = held ? 0.0F : static_cast<float>(g);
-    }
-    sums_(0, b) = gg;
-    sum_block(b, begin, length, gradient.data(), mask.data());
+    Block gradient;
+    sums_(0, b) = mark_free(&p.x[begin], &p.gradient[begin], &lower_[begin], &upper_[begin], &free_[begin],
+                            gradient.data(), length);
+    sum_block(b, begin, length, gradient.data());
   });
   Eigen::Matrix<double, kSums, 1> total = Eigen::Matrix<double, kSums, 1>::Zero();
   for (Index b = 0; b < sums_.cols(); ++b) total += sums_.col(b);
@@ -116,10 +157,10 @@ BoundedLbfgs::Products BoundedLbfgs::free_products() {
   return result;
 }
 
-void BoundedLbfgs::sum_block(Index b, Index begin, Index length, const float* gradient, const float* mask) {
+void BoundedLbfgs::sum_block(Index b, Index begin, Index length, const float* gradient) {
   std::array<Block, kPairs> y;
   for (Index i = 0; i < pairs_; ++i)
-    multiply(y_.col(slot(i)).data() + begin, mask, y[static_cast<std::size_t>(i)].data(), length);
+    multiply(y_.col(slot(i)).data() + begin, &free_[begin], y[static_cast<std::size_t>(i)].data(), length);
   double* sum = sums_.col(b).data() + 1;
   for (Index i = 0; i < pairs_; ++i) {
     const float *si = s_.col(slot(i)).data() + begin, *yi = y[static_cast<std::size_t>(i)].data();
@@ -173,16 +214,8 @@ double BoundedLbfgs::aim(const Combination& step) {
       add_two(static_cast<float>(step.s[i]), s_.col(slot(i)).data() + begin, static_cast<float>(step.y[i]),
               y_.col(slot(i)).data() + begin, sum.data(), length);
     }
-    double slope = 0.0;
-    for (Index i = 0; i < length; ++i) {
-      const Index j = begin + i;
-      const double x = p.x[j], g = p.gradient[j];
-      const double wish = x + step.gradient * g + static_cast<double>(sum[static_cast<std::size_t>(i)]);
-      const double d = free_[static_cast<std::size_t>(j)] ? std::min(std::max(wish, lower_[j]), upper_at(j)) - x : 0.0;
-      direction_[j] = d;
-      slope += g * d;
-    }
-    sums_(0, b) = slope;
+    sums_(0, b) = aim_block(&p.x[begin], &p.gradient[begin], &lower_[begin], &upper_[begin], &free_[begin],
+                            step.gradient, sum.data(), &direction_[begin], length);
   });
   return sum_of_blocks();
 }
@@ -199,7 +232,7 @@ double BoundedLbfgs::aim_along_gradient() {
 bool BoundedLbfgs::spectral_length_known() {
   if (spectral_length_ > 0.0) return true;
   const QuadraticPoint& p = *point_;
-  for (Index j = 0; j < p.x.size(); ++j) direction_[j] = free_[static_cast<std::size_t>(j)] ? p.gradient[j] : 0.0;
+  for (Index j = 0; j < p.x.size(); ++j) direction_[j] = static_cast<double>(free_[j]) * p.gradient[j];
   form_->product(direction_, product_);
   const double curvature = direction_.dot(product_);
   spectral_length_ = curvature > 0.0 ? direction_.squaredNorm() / curvature : 1.0;
@@ -231,14 +264,11 @@ bool BoundedLbfgs::advance(double slope) {
   }
   const double scale = curved ? 1.0 / std::sqrt(curvature) : 0.0;
   for_blocks(p.x.size(), threads_, [&](Index, Index begin, Index length) {
-    for (Index j = begin; j < begin + length; ++j) {
-      const double d = direction_[j], hd = product_[j];
-      p.x[j] = std::min(std::max(p.x[j] + a * d, lower_[j]), upper_at(j));  // rounding only
-      p.gradient[j] += a * hd;
-      if (!curved) continue;
-      s_(j, newest_) = static_cast<float>(scale * d);
-      y_(j, newest_) = static_cast<float>(scale * hd);
-    }
+    move_block(a, &direction_[begin], &product_[begin], &lower_[begin], &upper_[begin], &p.x[begin], &p.gradient[begin],
+               length);
+    if (!curved) return;
+    scale_block(scale, &direction_[begin], &s_(begin, newest_), length);
+    scale_block(scale, &product_[begin], &y_(begin, newest_), length);
   });
   return true;
 }

@@ -17,13 +17,13 @@ namespace dwell {
 ///
 /// Monotone and feasible. Pairs are held in single precision: they steer, they do not enter x or its gradient
 /// (tests/solvers/bounded_lbfgs_test compares with an exact solver). Same bytes for any number of threads.
-/// Memory: 2 vectors, a byte a variable and the pairs, which are worth kPairs vectors.
+/// Memory: 3.5 vectors and the pairs, which are worth kPairs vectors.
 class BoundedLbfgs {
  public:
   using Monitor = BoundedCg::Monitor;
   static constexpr Index kPairs = 5;  // 10, 20 and 40 saved under 10 % of the products and cost more than that
 
-  /// The bounds must outlive this. upper may be empty.
+  /// The lower bounds must outlive this. upper may be empty.
   BoundedLbfgs(const Vector& lower, const Vector& upper, int threads);
 
   /// Improves the point until |projected gradient| <= tolerance, nothing descends any more (rounding), or the monitor,
@@ -48,20 +48,20 @@ class BoundedLbfgs {
   };
 
   Products free_products();
-  void sum_block(Index b, Index begin, Index length, const float* gradient, const float* mask);
+  void sum_block(Index b, Index begin, Index length, const float* gradient);
   Combination two_loops(const Products& products) const;
   double aim(const Combination& step);
   double aim_along_gradient();
   bool spectral_length_known();
   bool advance(double slope);
   double sum_of_blocks() const;
-  double upper_at(Index j) const;
   Index slot(Index age) const { return (newest_ - age + kPairs) % kPairs; }
 
-  const Vector &lower_, &upper_;
+  const Vector& lower_;
+  const Vector upper_;  // infinite where there is none
   int threads_;
   Vector direction_, product_;
-  std::vector<char> free_;
+  Eigen::VectorXf free_;                                // 1 = free, 0 = held
   Eigen::Matrix<float, Eigen::Dynamic, kPairs> s_, y_;  // steps and their products, scaled to s'y = 1
   static constexpr Index kSums = 1 + 2 * kPairs + kPairs * kPairs + kPairs * (kPairs + 1) / 2;
   Eigen::Matrix<double, kSums, Eigen::Dynamic> sums_;  // by block

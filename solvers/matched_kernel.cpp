@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/fft.h"
 
@@ -90,6 +91,12 @@ RemovalKernel matched_kernel(const RemovalKernel& kernel, CoarseFactor factor) {
   }
   result.surface = SplineSurface::with_coefficients(cut, std::move(kept));
   return result;
+}
+
+double equivalent_sigma(const RemovalKernel& kernel) {
+  double volume = 0.0;
+  for (double c : kernel.surface.coefficients()) volume += c;
+  return std::abs(volume) / std::sqrt(4.0 * std::numbers::pi * kernel.energy);
 }
 
 double transform_cost(const Grid& map, const RemovalKernel& kernel) {

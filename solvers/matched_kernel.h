@@ -14,6 +14,9 @@ CoarseFactor matched_factor(const RemovalKernel& kernel, double tolerance);
 /// through every factor-th sample, prefiltered once more. Tails below 1e-5 of the largest coefficient are cut off.
 RemovalKernel matched_kernel(const RemovalKernel& kernel, CoarseFactor factor);
 
+/// Sigma, in pixels, of the Gaussian whose volume and energy are the kernel's.
+double equivalent_sigma(const RemovalKernel& kernel);
+
 /// N log2 N for the padded transform of a map with this kernel: the unit in which operators of different size compare.
 double transform_cost(const Grid& map, const RemovalKernel& kernel);
 
