@@ -18,11 +18,13 @@ constexpr double kKernelTolerance = 0.01;       // of matched_factor, for smooth
 constexpr double kLooseKernelTolerance = 0.03;  // for measured removal functions, whose noise is not worth pixels
 // Smooth dwell pays with so many dwell points a variable.
 constexpr Index kPointsPerVariable = 3;
-constexpr double kSmoothPitch = 0.4;  // of the lattice of smooth dwell, in sigmas: 0.8 leaves 2 to 9 % of the objective
+constexpr double kFinePitch = 0.5;  // of pixels and of the lattice of smooth dwell, in sigmas: 0.8 leaves 2 to 9 % of the objective
 // A round with a model is half as much work again as all before it, and at least so many products.
 constexpr long kLeastProducts = 16;
 constexpr double kRoundOfWork = 0.5;
 constexpr double kLeadsOn = 0.1;    // a model that yields less than this share of its promise leads on no more
+// Own gradient: used up if the full problem's gradient after a step is so many times the model's.
+constexpr double kOwnGradient = 2.5;
 constexpr double kExactFrom = 0.5;  // below this share, and the model's own gradient is to blame
 // Smooth dwell is left for the points when a round lowers the objective by no more than this share.
 constexpr double kSmoothEnough = 0.002;
@@ -45,8 +47,8 @@ class Run {
     objective_.residual(t_, r_);
     objective_.gradient(r_, t_, point_.gradient);
     point_.value = objective_.value(r_, t_);
-    if (!done() && t_ == p_.lower) smooth_level(factor);
-    if (!done()) points_levels(factor);
+    const bool smooth = !done() && t_ == p_.lower && smooth_level(factor);
+    if (!done()) points_levels(smooth ? fine_pixels(factor) : factor);
     t_ = point_.x;
     summary_.objective = point_.value;
   }
@@ -79,13 +81,17 @@ class Run {
     lbfgs.minimise(hessian, 0.1 * o_.gradient_tolerance * scale_, model, monitor_);
   }
 
-  void smooth_level(CoarseFactor matched) {
-    const double finest = kSmoothPitch * equivalent_sigma(p_.geometry->kernel);
-    const Index part = std::max<Index>(2, std::lround(static_cast<double>(std::min(matched.x, matched.y)) / finest));
-    const CoarseFactor factor{matched.x / part, matched.y / part};
-    if (std::min(factor.x, factor.y) < 2) return;
+  CoarseFactor fine_pixels(CoarseFactor matched) const {
+    const double finest = kFinePitch * equivalent_sigma(p_.geometry->kernel);
+    const auto part = static_cast<Index>(std::ceil(static_cast<double>(std::max(matched.x, matched.y)) / finest));
+    return {std::max<Index>(1, matched.x / part), std::max<Index>(1, matched.y / part)};
+  }
+
+  bool smooth_level(CoarseFactor matched) {
+    const CoarseFactor factor = fine_pixels(matched);
+    if (std::min(factor.x, factor.y) < 2) return false;
     SmoothDwell dwell(*p_.geometry, factor);
-    if (dwell.size() * kPointsPerVariable > p_.points()) return;
+    if (dwell.size() * kPointsPerVariable > p_.points()) return false;
     SmoothDwellHessian hessian(p_, dwell, factor);
     set_product_cost(hessian.relative_cost(), kSmoothWork * static_cast<double>(dwell.size()));
     const Vector lower = Vector::Zero(dwell.size()), upper = dwell.largest(p_);
@@ -106,7 +112,9 @@ class Run {
       dwell.prolong(step, d_);
       at.x += move_along_d() * step;
       gained = before - point_.value;
+      if (getenv("DWELL_DEBUG")) fmt::print(stderr, "smooth {} products {} promised {:.4g} gained {:.4g} value {:.9g} work {:.1f} coarse {:.1f} sec {:.2f}\n", factor.x, products_, before - model.value, gained, point_.value, work_, summary_.coarse_pairs, limits_.seconds());
     }
+    return true;
   }
 
   /// Moves to the minimiser of the full objective along d_, at most all the way; returns how far. One operator pair.
@@ -129,16 +137,19 @@ class Run {
   /// The dwell points themselves, on pixels made finer each time the model no longer leads on.
   void points_levels(CoarseFactor factor) {
     BoundedLbfgs lbfgs(p_.lower, p_.upper, p_.geometry->threads);
-    for (; !done() && std::min(factor.x, factor.y) >= 2; factor = {factor.x / 2, factor.y / 2})
-      points_level(lbfgs, factor);
+    for (bool exact = false; !done() && std::min(factor.x, factor.y) >= 2; factor = {factor.x / 2, factor.y / 2})
+      exact = points_level(lbfgs, factor, exact);
   }
 
-  /// Returns when stopped, or when the model's promise and the full problem's gain differ too much.
-  void points_level(BoundedLbfgs& lbfgs, CoarseFactor factor) {
+  /// Returns when stopped, or when the model's promise and the full problem's gain differ too much; and then whether it
+  /// had the exact gradient.
+  bool points_level(BoundedLbfgs& lbfgs, CoarseFactor factor, bool exact) {
     ResolutionMatchedHessian hessian(p_, factor);
     set_product_cost(hessian.relative_cost(), kPointWork * static_cast<double>(p_.points()));
     lbfgs.forget();
-    for (bool exact = false; !done();) {
+    // With its own gradient a model is the better one, until what it takes for its own is no longer the removal's.
+    const bool finest = static_cast<double>(std::max(factor.x, factor.y)) <= kFinePitch * equivalent_sigma(p_.geometry->kernel) || std::min(factor.x, factor.y) < 4;
+    while (!done()) {
       model_.x = point_.x;
       model_.value = point_.value;
       if (exact) {
@@ -150,18 +161,22 @@ class Run {
       d_ = model_.x - point_.x;
       const double promised = point_.value - model_.value, before = point_.value;
       if (promised > 0.0) move_along_d();
-      if (done()) return;
+      if (done()) break;
       const double gained = before - point_.value;
-      const bool leads = gained > (exact ? kLeadsOn : kExactFrom) * promised;
+      if (getenv("DWELL_DEBUG")) fmt::print(stderr, "points {} exact {} products {} promised {:.4g} gained {:.4g} value {:.9g} pg {:.3g} model pg {:.3g} work {:.1f} coarse {:.1f} sec {:.2f}\n", factor.x, exact, products_, promised, gained, point_.value, projected_gradient_norm(p_.lower, p_.upper, point_) / scale_, projected_gradient_norm(p_.lower, p_.upper, model_) / scale_, work_, summary_.coarse_pairs, limits_.seconds());
+      const double left = projected_gradient_norm(p_.lower, p_.upper, point_),
+                   left_by_model = projected_gradient_norm(p_.lower, p_.upper, model_);
+      const bool leads = gained > (exact ? kLeadsOn : kExactFrom) * promised && (exact || left < kOwnGradient * left_by_model);
       const double little = o_.objective_tolerance * std::abs(before);
       if (gained < little && (leads || promised < little)) {
         settle(gained, factor);
-      } else if (!leads && !exact) {
+      } else if (!leads && !exact && finest) {
         exact = true;
       } else if (!leads) {
-        return;
+        break;
       }
     }
+    return exact;
   }
 
   void settle(double gained, CoarseFactor factor) {
