@@ -48,6 +48,12 @@ PlanCase udo_case(const std::filesystem::path& folder) {
        "file:" + (folder / "path_and_published_dwell.csv").string(), "--min-dwell", "0.1", "--smoothness", "0.001"}};
 }
 
+/// What a program that failed said at last.
+std::string last_line(std::string text) {
+  while (text.ends_with('\n')) text.pop_back();
+  return text.substr(text.rfind('\n') + 1);
+}
+
 nlohmann::json run_case(const PlanCase& plan, int threads, double limit, const std::filesystem::path& folder) {
   const std::filesystem::path out = folder / plan.name, words = folder / (plan.name + ".txt");
   std::vector<std::string> arguments{"plan"};
@@ -59,7 +65,7 @@ nlohmann::json run_case(const PlanCase& plan, int threads, double limit, const s
   constexpr int kLimitReached = 3;  // a finished plan, with a remark
   if (child.exit_code != 0 && child.exit_code != kLimitReached) {
     const std::string why = child.end == ChildEnd::Killed ? fmt::format("not done after {:.0f} s", limit)
-                                                          : "dwell plan: " + read_whole_file(words);
+                                                          : "dwell plan: " + last_line(read_whole_file(words));
     return {{"failed", why}};
   }
   const auto summary = nlohmann::json::parse(read_whole_file(out / "summary.json"));

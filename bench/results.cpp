@@ -38,8 +38,9 @@ std::string certificate_table(const nlohmann::json& certificates) {
     text +=
         fmt::format("| {} | {} | {:.0e} |", text_of(run, "scenario"), text_of(run, "solver"), number(run, "tolerance"));
     if (!run.contains("certificate")) {
-      for (const char* why : {"skipped", "refused", "killed"}) {
-        if (run.contains(why)) text += fmt::format(" not asked: {} | | | | | |\n", text_of(run, why));
+      if (run.contains("skipped")) text += fmt::format(" skipped: {} | | | | | |\n", text_of(run, "skipped"));
+      for (const char* why : {"refused", "killed"}) {
+        if (run.contains(why)) text += fmt::format(" {} | | | | | |\n", text_of(run, why));
       }
       continue;
     }
