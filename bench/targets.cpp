@@ -125,13 +125,18 @@ TargetLine peer_line(const Json& all) {
   TargetLine line{fmt::format("fastest peer to 1 % over `auto`, every scenario with {:g} points or more", kPeerPoints),
                   fmt::format(">= {:g}", kPeerRatio), "", Verdict::NotMeasured};
   Worst worst;
-  std::string open;
+  std::string open, lost;
   bool exact = true;
   for (const Json& scenario : list_of(all, "scenarios")) {
     const std::string name = text_of(scenario, "name");
     const Json run = find_run(all, name, "auto", 2);
     if (!scenario.at("peers").get<bool>()) continue;
     if (!run.is_null() && run.contains("points") && !(number(run, "points") >= kPeerPoints)) continue;
+    if (!run.is_null() && run.contains("reached") && !seconds_to_1_percent(run) &&
+        !scenario.at("reference").is_null()) {
+      lost += (lost.empty() ? "" : ", ") + name;
+      continue;
+    }
     const std::optional<PeerRatio> ratio = peer_ratio(all, name);
     // A lower bound below the aim says nothing.
     if (!ratio || (!ratio->exact && !(ratio->ratio >= kPeerRatio))) {
@@ -143,8 +148,10 @@ TargetLine peer_line(const Json& all) {
   }
   if (worst.value) line.seen = fmt::format("least {}{:.3g} ({})", exact ? "" : "> ", *worst.value, worst.where);
   if (!open.empty()) line.seen += fmt::format("{}open: {}", line.seen.empty() ? "" : "; ", open);
+  if (!lost.empty()) line.seen += fmt::format("{}`auto` too late: {}", line.seen.empty() ? "" : "; ", lost);
   line.verdict = at_least(worst.value, kPeerRatio);
   if (!open.empty()) line.verdict = worse(line.verdict, Verdict::NotMeasured);
+  if (!lost.empty()) line.verdict = Verdict::Missed;
   return line;
 }
 

@@ -191,6 +191,7 @@ TEST(Targets, PeersAreTenTimesSlowerOrStoppedByTheClockAfterThat) {
   peer["max_seconds"] = 19.0;  // it could have come at once after that
   EXPECT_EQ(line(results({own, peer}), "fastest peer").verdict, Verdict::NotMeasured);
   EXPECT_EQ(line(results({own}), "fastest peer").verdict, Verdict::NotMeasured);
+  EXPECT_EQ(line(results({never(own, "time limit"), peer}), "fastest peer").verdict, Verdict::Missed);
 }
 
 TEST(Targets, PeersDoNotCountBelowTenThousandPoints) {
