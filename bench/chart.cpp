@@ -104,18 +104,23 @@ std::string draw_chart(const std::vector<ChartPanel>& panels) {
   const std::vector<std::string> labels = labels_of(panels);
   const int columns = panels.size() > 1 ? 2 : 1;
   const int rows = (static_cast<int>(panels.size()) + columns - 1) / columns;
-  constexpr int kKeyLine = 26, kKeyColumns = 4;
-  const int key_rows = (static_cast<int>(labels.size()) + kKeyColumns - 1) / kKeyColumns;
   const int panel_width = kLeft + kWidth + kRight, panel_height = kTop + kHeight + kBottom;
+  const int width = std::max(columns * panel_width, 1100);
+  constexpr int kKeyLine = 26, kKeyMark = 32, kKeyGap = 24;
+  int key_width = 1;
+  for (const std::string& label : labels)
+    key_width = std::max(key_width, kKeyMark + Canvas::text_width(label, 2) + kKeyGap);
+  const int key_columns = std::max(1, (width - kLeft) / key_width);
+  const int key_rows = (static_cast<int>(labels.size()) + key_columns - 1) / key_columns;
   const int key_top = 52, panels_top = key_top + key_rows * kKeyLine + 12;
-  Canvas canvas(std::max(columns * panel_width, 1100), panels_top + std::max(rows, 1) * panel_height, kPaper);
+  Canvas canvas(width, panels_top + std::max(rows, 1) * panel_height, kPaper);
   canvas.text(kLeft, 16, "objective above the reference, against time since the start of the solve, 2 threads", 2,
               kInk);
   for (std::size_t k = 0; k < labels.size(); ++k) {
-    const int x = kLeft + static_cast<int>(k % kKeyColumns) * 250,
-              y = key_top + static_cast<int>(k / kKeyColumns) * kKeyLine;
+    const int x = kLeft + static_cast<int>(k) % key_columns * key_width,
+              y = key_top + static_cast<int>(k) / key_columns * kKeyLine;
     canvas.fill_rectangle(x, y + 5, 24, 4, kColours[k % kColours.size()]);
-    canvas.text(x + 32, y, labels[k], 2, kInk);
+    canvas.text(x + kKeyMark, y, labels[k], 2, kInk);
   }
   for (std::size_t k = 0; k < panels.size(); ++k) {
     const int column = static_cast<int>(k) % columns, row = static_cast<int>(k) / columns;

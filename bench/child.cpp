@@ -1,36 +1,62 @@
 #include "bench/child.h"
 
+#include <fcntl.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <stdexcept>
 
 namespace dwell::bench {
+namespace {
 
-ChildEnd run_child(const std::vector<std::string>& arguments, int threads) {
-  const std::string count = std::to_string(threads);
-  std::vector<std::string> words{"dwell-bench"};
+[[noreturn]] void become(const std::filesystem::path& program, char* const* argv, const ChildOptions& options) {
+  if (!options.output.empty()) {
+    const int file = open(options.output.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    if (file < 0 || dup2(file, STDOUT_FILENO) < 0 || dup2(file, STDERR_FILENO) < 0) _exit(126);
+  }
+  // An alarm outlives execv.
+  if (options.limit > 0.0) alarm(static_cast<unsigned>(std::ceil(options.limit)));
+  execv(program.c_str(), argv);
+  _exit(127);
+}
+
+}  // namespace
+
+ChildRun run_program(const std::filesystem::path& program, const std::vector<std::string>& arguments,
+                     const ChildOptions& options) {
+  std::vector<std::string> words{program.filename().string()};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
   for (std::string& w : words) argv.push_back(w.data());
   argv.push_back(nullptr);
-  setenv("OMP_NUM_THREADS", count.c_str(), 1);
+  setenv("OMP_NUM_THREADS", std::to_string(options.threads).c_str(), 1);
 
+  const auto begin = std::chrono::steady_clock::now();
   const pid_t child = fork();
   if (child < 0) throw std::runtime_error("cannot start a process");
-  if (child == 0) {
-    execv("/proc/self/exe", argv.data());
-    _exit(127);
-  }
+  if (child == 0) become(program, argv.data(), options);
   int status = 0;
-  while (waitpid(child, &status, 0) < 0) {
+  rusage usage{};
+  while (wait4(child, &status, 0, &usage) < 0) {
     if (errno != EINTR) throw std::runtime_error("lost a process");
   }
-  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM) return ChildEnd::Killed;
-  return WIFEXITED(status) && WEXITSTATUS(status) == 0 ? ChildEnd::Done : ChildEnd::Failed;
+  ChildRun run;
+  run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  run.peak_memory = 1024.0 * static_cast<double>(usage.ru_maxrss);
+  if (WIFEXITED(status)) run.exit_code = WEXITSTATUS(status);
+  if (run.exit_code == 0) run.end = ChildEnd::Done;
+  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM) run.end = ChildEnd::Killed;
+  return run;
+}
+
+ChildRun run_child(const std::vector<std::string>& arguments, const ChildOptions& options) {
+  return run_program("/proc/self/exe", arguments, options);
 }
 
 }  // namespace dwell::bench

@@ -8,8 +8,24 @@ namespace dwell::bench {
 
 enum class ChildEnd { Done, Killed, Failed };
 
-/// Runs this very program with other arguments in a process of its own, with OMP_NUM_THREADS = threads, and waits. Its
-/// memory and threads are its own, so one solver cannot disturb the next. Killed: it ended by SIGALRM.
-ChildEnd run_child(const std::vector<std::string>& arguments, int threads);
+struct ChildOptions {
+  int threads = 1;               // OMP_NUM_THREADS
+  double limit = 0.0;            // ended by SIGALRM after so many seconds of wall clock, rounded up; 0 = never
+  std::filesystem::path output;  // takes its standard output and error; empty = those of this process
+};
+
+struct ChildRun {
+  ChildEnd end = ChildEnd::Failed;  // Killed: by SIGALRM
+  int exit_code = -1;               // -1 if a signal ended it
+  double seconds = 0.0;             // wall clock, from before it was started until it was gone
+  double peak_memory = 0.0;         // resident, as the kernel tells on its end (ru_maxrss) [bytes]
+};
+
+/// Runs a program in a process of its own and waits. Its memory and threads are its own, so one measurement cannot
+/// disturb the next. Throws std::runtime_error if no process can be made.
+ChildRun run_program(const std::filesystem::path& program, const std::vector<std::string>& arguments,
+                     const ChildOptions& options);
+/// The same with this very program.
+ChildRun run_child(const std::vector<std::string>& arguments, const ChildOptions& options);
 
 }  // namespace dwell::bench

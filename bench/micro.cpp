@@ -9,6 +9,7 @@
 #include <memory>
 #include <utility>
 
+#include "bench/single_fft.h"
 #include "core/fft.h"
 #include "core/lattice_removal.h"
 #include "core/scattered_removal.h"
@@ -93,6 +94,14 @@ void time_fft_pair(benchmark::State& state, Index padded, int threads) {
   }
 }
 
+void time_single_fft_pair(benchmark::State& state, Index padded, int threads) {
+  SingleFftPair fft(padded, threads);
+  for (auto _ : state) {
+    fft.execute();
+    benchmark::ClobberMemory();
+  }
+}
+
 void time_nearest_path(benchmark::State& state, long edge) {
   HeightMap map(square_grid(edge));
   RandomNumbers random(3);
@@ -114,10 +123,15 @@ void append_size(std::vector<Case>& cases, long size, int threads) {
   std::vector<std::string> kinds{"lattice", "scattered"};
   if (size <= kLargestSparse) kinds.emplace_back("sparse");
   for (const std::string& kind : kinds) {
-    const std::string pair = kind == "sparse" ? "" : kind + "-fft-pair";
-    if (!pair.empty()) {
+    const std::string pair = (kind == "sparse" ? "scattered" : kind) + "-fft-pair";
+    if (kind != "sparse") {
       cases.push_back({pair, size, threads, "",
                        [=](benchmark::State& state) { time_fft_pair(state, padded_size(kind, size), threads); }});
+    }
+    if (kind == "lattice") {
+      cases.push_back({pair + "-single", size, threads, pair, [=](benchmark::State& state) {
+                         time_single_fft_pair(state, padded_size(kind, size), threads);
+                       }});
     }
     for (const bool adjoint : {false, true}) {
       cases.push_back({kind + (adjoint ? "-adjoint" : "-apply"), size, threads, pair,
@@ -139,13 +153,15 @@ std::vector<Case> cases_of(const MicroOptions& options) {
   return cases;
 }
 
+constexpr const char* kLate = "late";  // counter of a repetition that found no time and measured nothing
+
 /// Keeps the single repetitions.
 class Collector : public benchmark::BenchmarkReporter {
  public:
   bool ReportContext(const Context&) override { return true; }
   void ReportRuns(const std::vector<Run>& runs) override {
     for (const Run& run : runs) {
-      if (run.run_type == Run::RT_Iteration && !run.error_occurred && run.iterations > 0)
+      if (run.run_type == Run::RT_Iteration && run.iterations > 0 && !run.counters.contains(kLate))
         seconds_[run.run_name.function_name].push_back(run.real_accumulated_time / static_cast<double>(run.iterations));
     }
   }
@@ -188,11 +204,19 @@ std::vector<MicroResult> results_of(const std::vector<Case>& cases,
 
 }  // namespace
 
-std::vector<MicroResult> run_micro(const MicroOptions& options) {
+std::vector<MicroResult> run_micro(const MicroOptions& options, const Budget& budget, double share) {
   const std::vector<Case> cases = cases_of(options);
   for (const Case& c : cases) {
-    auto* registered = benchmark::RegisterBenchmark(label(c.name, c.size, c.threads).c_str(),
-                                                    [time = c.time](benchmark::State& state) { time(state); });
+    const auto in_time = [time = c.time, &budget, share](benchmark::State& state) {
+      if (budget.left(share) > 0.0) {
+        time(state);
+      } else {
+        // Not SkipWithError: with interleaved repetitions Google Benchmark 1.7 aborts on it.
+        for (auto _ : state) benchmark::ClobberMemory();
+        state.counters[kLate] = 1.0;
+      }
+    };
+    auto* registered = benchmark::RegisterBenchmark(label(c.name, c.size, c.threads).c_str(), in_time);
     registered->UseRealTime()->Unit(benchmark::kMillisecond)->Repetitions(options.repetitions);
     registered->MinTime(options.quick ? 0.02 : 0.05);
   }

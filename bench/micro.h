@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "bench/budget.h"
+
 namespace dwell::bench {
 
 /// One thing timed by Google Benchmark, over its repetitions.
@@ -13,8 +15,9 @@ struct MicroResult {
   int repetitions = 0;
   double seconds = 0.0;  // median wall clock of a call
   double fastest = 0.0, slowest = 0.0;
-  /// Over the bare transform pair of the operator's padded size, same threads; 0 = no such pair. The fastest
-  /// repetition of both: what else the machine does only adds.
+  /// Over the bare transform pair of the operator's padded size in double precision, same threads; 0 = no such pair.
+  /// The fastest repetition of both: what else the machine does only adds. A sparse matrix pads nothing: over the pair
+  /// of the scattered operator, which it stands in for.
   double over_fft = 0.0;
 };
 
@@ -23,8 +26,9 @@ struct MicroOptions {
   int repetitions = 3;
 };
 
-/// Times apply and adjoint of every operator and the bare FFTW pair of their padded sizes, and the path planner.
-/// Repetitions of all are interleaved in random order, so that a slow spell of the machine hits all alike.
-std::vector<MicroResult> run_micro(const MicroOptions& options);
+/// Times apply and adjoint of every operator and the bare FFTW pair of their padded sizes, that pair in single
+/// precision as well, and the path planner. Repetitions of all are interleaved in random order, so that a slow spell of
+/// the machine hits all alike. Starts no repetition after `share` of the budget: what had none is not in the result.
+std::vector<MicroResult> run_micro(const MicroOptions& options, const Budget& budget, double share);
 
 }  // namespace dwell::bench

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "bench/json_access.h"
+
 namespace dwell::bench {
 
 nlohmann::json to_json(const Machine& m) {
@@ -24,6 +26,47 @@ std::string micro_table(const nlohmann::json& micro) {
                         r.at("size").get<long>(), r.at("threads").get<int>(), 1e3 * r.at("seconds").get<double>(),
                         1e3 * r.at("fastest").get<double>(), 1e3 * r.at("slowest").get<double>(),
                         over > 0.0 ? fmt::format("{:.2f}", over) : "");
+  }
+  return text;
+}
+
+std::string certificate_table(const nlohmann::json& certificates) {
+  std::string text =
+      "| scenario | solver | certificate | | pairs: fine + coarse | by the clock | s | gradient at the end | ended by "
+      "|\n|---|---|---:|---|---:|---:|---:|---:|---|\n";
+  for (const auto& run : certificates) {
+    text +=
+        fmt::format("| {} | {} | {:.0e} |", text_of(run, "scenario"), text_of(run, "solver"), number(run, "tolerance"));
+    if (!run.contains("certificate")) {
+      if (run.contains("skipped")) text += fmt::format(" skipped: {} | | | | | |\n", text_of(run, "skipped"));
+      for (const char* why : {"refused", "killed"}) {
+        if (run.contains(why)) text += fmt::format(" {} | | | | | |\n", text_of(run, why));
+      }
+      continue;
+    }
+    const double fine = 0.5 * number(run, "applications"), coarse = number(run, "coarse_pairs");
+    text += fmt::format(" {} | {:.0f} + {:.0f} = {:.0f} | {:.0f} | {:.3g} | {:.1e} | {} |\n",
+                        run.at("certified").get<bool>() ? "reached" : "not reached", fine, coarse, fine + coarse,
+                        number(run, "seconds") / number(run, "pair_seconds"), number(run, "seconds"),
+                        number(run.at("certificate"), "projected_gradient"), text_of(run, "status"));
+  }
+  return text;
+}
+
+std::string plan_table(const nlohmann::json& plans) {
+  std::string text =
+      "| plan | what | dwell points | s | of these solving | GiB | residual nm | total s | solver |\n"
+      "|---|---|---:|---:|---:|---:|---:|---:|---|\n";
+  for (const auto& plan : plans) {
+    text += fmt::format("| {} | {} |", text_of(plan, "name"), text_of(plan, "what"));
+    if (!plan.contains("seconds")) {
+      const char* why = plan.contains("failed") ? "failed" : "skipped";
+      text += fmt::format(" {}: {} | | | | | | |\n", why, text_of(plan, why));
+      continue;
+    }
+    text += fmt::format(" {} | {:.3g} | {:.3g} | {:.2f} | {:.4g} | {:.5g} | {} |\n", plan.at("points").get<long>(),
+                        number(plan, "seconds"), number(plan, "solver_seconds"), number(plan, "peak_memory") / 0x1p30,
+                        number(plan, "residual_rms"), number(plan, "total_dwell"), text_of(plan, "status"));
   }
   return text;
 }

@@ -10,7 +10,9 @@ namespace dwell::bench {
 nlohmann::json to_json(const Machine& machine);
 nlohmann::json to_json(const MicroResult& result);
 
-/// The micro results as a Markdown table.
+/// The results of a part as a Markdown table: of run_micro, run_certificates, run_plans.
 std::string micro_table(const nlohmann::json& micro);
+std::string certificate_table(const nlohmann::json& certificates);
+std::string plan_table(const nlohmann::json& plans);
 
 }  // namespace dwell::bench

@@ -72,8 +72,8 @@ class Watch {
       trace_.push_back({seconds, applications, p.objective, p.residual_rms});
       last_ = p.objective;
     }
-    constexpr double kClose = 1e-4;
-    return !(options_.stop_at_target && options_.target && p.objective <= (1.0 + kClose) * options_.target->objective);
+    return !(options_.stop_at_target && options_.target &&
+             p.objective <= (1.0 + options_.stop_gap) * options_.target->objective);
   }
 
   nlohmann::json trace() const { return trace_; }
@@ -101,14 +101,29 @@ class Watch {
   double last_ = std::numeric_limits<double>::infinity();
 };
 
+double step_rms(const Vector& t) {
+  if (t.size() < 2) return 0.0;
+  const Index steps = t.size() - 1;
+  return std::sqrt((t.tail(steps) - t.head(steps)).squaredNorm() / static_cast<double>(steps));
+}
+
+/// SIGALRM after so many seconds, unless who started this process wants it sooner.
+void end_process_after(double seconds) {
+  const auto wanted = static_cast<unsigned>(std::ceil(seconds));
+  const unsigned before = alarm(wanted);
+  if (before != 0 && before < wanted) alarm(before);
+}
+
 void describe_end(nlohmann::json& result, const SolverSummary& s, const DwellProblem& problem, const Vector& t) {
   const Certificate c = certify(problem, t);
-  result["status"] = s.status == SolverStatus::Interrupted ? "1e-4 reached" : to_string(s.status);
+  result["status"] = s.status == SolverStatus::Interrupted ? "target reached" : to_string(s.status);
   result["message"] = s.message;
   result["iterations"] = s.iterations;
   result["applications"] = s.operator_applications;
+  result["coarse_pairs"] = s.coarse_pairs;
   result["seconds"] = s.seconds;
   result["total_dwell"] = t.sum();
+  result["step_rms"] = step_rms(t);
   result["certificate"] = {{"objective", c.objective},
                            {"residual_rms", c.residual_rms},
                            {"bound_violation", c.bound_violation},
@@ -134,11 +149,12 @@ nlohmann::json solve_once(const Scenario& scenario, const SolveOptions& options)
   solver.kind = options.kind;
   solver.objective_tolerance = 0.0;
   solver.max_iterations = 1'000'000;
-  constexpr double kLeastSeconds = 4.0, kMostSeconds = 60.0;
-  solver.max_seconds = std::clamp(scenario.pairs * pair, kLeastSeconds, kMostSeconds);
+  solver.gradient_tolerance = options.gradient_tolerance;
+  constexpr double kLeastSeconds = 2.0;
+  solver.max_seconds = std::min(std::max(scenario.pairs * pair, kLeastSeconds), options.max_seconds);
   result["max_seconds"] = solver.max_seconds;
   // Not every solver looks at the clock often enough: the signal ends the process.
-  alarm(static_cast<unsigned>(std::ceil(2.0 * solver.max_seconds)) + 3U);
+  end_process_after(2.0 * solver.max_seconds + 3.0);
   reset_peak_memory();
   const double held = memory_field("VmRSS");
   Vector t;

@@ -23,8 +23,11 @@ struct SolveOptions {
   int threads = 1;
   /// Without: the run ends at the time limit or by the solver's own certificate 1e-6.
   std::optional<Target> target;
-  /// Ends a run that comes within 1e-4 of the target's objective. Else it goes on to the certificate.
+  /// Ends a run that comes within `stop_gap` of the target's objective. Else it goes on to the certificate.
   bool stop_at_target = true;
+  double stop_gap = 1e-4;
+  double gradient_tolerance = 1e-6;  // of the solver's own certificate
+  double max_seconds = 60.0;         // for the solve; that of the scenario if it is shorter
 };
 
 /// Solves a scenario once, from the lower bound, and tells what happened:
@@ -32,7 +35,9 @@ struct SolveOptions {
 ///   reached        for each quality: iterations, applications and seconds when the objective ("objective") and the
 ///                  residual ("residual") first were within it; null if never
 ///   trace          [seconds, applications, objective, residual_rms] where the objective fell by 0.1 % since the last
-///   certificate, total_dwell, status, message, iterations, applications, seconds at the end
+///   certificate, total_dwell, status, message, iterations, applications, coarse_pairs, seconds at the end
+///   step_rms       of the differences between neighbours on the path [s]
+///   build_seconds  of making the instance, which is not part of any other number here
 ///   solve_memory   peak of the process while solving less what it held before [bytes], and peak_memory, of all
 /// or "refused", the words of a solver that does not take a problem of this size. Seconds are the solver's own clock
 /// as far as the callback can see it: they start when solve() is called.

@@ -1,26 +1,51 @@
 #include "bench/suite.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <map>
 
-#include "bench/child.h"
 #include "bench/reference.h"
 #include "bench/scenario.h"
-#include "core/whole_file.h"
+#include "bench/solve_child.h"
 
 namespace dwell::bench {
 namespace {
 
+/// In the order of their turns, so that what the budget cuts off is what matters least: ours that is judged, the peers
+/// that are fastest on most scenarios, the others.
+constexpr SolverKind kTurns[] = {
+    SolverKind::Auto,        SolverKind::Lbfgsb,       SolverKind::NloptLbfgs,
+    SolverKind::ProjectedCg, SolverKind::NloptTnewton, SolverKind::SpectralProjectedGradient,
+    SolverKind::Fourier,     SolverKind::Ceres,        SolverKind::DenseNnls,
+    SolverKind::NloptMma,    SolverKind::NloptSlsqp};
+
+/// Runs whoever has not had its turn in `round`, until that share of the budget is spent.
+struct Pass {
+  std::size_t round;
+  double share;
+};
+constexpr Pass kPasses[] = {{0, 0.7}, {1, 0.9}, {0, 1.0}, {2, 1.0}};
+constexpr Pass kQuickPasses[] = {{0, 1.0}, {1, 1.0}};
+
+constexpr double kShortest = 1.0;  // a solve with less time than that is not worth its instance [s]
+
+struct Statistics {
+  double median, fastest, slowest;
+};
+
+Statistics statistics(std::vector<double> v) {
+  std::sort(v.begin(), v.end());
+  return {0.5 * (v[(v.size() - 1) / 2] + v[v.size() / 2]), v.front(), v.back()};
+}
+
 /// One line of the table: its runs so far.
 struct Entry {
-  std::string scenario;
+  const Scenario* scenario;
   SolverKind kind;
   int threads;
   std::vector<nlohmann::json> runs;
+  nlohmann::json to_1_percent;
 
   bool reached_all() const {
     return !runs.empty() && runs.front().contains("reached") && !runs.front()["reached"]["objective"].back().is_null();
@@ -29,35 +54,31 @@ struct Entry {
 
 class Suite {
  public:
-  explicit Suite(const SuiteOptions& options) : options_(options), all_(scenarios(options.data)) {
+  Suite(const SuiteOptions& options, const Budget& budget)
+      : options_(options), budget_(budget), all_(scenarios(options.data)) {
     for (const std::string& name : options.scenarios) find_scenario(all_, name);
-    for (const Scenario& s : all_) {
-      const auto& wanted = options.scenarios;
-      if (!wanted.empty() ? std::find(wanted.begin(), wanted.end(), s.name) == wanted.end() : options.quick && !s.quick)
-        continue;
-      for (const SolverKind kind : solver_kinds()) {
-        if (is_peer(kind) && !s.peers) continue;
-        for (const int threads : {2, 1}) entries_.push_back({s.name, kind, threads, {}});
+    for (const SolverKind kind : kTurns) {
+      for (const Scenario& s : all_) {
+        if (!wanted(s) || (is_peer(kind) && !s.peers)) continue;
+        for (const int threads : {2, 1}) entries_.push_back({&s, kind, threads, {}, {}});
       }
     }
   }
 
   void run() {
-    const int rounds = options_.quick ? 1 : options_.rounds;
-    for (int round = 0; round < rounds; ++round) {
-      for (Entry& entry : entries_) {
-        if (round == 0 && entry.threads != 2) continue;
-        if (round > 0 && !worth_repeating(entry)) continue;
-        if (seconds() > options_.budget) return;
-        entry.runs.push_back(run_once(entry));
-      }
+    if (options_.quick) {
+      for (const Pass& pass : kQuickPasses) run(pass);
+    } else {
+      for (const Pass& pass : kPasses) run(pass);
     }
   }
 
   nlohmann::json results() const {
     nlohmann::json all = nlohmann::json::array();
-    for (const Entry& entry : entries_) {
-      if (!entry.runs.empty()) all.push_back(summarise(entry));
+    for (const Scenario& s : all_) {
+      for (const Entry& entry : entries_) {
+        if (entry.scenario == &s && (!entry.runs.empty() || first_turn(entry) == 0)) all.push_back(summarise(entry));
+      }
     }
     return all;
   }
@@ -66,41 +87,75 @@ class Suite {
     nlohmann::json all = nlohmann::json::array();
     const nlohmann::json references = read_references(options_.references);
     for (const Scenario& s : all_) {
-      const bool used =
-          std::any_of(entries_.begin(), entries_.end(), [&](const Entry& e) { return e.scenario == s.name; });
-      if (!used) continue;
-      nlohmann::json d{{"name", s.name}, {"what", s.what}, {"smoothness", s.smoothness}, {"price", s.price}};
+      if (!wanted(s)) continue;
+      nlohmann::json d{
+          {"name", s.name}, {"what", s.what}, {"smoothness", s.smoothness}, {"price", s.price}, {"peers", s.peers}};
       d["reference"] = target_of(references, s) ? references.at(s.name) : nlohmann::json();
       all.push_back(d);
     }
     return all;
   }
 
-  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count(); }
+  /// Where the time of the suite went: solving, and making the instances around that [s].
+  nlohmann::json accounting() const {
+    return {{"solving", solve_seconds_}, {"around", process_seconds_ - solve_seconds_}};
+  }
 
  private:
-  /// The first round ran on two threads; what did not finish there is not waited for again.
+  bool wanted(const Scenario& s) const {
+    const auto& names = options_.scenarios;
+    if (names.empty()) return !options_.quick || s.quick;
+    return std::find(names.begin(), names.end(), s.name) != names.end();
+  }
+
+  /// The others run on one thread only once it is known that they arrive.
+  static std::size_t first_turn(const Entry& entry) {
+    return entry.threads == 2 || entry.kind == SolverKind::Auto ? 0 : 1;
+  }
+
+  void run(const Pass& pass) {
+    for (Entry& entry : entries_) {
+      // Who was late for round 0 is only later, not more often.
+      if (pass.round < first_turn(entry) || entry.runs.size() + first_turn(entry) > pass.round) continue;
+      if (pass.round > 0 && !worth_repeating(entry)) continue;
+      const double left = budget_.left(pass.share) - around_[entry.scenario];
+      if (left < kShortest) continue;
+      entry.runs.push_back(run_once(entry, left, SolveRequest{}.stop_gap));
+      if (pass.round == 0 && entry.kind == SolverKind::Auto && entry.threads == 2) end_at_1_percent(entry, left);
+    }
+  }
+
+  /// What the coarse levels of `auto` cost is only known at the end of a solve.
+  void end_at_1_percent(Entry& entry, double left) {
+    if (!entry.runs.front().contains("reached") || entry.runs.front()["reached"]["objective"][1].is_null()) return;
+    const nlohmann::json run = run_once(entry, left, kQualities[1]);
+    if (!run.contains("reached") || run["reached"]["objective"][1].is_null()) return;
+    for (const char* key : {"applications", "coarse_pairs", "seconds"}) entry.to_1_percent[key] = run[key];
+  }
+
+  /// What did not arrive in its first round is not waited for again.
   bool worth_repeating(const Entry& entry) const {
+    if (entry.kind == SolverKind::Auto) return true;
     return std::any_of(entries_.begin(), entries_.end(), [&](const Entry& e) {
       return e.scenario == entry.scenario && e.kind == entry.kind && e.threads == 2 && e.reached_all();
     });
   }
 
-  nlohmann::json run_once(const Entry& entry) const {
-    const auto out = std::filesystem::temp_directory_path() / fmt::format("dwell-bench-{}.json", getpid());
-    std::filesystem::remove(out);
-    const auto end = run_child({"solve", "--scenario", entry.scenario, "--solver", to_string(entry.kind), "--threads",
-                                std::to_string(entry.threads), "--data", options_.data.string(), "--references",
-                                options_.references.string(), "--out", out.string()},
-                               entry.threads);
-    nlohmann::json run;
-    if (end == ChildEnd::Done) {
-      run = nlohmann::json::parse(read_whole_file(out));
-    } else {
-      run = {{"killed", end == ChildEnd::Killed ? "not done after twice its time limit" : "the process failed"}};
-    }
-    std::filesystem::remove(out);
-    fmt::print("{:7.1f} s  {:18} {:14} {} threads: {}\n", seconds(), entry.scenario, to_string(entry.kind),
+  nlohmann::json run_once(const Entry& entry, double left, double stop_gap) {
+    const double longest = options_.quick ? 3.0 : entry.kind == SolverKind::Auto ? 60.0 : 20.0;
+    const nlohmann::json run = solve_in_child({.scenario = entry.scenario->name,
+                                               .kind = entry.kind,
+                                               .threads = entry.threads,
+                                               .max_seconds = std::min(longest, left),
+                                               .wall_limit = std::max(1.0, budget_.left()),
+                                               .stop_gap = stop_gap,
+                                               .data = options_.data,
+                                               .references = options_.references});
+    const double process = run["process_seconds"], solve = run.value("seconds", 0.0);
+    if (run.contains("seconds")) around_[entry.scenario] = process - solve;
+    process_seconds_ += process;
+    solve_seconds_ += solve;
+    fmt::print("{:7.1f} s  {:18} {:14} {} threads: {}\n", budget_.spent(), entry.scenario->name, to_string(entry.kind),
                entry.threads, in_words(run));
     std::fflush(stdout);
     return run;
@@ -115,36 +170,47 @@ class Suite {
     return fmt::format("{}s; {}", text, run["message"].get<std::string>());
   }
 
-  static nlohmann::json summarise(const Entry& entry) {
-    nlohmann::json result = entry.runs.front();
-    result["scenario"] = entry.scenario;
+  nlohmann::json summarise(const Entry& entry) const {
+    nlohmann::json result =
+        entry.runs.empty() ? nlohmann::json{{"skipped", "no time left in the budget"}} : entry.runs.front();
+    result["scenario"] = entry.scenario->name;
     result["solver"] = to_string(entry.kind);
     result["threads"] = entry.threads;
     result["rounds"] = entry.runs.size();
+    if (!entry.to_1_percent.is_null()) result["to_1_percent"] = entry.to_1_percent;
     if (!result.contains("reached")) return result;
+    std::vector<double> whole;
+    for (const auto& run : entry.runs) {
+      if (run.contains("seconds")) whole.push_back(run["seconds"]);
+    }
+    put(result["whole"], whole);
     for (const char* what : {"objective", "residual"}) {
       for (std::size_t q = 0; q < std::size(kQualities); ++q) {
         std::vector<double> seconds;
         for (const auto& run : entry.runs) {
-          if (!run.contains("reached")) continue;
-          const auto& slot = run["reached"][what][q];
-          if (!slot.is_null()) seconds.push_back(slot["seconds"]);
+          if (run.contains("reached") && !run["reached"][what][q].is_null())
+            seconds.push_back(run["reached"][what][q]["seconds"]);
         }
         nlohmann::json& slot = result["reached"][what][q];
-        if (seconds.empty() || slot.is_null()) continue;
-        std::sort(seconds.begin(), seconds.end());
-        slot["seconds"] = 0.5 * (seconds[(seconds.size() - 1) / 2] + seconds[seconds.size() / 2]);
-        slot["fastest"] = seconds.front();
-        slot["slowest"] = seconds.back();
+        if (!slot.is_null()) put(slot, seconds);
       }
     }
     return result;
   }
 
-  SuiteOptions options_;
+  static void put(nlohmann::json& slot, const std::vector<double>& seconds) {
+    const Statistics s = statistics(seconds);
+    slot["seconds"] = s.median;
+    slot["fastest"] = s.fastest;
+    slot["slowest"] = s.slowest;
+  }
+
+  const SuiteOptions& options_;
+  const Budget& budget_;
   std::vector<Scenario> all_;
   std::vector<Entry> entries_;
-  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  std::map<const Scenario*, double> around_;  // what a process takes besides solving: making the instance [s]
+  double process_seconds_ = 0.0, solve_seconds_ = 0.0;
 };
 
 }  // namespace
@@ -165,10 +231,10 @@ bool is_peer(SolverKind kind) {
   }
 }
 
-nlohmann::json run_suite(const SuiteOptions& options) {
-  Suite suite(options);
+nlohmann::json run_suite(const SuiteOptions& options, const Budget& budget) {
+  Suite suite(options, budget);
   suite.run();
-  return {{"scenarios", suite.descriptions()}, {"results", suite.results()}, {"seconds", suite.seconds()}};
+  return {{"scenarios", suite.descriptions()}, {"results", suite.results()}, {"suite_seconds", suite.accounting()}};
 }
 
 }  // namespace dwell::bench

@@ -6,15 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "bench/budget.h"
 #include "solvers/dwell_solver.h"
 
 namespace dwell::bench {
 
 struct SuiteOptions {
-  bool quick = false;                  // the smallest scenario, one round
+  bool quick = false;                  // the smallest scenarios, one round, short time limits
   std::vector<std::string> scenarios;  // names; empty = all
-  int rounds = 3;
-  double budget = 600.0;  // no run is started later than this [s]
   std::filesystem::path data;
   std::filesystem::path references;
 };
@@ -22,12 +21,15 @@ struct SuiteOptions {
 /// Somebody else's method, or an oracle: measured where its size allows, and left out where a scenario has no peers.
 bool is_peer(SolverKind kind);
 
-/// Runs every solver on every scenario, each in a process of its own, in interleaved rounds: all of them once on two
-/// threads, then those that came within 0.1 % of the reference on one and on two threads again, until the rounds or the
-/// budget are used up. The result has one entry a scenario, solver and number of threads:
+/// Runs every solver on every scenario, each solve in a process of its own, in interleaved rounds: `auto` first, on two
+/// threads and on one, then the others on two; then again, on both, whoever came within 0.1 % of the reference, until
+/// the rounds or the budget are used up. The result has one entry a scenario, solver and number of threads:
 ///   objective, residual   for 10 %, 1 % and 0.1 %: operator applications, median seconds, fastest, slowest; null where
 ///                         it was not reached, with "limit" the seconds allowed
-///   and what solve_once tells of the first run, its trace included; "refused" or "killed" where there was no answer.
-nlohmann::json run_suite(const SuiteOptions& options);
+///   whole                 the same of the whole solve
+///   to_1_percent          auto on two threads: applications, coarse_pairs and seconds of a solve that was ended there
+///   and what solve_once tells of the first run, its trace included; "refused" or "killed" where there was no answer;
+///   "skipped" where there was no time for it.
+nlohmann::json run_suite(const SuiteOptions& options, const Budget& budget);
 
 }  // namespace dwell::bench

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <stdexcept>
 
 #include "core/bspline.h"
@@ -68,6 +69,57 @@ class StrokeSpreader {
   std::vector<NodeWeight> entries_;
 };
 
+/// Nodes are numbered in 32 bits.
+void check_size(PaddedConvolution& convolution) {
+  if (convolution.field().size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
+    throw std::length_error("padded map has more than 2^31 pixels");
+  }
+}
+
+/// A run of neighbouring strokes, spread by one thread.
+struct SpreadRun {
+  SpreadRun(const Grid& map, const PaddedConvolution& convolution) : spreader(map, convolution) {}
+
+  void spread(std::span<const Stroke> strokes) {
+    entries.clear();
+    ends.clear();
+    for (const Stroke& stroke : strokes) {
+      const auto& more = spreader.spread(stroke);
+      entries.insert(entries.end(), more.begin(), more.end());
+      ends.push_back(entries.size());
+    }
+  }
+
+  StrokeSpreader spreader;
+  std::vector<NodeWeight> entries;
+  std::vector<std::size_t> ends;  // of the entries of each stroke
+};
+
+/// Calls take(entries) for one stroke after the other in path order, whatever the number of threads that spread them.
+template <typename Take>
+void spread_all(const Grid& map, const PaddedConvolution& convolution, const std::vector<Stroke>& strokes, int threads,
+                const Take& take) {
+  constexpr std::size_t kRun = 1024;  // strokes; their entries stay in the cache
+  const int count = std::max(threads, 1);
+  std::vector<SpreadRun> runs(static_cast<std::size_t>(count), SpreadRun(map, convolution));
+  const std::span<const Stroke> all(strokes);
+  for (std::size_t begin = 0; begin < all.size(); begin += kRun * runs.size()) {
+#pragma omp parallel for num_threads(count) schedule(static, 1)
+    for (int k = 0; k < count; ++k) {
+      const std::size_t from = std::min(begin + kRun * static_cast<std::size_t>(k), all.size());
+      runs[static_cast<std::size_t>(k)].spread(all.subspan(from, std::min(kRun, all.size() - from)));
+    }
+    for (const SpreadRun& run : runs) {
+      const std::span<const NodeWeight> entries(run.entries);
+      std::size_t first = 0;
+      for (const std::size_t end : run.ends) {
+        take(entries.subspan(first, end - first));
+        first = end;
+      }
+    }
+  }
+}
+
 }  // namespace
 
 ScatteredRemoval::ScatteredRemoval(const Grid& map, const std::vector<Index>& pixels, const RemovalKernel& kernel,
@@ -75,19 +127,16 @@ ScatteredRemoval::ScatteredRemoval(const Grid& map, const std::vector<Index>& pi
     : RemovalOperator(static_cast<Index>(pixels.size()), static_cast<Index>(strokes.size())),
       convolution_(map, pixels, kernel.surface.coefficients(), kernel.half_rows, kernel.half_cols, threads),
       threads_(threads) {
-  if (convolution_.field().size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
-    throw std::length_error("padded map has more than 2^31 pixels");
-  }
+  check_size(convolution_);
   by_stroke_.begin.reserve(strokes.size() + 1);
   by_stroke_.begin.push_back(0);
-  StrokeSpreader spreader(map, convolution_);
-  for (const Stroke& stroke : strokes) {
-    for (const NodeWeight& entry : spreader.spread(stroke)) {
+  spread_all(map, convolution_, strokes, threads, [this](std::span<const NodeWeight> entries) {
+    for (const NodeWeight& entry : entries) {
       by_stroke_.index.push_back(entry.node);
       by_stroke_.weight.push_back(entry.weight);
     }
     by_stroke_.begin.push_back(static_cast<Index>(by_stroke_.index.size()));
-  }
+  });
   transpose_weights();
 }
 
@@ -146,6 +195,26 @@ void ScatteredRemoval::do_apply_adjoint(const Vector& residual, Vector& t) {
     }
     dwell[j] = sum;
   }
+}
+
+Vector removal_once(const Grid& map, const std::vector<Index>& pixels, const RemovalKernel& kernel,
+                    const std::vector<Stroke>& strokes, const Vector& t, int threads) {
+  if (t.size() != static_cast<Index>(strokes.size())) {
+    throw std::invalid_argument("removal_once: one time a stroke is required");
+  }
+  PaddedConvolution convolution(map, pixels, kernel.surface.coefficients(), kernel.half_rows, kernel.half_cols,
+                                threads);
+  check_size(convolution);
+  convolution.clear_field();
+  double* field = convolution.field().data();
+  Index j = 0;
+  spread_all(map, convolution, strokes, threads, [&](std::span<const NodeWeight> entries) {
+    for (const NodeWeight& entry : entries) field[entry.node] += entry.weight * t[j];
+    ++j;
+  });
+  Vector removal(static_cast<Index>(pixels.size()));
+  convolution.convolve(removal.data());
+  return removal;
 }
 
 }  // namespace dwell

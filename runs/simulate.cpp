@@ -17,10 +17,8 @@ RemovingSteps removing_steps(const Program& program) {
 HeightMap simulate(const Program& program, const HeightMap& map, const RemovalKernel& kernel, int threads) {
   const RemovingSteps removing = removing_steps(program);
   const std::vector<Index> pixels = finite_pixels(map);
-  ScatteredRemoval removal(map.grid, pixels, kernel, removing.strokes, threads);
-  Vector at_pixels;
-  removal.apply(Eigen::Map<const Vector>(removing.seconds.data(), static_cast<Index>(removing.seconds.size())),
-                at_pixels);
+  const Vector seconds = Vector::Map(removing.seconds.data(), static_cast<Index>(removing.seconds.size()));
+  const Vector at_pixels = removal_once(map.grid, pixels, kernel, removing.strokes, seconds, threads);
   HeightMap result(map.grid);
   for (std::size_t i = 0; i < pixels.size(); ++i)
     result.values[static_cast<std::size_t>(pixels[i])] = at_pixels[static_cast<Index>(i)];

@@ -15,7 +15,8 @@ struct RemovingSteps {
 RemovingSteps removing_steps(const Program& program);
 
 /// The removal [nm] that a program makes on the finite pixels of a map (NaN elsewhere), the tool moving continuously as
-/// the program says. Steps that do not remove count nothing. Cost: one operator set-up over all steps, one application.
+/// the program says. Steps that do not remove count nothing. Cost: that of
+/// removal_once.
 HeightMap simulate(const Program& program, const HeightMap& map, const RemovalKernel& kernel, int threads);
 
 /// The surface left: map - removal on the map's finite pixels [nm].

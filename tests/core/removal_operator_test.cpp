@@ -179,6 +179,25 @@ TEST(RemovalOperator, ABumpOfDwellAtPlusXRemovesAtPlusX) {
   }
 }
 
+TEST(RemovalOnce, IsTheScatteredOperatorBitByBit) {
+  const Fixture f;
+  std::vector<Stroke> strokes;  // more than one run of strokes a thread
+  for (int k = 0; k < 60; ++k) {
+    const auto more = strokes_for(f, Kind::Scattered, true, 0.0);
+    strokes.insert(strokes.end(), more.begin(), more.end());
+  }
+  const Vector t = random_vector(static_cast<Index>(strokes.size()), 3);
+  for (const int threads : {1, 2, 3}) {
+    Vector kept;
+    ScatteredRemoval(f.map, f.pixels, f.kernel, strokes, threads).apply(t, kept);
+    const Vector once = removal_once(f.map, f.pixels, f.kernel, strokes, t, threads);
+    ASSERT_EQ(once.size(), kept.size());
+    EXPECT_GT(once.norm(), 0.0);
+    EXPECT_TRUE(once == kept) << threads;
+  }
+  EXPECT_THROW(removal_once(f.map, f.pixels, f.kernel, strokes, t.head(5), 1), std::invalid_argument);
+}
+
 TEST(RemovalOperator, RefusesWrongSizes) {
   const Fixture f;
   const auto a = make(Kind::Scattered, f, strokes_for(f, Kind::Scattered, false, 0.0), 1);

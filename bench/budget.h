@@ -1,0 +1,23 @@
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+
+namespace dwell::bench {
+
+/// The wall clock of a whole run of the harness, started when it is made. Whoever measures asks what is left of it.
+class Budget {
+ public:
+  explicit Budget(double seconds) : total_(seconds) {}
+
+  double total() const { return total_; }
+  double spent() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count(); }
+  /// Until `share` of the whole is spent; not below 0 [s].
+  double left(double share = 1.0) const { return std::max(0.0, share * total_ - spent()); }
+
+ private:
+  double total_;
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace dwell::bench

@@ -1,0 +1,71 @@
+#include "bench/certificate_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "bench/solve_child.h"
+
+namespace dwell::bench {
+namespace {
+
+constexpr double kTolerances[] = {1e-3, 1e-4, 1e-5, 1e-6};
+constexpr double kShortest = 2.0;  // a solve with less time than that would tell nothing [s]
+
+/// Whether the answer passes, by the certificate alone. The bounds have to hold exactly.
+bool certified(const nlohmann::json& run, double tolerance) {
+  if (!run.contains("certificate")) return false;
+  const nlohmann::json& c = run["certificate"];
+  const auto within = [&](const char* key, double most) { return c.at(key).get<double>() <= most; };
+  return within("projected_gradient", tolerance) && within("dual_infeasibility", tolerance) &&
+         within("bound_violation", 0.0);
+}
+
+std::string in_words(const nlohmann::json& run) {
+  for (const char* why : {"killed", "refused", "skipped"}) {
+    if (run.contains(why)) return run[why].get<std::string>();
+  }
+  return fmt::format("{} after {:.2f} s", run["certified"].get<bool>() ? "reached" : "not reached",
+                     run["seconds"].get<double>());
+}
+
+}  // namespace
+
+nlohmann::json run_certificates(const CertificateRunOptions& options, const Budget& budget, double share) {
+  const double longest = options.quick ? 4.0 : 30.0;
+  nlohmann::json all = nlohmann::json::array();
+  for (const SolverKind kind : {SolverKind::Auto, SolverKind::ProjectedCg}) {
+    bool go_on = true;
+    double around = 0.0;  // what a process takes besides solving
+    for (const double tolerance : kTolerances) {
+      nlohmann::json run;
+      const double left = budget.left(share) - around;
+      if (!go_on) {
+        run = {{"skipped", "the one before was not reached"}};
+      } else if (left < kShortest) {
+        run = {{"skipped", "no time left"}};
+      } else {
+        run = solve_in_child({.scenario = options.scenario,
+                              .kind = kind,
+                              .max_seconds = std::min(longest, left),
+                              .wall_limit = budget.left(),
+                              .to_certificate = true,
+                              .gradient_tolerance = tolerance,
+                              .data = options.data,
+                              .references = options.references});
+        run["certified"] = certified(run, tolerance);
+        go_on = run["certified"];
+        if (run.contains("seconds")) around = run["process_seconds"].get<double>() - run["seconds"].get<double>();
+      }
+      run.update(
+          {{"scenario", options.scenario}, {"solver", to_string(kind)}, {"threads", 2}, {"tolerance", tolerance}});
+      fmt::print("{:7.1f} s  {:18} {:14} to certificate {:g}: {}\n", budget.spent(), options.scenario, to_string(kind),
+                 tolerance, in_words(run));
+      std::fflush(stdout);
+      all.push_back(std::move(run));
+    }
+  }
+  return all;
+}
+
+}  // namespace dwell::bench

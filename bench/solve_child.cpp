@@ -1,0 +1,45 @@
+#include "bench/solve_child.h"
+
+#include <fmt/format.h>
+
+#include "bench/child.h"
+#include "bench/scratch_folder.h"
+#include "core/whole_file.h"
+
+namespace dwell::bench {
+
+nlohmann::json solve_in_child(const SolveRequest& r) {
+  const ScratchFolder scratch;
+  const std::filesystem::path out = scratch.path() / "solve.json";
+  std::vector<std::string> arguments{"solve",
+                                     "--scenario",
+                                     r.scenario,
+                                     "--solver",
+                                     to_string(r.kind),
+                                     "--threads",
+                                     std::to_string(r.threads),
+                                     "--max-seconds",
+                                     fmt::format("{}", r.max_seconds),
+                                     "--stop-gap",
+                                     fmt::format("{}", r.stop_gap),
+                                     "--gradient-tolerance",
+                                     fmt::format("{}", r.gradient_tolerance),
+                                     "--data",
+                                     r.data.string(),
+                                     "--references",
+                                     r.references.string(),
+                                     "--out",
+                                     out.string()};
+  if (r.to_certificate) arguments.emplace_back("--to-certificate");
+  const ChildRun child = run_child(arguments, {r.threads, r.wall_limit, {}});
+  nlohmann::json run;
+  if (child.end == ChildEnd::Done) {
+    run = nlohmann::json::parse(read_whole_file(out));
+  } else {
+    run = {{"killed", child.end == ChildEnd::Killed ? "not done after twice its time limit" : "the process failed"}};
+  }
+  run["process_seconds"] = child.seconds;
+  return run;
+}
+
+}  // namespace dwell::bench

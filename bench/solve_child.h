@@ -1,0 +1,29 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <string>
+
+#include "solvers/dwell_solver.h"
+
+namespace dwell::bench {
+
+/// One solve in a process of its own: `dwell-bench solve` and its options.
+struct SolveRequest {
+  std::string scenario;
+  SolverKind kind = SolverKind::ProjectedCg;
+  int threads = 2;
+  double max_seconds = 60.0;  // for the solve alone; that of the scenario if it is shorter
+  double wall_limit = 0.0;    // for the whole process, making the instance included; 0 = none [s]
+  double stop_gap = 1e-4;
+  bool to_certificate = false;
+  double gradient_tolerance = 1e-6;
+  std::filesystem::path data;
+  std::filesystem::path references;
+};
+
+/// What solve_once tells, or "killed", why there is no answer; and "process_seconds", wall clock of the whole process.
+nlohmann::json solve_in_child(const SolveRequest& request);
+
+}  // namespace dwell::bench

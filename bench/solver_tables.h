@@ -1,0 +1,45 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include <optional>
+#include <string>
+
+namespace dwell::bench {
+
+/// `auto` against the peers and our other solvers within 1 % of the reference, a line a scenario.
+std::string summary_table(const nlohmann::json& all);
+/// `auto` on one thread and on two, whole solve, a line a scenario.
+std::string thread_table(const nlohmann::json& all);
+/// One scenario: what it is and every solver on it.
+std::string scenario_section(const nlohmann::json& all, const nlohmann::json& scenario);
+
+/// The line of a solver on a scenario and a number of threads; null if there is none.
+nlohmann::json find_run(const nlohmann::json& all, const std::string& scenario, const std::string& solver, int threads);
+
+/// Seconds to within 1 % of the reference; none if it was not reached.
+std::optional<double> seconds_to_1_percent(const nlohmann::json& run);
+
+/// Work to within 1 % in operator pairs of the full problem. Coarse work is known at the end of a solve only: `exact`
+/// where a solve was ended there, else that of a solve that went on, which is more.
+struct Pairs {
+  double fine = 0.0, coarse = 0.0;
+  bool exact = true;
+  double total() const { return fine + coarse; }
+};
+std::optional<Pairs> pairs_to(const nlohmann::json& run, std::size_t quality);
+
+/// How much slower than `auto` the fastest peer on two threads is within 1 %: exact, or a lower bound if those that
+/// the clock stopped may have come next.
+struct PeerRatio {
+  double ratio = 0.0;
+  bool exact = true;
+  std::string peer;  // the fastest; empty if none arrived
+};
+/// None if `auto` did not arrive or no peer was asked, or none that could arrive was given time.
+std::optional<PeerRatio> peer_ratio(const nlohmann::json& all, const std::string& scenario);
+
+/// One thread over two, whole solve of `auto`; none unless both ended by the same rule and not by the clock.
+std::optional<double> thread_ratio(const nlohmann::json& all, const std::string& scenario);
+
+}  // namespace dwell::bench

@@ -1,0 +1,258 @@
+#include "bench/targets.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "bench/json_access.h"
+#include "bench/solver_tables.h"
+
+namespace dwell::bench {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr double kPairsTo1Percent = 30.0, kPairsToCertificate = 150.0, kCertificate = 1e-6;
+constexpr double kOverTransform = 1.25, kThreadRatio = 1.6, kPeerRatio = 10.0;
+constexpr double kPeerPoints = 1e4;  // from so many dwell points on
+constexpr double kUdoSeconds = 0.5, kUdoPlanSeconds = 2.0;
+constexpr double kUdoStep = 0.0040, kUdoResidual = 0.155, kUdoTotal = 425.0;  // [s], [nm], [s]
+constexpr double kPlanSeconds = 20.0, kPlanGib = 6.0;
+constexpr double kVectors = 16.0;
+constexpr double kLargeVector = 0x1p17;  // below so many numbers, 1 MiB, fixed memory counts for more than vectors
+
+Verdict worse(Verdict a, Verdict b) {
+  for (const Verdict v : {Verdict::Missed, Verdict::NotMeasured}) {
+    if (a == v || b == v) return v;
+  }
+  return Verdict::Met;
+}
+
+/// Of several measurements of one aim, the one farthest from it. NaN is farther than any number.
+struct Worst {
+  std::optional<double> value;
+  std::string where;
+
+  void see(double seen, const std::string& at, bool larger_is_worse) {
+    const bool farther = !value || std::isnan(seen) || (larger_is_worse ? seen > *value : seen < *value);
+    if (!farther || (value && std::isnan(*value))) return;
+    value = seen;
+    where = at;
+  }
+};
+
+TargetLine pairs_line(const Json& all, const std::string& scenario) {
+  TargetLine line{fmt::format("`auto` to 1 %, {}, pairs with coarse levels", scenario),
+                  fmt::format("<= {:g}", kPairsTo1Percent), "", Verdict::NotMeasured};
+  const Json run = find_run(all, scenario, "auto", 2);
+  if (run.is_null() || !run.contains("reached")) return line;
+  const auto& scenarios = list_of(all, "scenarios");
+  const bool compared = std::any_of(scenarios.begin(), scenarios.end(), [&](const Json& s) {
+    return text_of(s, "name") == scenario && !s.at("reference").is_null();
+  });
+  if (!compared) {
+    line.seen = "no reference";
+    return line;
+  }
+  const std::optional<Pairs> pairs = pairs_to(run, 1);
+  if (!pairs) {
+    line.seen = "1 % not reached";
+    line.verdict = Verdict::Missed;
+    return line;
+  }
+  const double by_clock = number(run.at("reached").at("objective").at(1), "seconds") / number(run, "pair_seconds");
+  line.seen = fmt::format("{:.1f} ({:.0f} by the clock)", pairs->total(), by_clock);
+  line.verdict = at_most(pairs->total(), kPairsTo1Percent);
+  return line;
+}
+
+TargetLine certificate_line(const Json& all) {
+  const std::string scenario = "a-1024-every-4";
+  TargetLine line{fmt::format("`auto` to certificate {:g}, {}, pairs", kCertificate, scenario),
+                  fmt::format("<= {:g}", kPairsToCertificate), "", Verdict::NotMeasured};
+  const Json* tightest = nullptr;
+  const Json runs = list_of(all, "certificates");
+  for (const Json& run : runs) {
+    if (text_of(run, "scenario") != scenario || text_of(run, "solver") != "auto" || run.contains("skipped")) continue;
+    if (!tightest || number(run, "tolerance") < number(*tightest, "tolerance")) tightest = &run;
+  }
+  if (!tightest) return line;
+  const Json& run = *tightest;
+  if (!run.at("certified").get<bool>()) {
+    line.seen =
+        run.contains("certificate")
+            ? fmt::format("{:.1e} after {:.0f} pairs, not {:g}", number(run.at("certificate"), "projected_gradient"),
+                          0.5 * number(run, "applications") + number(run, "coarse_pairs"), number(run, "tolerance"))
+            : "no answer";
+    line.verdict = Verdict::Missed;
+  } else if (number(run, "tolerance") <= kCertificate) {
+    const double pairs = 0.5 * number(run, "applications") + number(run, "coarse_pairs");
+    line.seen = fmt::format("reached, {:.0f}", pairs);
+    line.verdict = at_most(pairs, kPairsToCertificate);
+  } else {
+    line.seen = fmt::format("{:g} reached, no time for more", number(run, "tolerance"));
+  }
+  return line;
+}
+
+TargetLine operator_line(const Json& all) {
+  Worst worst;
+  for (const Json& r : list_of(all, "micro")) {
+    const std::string name = text_of(r, "name");
+    // The matrix is for other problems than the transform; the pairs have nothing to be compared with.
+    const bool convolves = name.starts_with("lattice-") || name.starts_with("scattered-");
+    if (!convolves || name.find("fft-pair") != std::string::npos) continue;
+    const double over = number(r, "over_fft");
+    if (over != 0.0)
+      worst.see(over, fmt::format("{} {}, {} threads", name, r.at("size").get<long>(), r.at("threads").get<int>()),
+                true);
+  }
+  return {"one operator application over the bare transform pair, worst of all", fmt::format("<= {:g}", kOverTransform),
+          worst.value ? fmt::format("{:.2f} ({})", *worst.value, worst.where) : "",
+          at_most(worst.value, kOverTransform)};
+}
+
+TargetLine thread_line(const Json& all) {
+  const std::string scenario = "a-2048-every-4";
+  const std::optional<double> ratio = thread_ratio(all, scenario);
+  return {fmt::format("2 threads against 1, {}, whole solve of `auto`", scenario), fmt::format(">= {:g}", kThreadRatio),
+          ratio ? fmt::format("{:.2f}", *ratio) : "", at_least(ratio, kThreadRatio)};
+}
+
+TargetLine peer_line(const Json& all) {
+  TargetLine line{fmt::format("fastest peer to 1 % over `auto`, every scenario with {:g} points or more", kPeerPoints),
+                  fmt::format(">= {:g}", kPeerRatio), "", Verdict::NotMeasured};
+  Worst worst;
+  std::string open, lost;
+  bool exact = true;
+  for (const Json& scenario : list_of(all, "scenarios")) {
+    const std::string name = text_of(scenario, "name");
+    const Json run = find_run(all, name, "auto", 2);
+    if (!scenario.at("peers").get<bool>()) continue;
+    if (!run.is_null() && run.contains("points") && !(number(run, "points") >= kPeerPoints)) continue;
+    if (!run.is_null() && run.contains("reached") && !seconds_to_1_percent(run) &&
+        !scenario.at("reference").is_null()) {
+      lost += (lost.empty() ? "" : ", ") + name;
+      continue;
+    }
+    const std::optional<PeerRatio> ratio = peer_ratio(all, name);
+    // A lower bound below the aim says nothing.
+    if (!ratio || (!ratio->exact && !(ratio->ratio >= kPeerRatio))) {
+      open += (open.empty() ? "" : ", ") + name;
+      continue;
+    }
+    worst.see(ratio->ratio, name, false);
+    if (worst.where == name) exact = ratio->exact;
+  }
+  if (worst.value) line.seen = fmt::format("least {}{:.3g} ({})", exact ? "" : "> ", *worst.value, worst.where);
+  if (!open.empty()) line.seen += fmt::format("{}open: {}", line.seen.empty() ? "" : "; ", open);
+  if (!lost.empty()) line.seen += fmt::format("{}`auto` too late: {}", line.seen.empty() ? "" : "; ", lost);
+  line.verdict = at_least(worst.value, kPeerRatio);
+  if (!open.empty()) line.verdict = worse(line.verdict, Verdict::NotMeasured);
+  if (!lost.empty()) line.verdict = Verdict::Missed;
+  return line;
+}
+
+TargetLine udo_line(const Json& all) {
+  TargetLine line{"udo-raster: solve to the smooth optimum, 2 threads",
+                  fmt::format("<= {:g} s; step <= {:g} s, residual <= {:g} nm, total <= {:g} s", kUdoSeconds, kUdoStep,
+                              kUdoResidual, kUdoTotal),
+                  "", Verdict::NotMeasured};
+  const Json run = find_run(all, "e-udo-raster", "auto", 2);
+  if (run.is_null() || !run.contains("whole")) return line;
+  const double seconds = number(run.at("whole"), "seconds"), step = number(run, "step_rms"),
+               residual = number(run.at("certificate"), "residual_rms"), total = number(run, "total_dwell");
+  line.seen = fmt::format("{:.3g} s; {:.4f} s, {:.4f} nm, {:.1f} s", seconds, step, residual, total);
+  line.verdict = worse(worse(at_most(seconds, kUdoSeconds), at_most(step, kUdoStep)),
+                       worse(at_most(residual, kUdoResidual), at_most(total, kUdoTotal)));
+  return line;
+}
+
+Json find_plan(const Json& all, const std::string& name) {
+  for (const Json& plan : list_of(all, "plans")) {
+    if (text_of(plan, "name") == name) return plan;
+  }
+  return {};
+}
+
+TargetLine plan_line(const Json& all, const std::string& name, double seconds_limit, double gib_limit) {
+  TargetLine line{fmt::format("whole `dwell plan`, {}", name), fmt::format("<= {:g} s", seconds_limit), "",
+                  Verdict::NotMeasured};
+  const bool memory = gib_limit < std::numeric_limits<double>::infinity();
+  if (memory) line.target += fmt::format(", <= {:g} GiB", gib_limit);
+  const Json plan = find_plan(all, name);
+  if (plan.is_null() || plan.contains("skipped")) return line;
+  if (plan.contains("failed")) {
+    line.seen = text_of(plan, "failed");
+    line.verdict = Verdict::Missed;
+    return line;
+  }
+  const double seconds = number(plan, "seconds"), gib = number(plan, "peak_memory") / 0x1p30;
+  line.seen = memory ? fmt::format("{:.1f} s, {:.2f} GiB", seconds, gib) : fmt::format("{:.2f} s", seconds);
+  line.verdict = at_most(seconds, seconds_limit);
+  if (memory) line.verdict = worse(line.verdict, at_most(gib, gib_limit));
+  return line;
+}
+
+TargetLine memory_line(const Json& all) {
+  Worst worst;
+  for (const Json& run : list_of(all, "results")) {
+    if (text_of(run, "solver") != "auto" || !run.contains("solve_memory")) continue;
+    const double longest = std::max(number(run, "points"), number(run, "pixels"));
+    if (longest < kLargeVector) continue;
+    worst.see(number(run, "solve_memory") / (8.0 * longest), text_of(run, "scenario"), true);
+  }
+  return {"memory of a solve of `auto`, in vectors of 1 MiB or more", fmt::format("<= {:g}", kVectors),
+          worst.value ? fmt::format("{:.1f} ({})", *worst.value, worst.where) : "", at_most(worst.value, kVectors)};
+}
+
+}  // namespace
+
+std::string to_string(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::Met:
+      return "met";
+    case Verdict::Missed:
+      return "missed";
+    case Verdict::NotMeasured:
+      return "not measured";
+  }
+  return "not measured";
+}
+
+Verdict at_most(const std::optional<double>& seen, double limit) {
+  if (!seen) return Verdict::NotMeasured;
+  return *seen <= limit ? Verdict::Met : Verdict::Missed;
+}
+
+Verdict at_least(const std::optional<double>& seen, double limit) {
+  if (!seen) return Verdict::NotMeasured;
+  return *seen >= limit ? Verdict::Met : Verdict::Missed;
+}
+
+std::vector<TargetLine> target_lines(const Json& all) {
+  constexpr double kAny = std::numeric_limits<double>::infinity();
+  return {pairs_line(all, "a-1024-every-4"),
+          pairs_line(all, "a-1024-every-1"),
+          pairs_line(all, "e-ibfest-70x30"),
+          certificate_line(all),
+          operator_line(all),
+          thread_line(all),
+          peer_line(all),
+          udo_line(all),
+          plan_line(all, "udo-raster", kUdoPlanSeconds, kAny),
+          plan_line(all, "4096-every-4-stop", kPlanSeconds, kPlanGib),
+          plan_line(all, "4096-every-4-moving", kPlanSeconds, kPlanGib),
+          memory_line(all)};
+}
+
+std::string target_table(const Json& all) {
+  std::string text = "| what | target | seen | |\n|---|---:|---:|---|\n";
+  for (const TargetLine& line : target_lines(all))
+    text += fmt::format("| {} | {} | {} | {} |\n", line.what, line.target, line.seen, to_string(line.verdict));
+  return text;
+}
+
+}  // namespace dwell::bench

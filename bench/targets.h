@@ -1,0 +1,29 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace dwell::bench {
+
+enum class Verdict { Met, Missed, NotMeasured };
+std::string to_string(Verdict verdict);
+
+/// NaN is missed, nothing is not measured.
+Verdict at_most(const std::optional<double>& seen, double limit);
+Verdict at_least(const std::optional<double>& seen, double limit);
+
+/// One aim of the project against what a run has seen.
+struct TargetLine {
+  std::string what, target, seen;
+  Verdict verdict = Verdict::NotMeasured;
+};
+
+/// Every aim, in fixed order, from the JSON of a run; whatever the run left out is not measured.
+std::vector<TargetLine> target_lines(const nlohmann::json& all);
+
+std::string target_table(const nlohmann::json& all);
+
+}  // namespace dwell::bench
