@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "solvers/bounded_lbfgs.h"
 #include "solvers/projected_lbfgs.h"
@@ -14,24 +16,49 @@
 namespace dwell {
 namespace {
 
-constexpr double kKernelTolerance = 0.01;       // of matched_factor, for smooth dwell and where the kernel allows
+constexpr double kKernelTolerance = 0.01;       // of matched_factor, where the kernel allows
 constexpr double kLooseKernelTolerance = 0.03;  // for measured removal functions, whose noise is not worth pixels
-// Smooth dwell pays with so many dwell points a variable.
+// Pitch of the finer pixels and of the lattice of smooth dwell, in sigmas: smooth dwell at 0.8 leaves 2 to 9 % of the
+// objective, at 0.4 under 1.5 %.
+constexpr double kFinePitch = 0.5;
+// Smooth dwell pays with so many dwell points a variable; finer levels of it only where the points are very many.
 constexpr Index kPointsPerVariable = 3;
-constexpr double kFinePitch = 0.5;  // of pixels and of the lattice of smooth dwell, in sigmas: 0.8 leaves 2 to 9 % of the objective
-// A round with a model is half as much work again as all before it, and at least so many products.
-constexpr long kLeastProducts = 16;
-constexpr double kRoundOfWork = 0.5;
-constexpr double kLeadsOn = 0.1;    // a model that yields less than this share of its promise leads on no more
-// Own gradient: used up if the full problem's gradient after a step is so many times the model's.
-constexpr double kOwnGradient = 2.5;
-constexpr double kExactFrom = 0.5;  // below this share, and the model's own gradient is to blame
-// Smooth dwell is left for the points when a round lowers the objective by no more than this share.
+constexpr Index kPointsPerFinerVariable = 10;
+// Smooth dwell is left for finer when a round lowers the objective by no more than this share.
 constexpr double kSmoothEnough = 0.002;
+// A round with a model is half as much work again as all before it, and at least so many products.
+constexpr double kRoundOfWork = 0.5;
+constexpr long kLeastProducts = 16;
+constexpr long kLeastBeforeSettling = 64;  // a warm start is at rest before it is at its end
 // What a product costs besides its transforms, a variable, in the unit of transform_cost: spreading, stencils and the
 // minimiser's own vectors. Measured on six scenarios: 10 to 40, and 45 to 60.
 constexpr double kPointWork = 25.0;
 constexpr double kSmoothWork = 60.0;
+// A model leads on as long as its steps gain these shares of what they promise; with its own gradient, as long as the
+// full problem's gradient after a step is no more than so many times the model's.
+constexpr double kLeadsOn = 0.1;
+constexpr double kLeadsOnItsOwn = 0.5;
+constexpr double kOwnGradient = 2.5;
+
+/// Pixels that hold the removal function to kKernelTolerance; or, if noise or an edge asks for pixels much finer than a
+/// Gaussian of the same energy would, to kLooseKernelTolerance.
+CoarseFactor pixels_for(const RemovalKernel& kernel) {
+  const CoarseFactor factor = matched_factor(kernel, kKernelTolerance);
+  const double gaussian = 0.8 * equivalent_sigma(kernel);
+  if (static_cast<double>(std::min(factor.x, factor.y)) > 0.6 * gaussian) return factor;
+  return matched_factor(kernel, kLooseKernelTolerance);
+}
+
+/// A lattice of half the pitch or less, kFinePitch sigmas at most, even if possible, so that it can be halved.
+CoarseFactor fine_pixels(const RemovalKernel& kernel, CoarseFactor factor) {
+  const double finest = kFinePitch * equivalent_sigma(kernel);
+  const double parts = std::max(2.0, std::ceil(static_cast<double>(std::max(factor.x, factor.y)) / finest));
+  const auto part = [&](Index q) {
+    const auto f = std::max<Index>(1, static_cast<Index>(static_cast<double>(q) / parts));
+    return f >= 4 ? f - f % 2 : f;
+  };
+  return {part(factor.x), part(factor.y)};
+}
 
 class Run {
  public:
@@ -44,11 +71,10 @@ class Run {
     scale_ = objective_.gradient_scale();
     if (!(scale_ > 0.0)) scale_ = 1.0;
     point_.x = t_;
-    objective_.residual(t_, r_);
-    objective_.gradient(r_, t_, point_.gradient);
-    point_.value = objective_.value(r_, t_);
-    const bool smooth = !done() && t_ == p_.lower && smooth_level(factor);
-    if (!done()) points_levels(smooth ? fine_pixels(factor) : factor);
+    take_stock();
+    const CoarseFactor fine = fine_pixels(p_.geometry->kernel, factor);
+    const bool smooth = !done() && t_ == p_.lower && smooth_levels(fine);
+    if (!done()) points_levels(smooth ? fine : factor);
     t_ = point_.x;
     summary_.objective = point_.value;
   }
@@ -58,14 +84,23 @@ class Run {
 
  private:
   bool done() {
-    return limits_.stopped() || !limits_.allow(point_.value) ||
-           limits_.converged(projected_gradient_norm(p_.lower, p_.upper, point_), scale_);
+    return limits_.stopped() || !limits_.allow(point_.value) || limits_.converged(gradient_norm(point_), scale_);
+  }
+
+  /// Residual, gradient and objective at point_.x, from nothing. One operator pair.
+  void take_stock() {
+    clip_to_bounds(p_, point_.x);
+    objective_.residual(point_.x, r_);
+    objective_.gradient(r_, point_.x, point_.gradient);
+    point_.value = objective_.value(r_, point_.x);
+    work_ += 1.0;
   }
 
   /// Called after every product with a model.
   bool go_on() {
     summary_.coarse_pairs += product_cost_;
     work_ += product_work_;
+    ++total_products_;
     return ++products_ < budget_ && limits_.poll(point_.value);
   }
 
@@ -81,24 +116,34 @@ class Run {
     lbfgs.minimise(hessian, 0.1 * o_.gradient_tolerance * scale_, model, monitor_);
   }
 
-  CoarseFactor fine_pixels(CoarseFactor matched) const {
-    const double finest = kFinePitch * equivalent_sigma(p_.geometry->kernel);
-    const auto part = static_cast<Index>(std::ceil(static_cast<double>(std::max(matched.x, matched.y)) / finest));
-    return {std::max<Index>(1, matched.x / part), std::max<Index>(1, matched.y / part)};
+  /// Coarsest first, on lattices each of which holds the one before. Returns whether there was any.
+  bool smooth_levels(CoarseFactor factor) {
+    std::optional<SmoothDwell> dwell;
+    Vector s;
+    Index points_per_variable = kPointsPerVariable;
+    for (; std::min(factor.x, factor.y) >= 2 && !done(); factor = {factor.x / 2, factor.y / 2}) {
+      SmoothDwell next(*p_.geometry, factor);
+      if (next.size() * points_per_variable > p_.points()) break;
+      s = dwell ? next.refined(*dwell, s) : Vector::Zero(next.size());
+      smooth_level(next, factor, s);
+      dwell = std::move(next);
+      if (factor.x % 2 != 0 || factor.y % 2 != 0) break;
+      points_per_variable = kPointsPerFinerVariable;
+    }
+    // On the edge of a node's reach, upper bounds of two levels may differ, and the dwell stand a trace above its own.
+    if (dwell && p_.upper.size() != 0) take_stock();
+    return dwell.has_value();
   }
 
-  bool smooth_level(CoarseFactor matched) {
-    const CoarseFactor factor = fine_pixels(matched);
-    if (std::min(factor.x, factor.y) < 2) return false;
-    SmoothDwell dwell(*p_.geometry, factor);
-    if (dwell.size() * kPointsPerVariable > p_.points()) return false;
+  void smooth_level(SmoothDwell& dwell, CoarseFactor factor, Vector& s) {
     SmoothDwellHessian hessian(p_, dwell, factor);
     set_product_cost(hessian.relative_cost(), kSmoothWork * static_cast<double>(dwell.size()));
     const Vector lower = Vector::Zero(dwell.size()), upper = dwell.largest(p_);
     BoundedLbfgs lbfgs(lower, upper, p_.geometry->threads);
     QuadraticPoint at, model;
-    at.x = lower;
     Vector step;
+    at.x = s;
+    if (upper.size() != 0) at.x = at.x.cwiseMin(upper);
     for (double gained = 1.0, before = 0.0; !done() && gained > kSmoothEnough * std::abs(before);) {
       d_.setZero(p_.points());
       add_penalty_gradient(p_, point_.x, d_);
@@ -112,9 +157,8 @@ class Run {
       dwell.prolong(step, d_);
       at.x += move_along_d() * step;
       gained = before - point_.value;
-      if (getenv("DWELL_DEBUG")) fmt::print(stderr, "smooth {} products {} promised {:.4g} gained {:.4g} value {:.9g} work {:.1f} coarse {:.1f} sec {:.2f}\n", factor.x, products_, before - model.value, gained, point_.value, work_, summary_.coarse_pairs, limits_.seconds());
     }
-    return true;
+    s = at.x;
   }
 
   /// Moves to the minimiser of the full objective along d_, at most all the way; returns how far. One operator pair.
@@ -147,8 +191,8 @@ class Run {
     ResolutionMatchedHessian hessian(p_, factor);
     set_product_cost(hessian.relative_cost(), kPointWork * static_cast<double>(p_.points()));
     lbfgs.forget();
-    // With its own gradient a model is the better one, until what it takes for its own is no longer the removal's.
-    const bool finest = static_cast<double>(std::max(factor.x, factor.y)) <= kFinePitch * equivalent_sigma(p_.geometry->kernel) || std::min(factor.x, factor.y) < 4;
+    const CoarseFactor fine = fine_pixels(p_.geometry->kernel, factor);
+    const bool finest = fine.x == factor.x && fine.y == factor.y;
     while (!done()) {
       model_.x = point_.x;
       model_.value = point_.value;
@@ -163,12 +207,11 @@ class Run {
       if (promised > 0.0) move_along_d();
       if (done()) break;
       const double gained = before - point_.value;
-      if (getenv("DWELL_DEBUG")) fmt::print(stderr, "points {} exact {} products {} promised {:.4g} gained {:.4g} value {:.9g} pg {:.3g} model pg {:.3g} work {:.1f} coarse {:.1f} sec {:.2f}\n", factor.x, exact, products_, promised, gained, point_.value, projected_gradient_norm(p_.lower, p_.upper, point_) / scale_, projected_gradient_norm(p_.lower, p_.upper, model_) / scale_, work_, summary_.coarse_pairs, limits_.seconds());
-      const double left = projected_gradient_norm(p_.lower, p_.upper, point_),
-                   left_by_model = projected_gradient_norm(p_.lower, p_.upper, model_);
-      const bool leads = gained > (exact ? kLeadsOn : kExactFrom) * promised && (exact || left < kOwnGradient * left_by_model);
+      const bool leads =
+          exact ? gained > kLeadsOn * promised
+                : gained > kLeadsOnItsOwn * promised && gradient_norm(point_) < kOwnGradient * gradient_norm(model_);
       const double little = o_.objective_tolerance * std::abs(before);
-      if (gained < little && (leads || promised < little)) {
+      if (gained < little && (leads || promised < little) && total_products_ >= kLeastBeforeSettling) {
         settle(gained, factor);
       } else if (!leads && !exact && finest) {
         exact = true;
@@ -179,13 +222,15 @@ class Run {
     return exact;
   }
 
+  double gradient_norm(const QuadraticPoint& point) const { return projected_gradient_norm(p_.lower, p_.upper, point); }
+
   void settle(double gained, CoarseFactor factor) {
     limits_.stop(
         SolverStatus::Settled,
         fmt::format("settled: objective {:.6g} fell by {:.2g} of itself with half as much work again; {} operator "
                     "pairs and {:.1f} pairs' worth on {} x {} pixels; |pg| {:.2g}",
                     point_.value, gained / std::abs(point_.value), summary_.iterations, summary_.coarse_pairs, factor.x,
-                    factor.y, projected_gradient_norm(p_.lower, p_.upper, point_) / scale_));
+                    factor.y, gradient_norm(point_) / scale_));
   }
 
   const DwellProblem& p_;
@@ -202,16 +247,8 @@ class Run {
 
   double product_work_ = 0.0, work_ = 0.0;  // in operator pairs
   long products_ = 0, budget_ = 0;          // of the running round
+  long total_products_ = 0;
 };
-
-/// Pixels that hold the removal function to kKernelTolerance; or, if noise or an edge asks for pixels much finer than a
-/// Gaussian of the same energy would, to kLooseKernelTolerance.
-CoarseFactor pixels_for(const RemovalKernel& kernel) {
-  const CoarseFactor factor = matched_factor(kernel, kKernelTolerance);
-  const double gaussian = 0.8 * equivalent_sigma(kernel);
-  if (static_cast<double>(std::min(factor.x, factor.y)) > 0.6 * gaussian) return factor;
-  return matched_factor(kernel, kLooseKernelTolerance);
-}
 
 }  // namespace
 

@@ -31,7 +31,23 @@ void add_sums(const Vector& by_pixel, SplineGram::Take take, double scale, Splin
 
 SmoothDwell::SmoothDwell(const RemovalGeometry& g, CoarseFactor factor)
     : cover_(cover_of(g.map, dwell_lattice(g.map, g.strokes, factor), factor)),
+      origin_(g.map.origin),
       points_(SplineGram::lattice_of(cover_, factor), g.strokes, StrokePart::Via, g.threads) {}
+
+// Every node of the coarse lattice is one of this lattice's, so B-splines on it are sums of those here.
+Vector SmoothDwell::refined(const SmoothDwell& coarse, const Vector& s) const {
+  TwoScale relation(lattice(), origin_);
+  const Grid &from = coarse.lattice(), &all = relation.coarse();
+  const auto row = static_cast<Index>(std::llround((from.origin.y - all.origin.y) / all.pitch_y));
+  const auto col = static_cast<Index>(std::llround((from.origin.x - all.origin.x) / all.pitch_x));
+  Vector held = Vector::Zero(all.size()), result;
+  for (Index i = 0; i < from.size(); ++i) {
+    const Index r = row + i / from.cols, c = col + i % from.cols;
+    if (r >= 0 && c >= 0 && r < all.rows && c < all.cols) held[all.index(r, c)] = s[i];
+  }
+  relation.prolong(held, result);
+  return result;
+}
 
 Vector SmoothDwell::largest(const DwellProblem& problem) const {
   if (problem.upper.size() == 0) return {};
@@ -46,7 +62,8 @@ Vector SmoothDwell::largest(const DwellProblem& problem) const {
 SmoothDwellHessian::SmoothDwellHessian(const DwellProblem& problem, const SmoothDwell& dwell, CoarseFactor factor)
     : points_(dwell.cover(), factor, problem.geometry->threads),
       penalty_(dwell.cover(), factor, problem.geometry->threads),
-      removal_(problem, dwell.lattice(), factor) {
+      to_removal_(dwell.lattice(), problem.geometry->map.origin),
+      removal_(problem, to_removal_.coarse(), {2 * factor.x, 2 * factor.y}) {
   const std::vector<Stroke>& strokes = problem.geometry->strokes;
   const Grid& cover = dwell.cover();
   const auto pixel = [&](const Stroke& s) {
@@ -74,15 +91,18 @@ SmoothDwellHessian::SmoothDwellHessian(const DwellProblem& problem, const Smooth
 
 void SmoothDwellHessian::product(const Vector& d, Vector& hd) {
   points_.apply(d, density_);
-  removal_.normal(density_, correlated_);
-  points_.apply(correlated_, hd);
+  to_removal_.restrict_to(density_, coarse_);
+  removal_.normal(coarse_, correlated_);
+  to_removal_.prolong(correlated_, density_);
+  points_.apply(density_, hd);
   penalty_.apply(d, part_);
   hd += part_;
 }
 
 void SmoothDwellHessian::removal_gradient(const Vector& r, Vector& g) {
   removal_.adjoint(r, correlated_);
-  points_.apply(correlated_, g);
+  to_removal_.prolong(correlated_, density_);
+  points_.apply(density_, g);
 }
 
 }  // namespace dwell

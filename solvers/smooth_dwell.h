@@ -3,6 +3,7 @@
 #include "solvers/matched_removal.h"
 #include "solvers/quadratic_form.h"
 #include "solvers/spline_spreading.h"
+#include "solvers/two_scale.h"
 
 namespace dwell {
 
@@ -19,19 +20,24 @@ class SmoothDwell {
   void prolong(const Vector& s, Vector& t) const { points_.gather(s, t); }          // t = P s
   void restrict_to(const Vector& g, Vector& coarse) { points_.spread(g, coarse); }  // coarse = P'g
 
+  /// The coefficients, on this lattice, of the dwell that has `s` on one twice as coarse.
+  Vector refined(const SmoothDwell& coarse, const Vector& s) const;
   /// Upper bounds on s that keep l + P s below the problem's: empty if it has none.
   Vector largest(const DwellProblem& problem) const;
 
  private:
   Grid cover_;
+  Point origin_;  // of the map
   SplineSpreading points_;
 };
 
-/// P'HP for smooth dwell, with every part on the coarse lattice: H of ResolutionMatchedHessian, the sums over dwell
-/// points as stencils (points moved to the nearest pixel and strokes shrunk to points: the strokes are far shorter than
-/// the lattice's pitch), smoothness along the path as squared slopes. Cost does not depend on the number of points.
+/// P'HP for smooth dwell, with every part on the coarse lattice: H of ResolutionMatchedHessian on pixels twice as
+/// coarse as the lattice, the sums over dwell points as stencils (points moved to the nearest pixel and strokes shrunk
+/// to points: the strokes are far shorter than the lattice's pitch), smoothness along the path as squared slopes. Cost
+/// does not depend on the number of points.
 class SmoothDwellHessian final : public QuadraticForm {
  public:
+  /// factor: that of the dwell lattice.
   SmoothDwellHessian(const DwellProblem& problem, const SmoothDwell& dwell, CoarseFactor factor);
 
   void product(const Vector& d, Vector& hd) override;
@@ -41,8 +47,9 @@ class SmoothDwellHessian final : public QuadraticForm {
 
  private:
   SplineGram points_, penalty_;  // P'P; alpha P'D'D P + beta P'P
+  TwoScale to_removal_;
   MatchedRemoval removal_;
-  Vector density_, correlated_, part_;
+  Vector density_, coarse_, correlated_, part_;
 };
 
 }  // namespace dwell
