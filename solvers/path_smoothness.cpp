@@ -40,6 +40,12 @@ double PathSmoothness::squared_norm(const Vector& t) const {
   return sum;
 }
 
+double PathSmoothness::step_rms(const Vector& t) const {
+  Index links = 0;
+  for (Index j = 1; j < scale_.size(); ++j) links += linked(j);
+  return links == 0 ? 0.0 : std::sqrt(squared_norm(t) / static_cast<double>(links));
+}
+
 void PathSmoothness::add_normal(double weight, const Vector& t, Vector& out) const {
   for (Index j = 1; j < scale_.size(); ++j) {
     if (!joined_[static_cast<std::size_t>(j)]) continue;

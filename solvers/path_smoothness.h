@@ -27,6 +27,8 @@ class PathSmoothness {
 
   /// |D t|^2 [s^2].
   double squared_norm(const Vector& t) const;
+  /// |D t| / sqrt(number of links): how much the dwell changes from one stroke to the next [s]. 0 without links.
+  double step_rms(const Vector& t) const;
   /// out += weight * D' D t.
   void add_normal(double weight, const Vector& t, Vector& out) const;
   /// out = ((weight D' D + ridge I) restricted to the free variables)^-1 r, zero elsewhere; scratch of n. The matrix is
