@@ -29,11 +29,14 @@ void print_plan(const Plan& plan, const WrittenPlan& written) {
              to_string(plan.tif.kind), plan.tif.peak, plan.tif.volume, plan.tif.fwhm, plan.tif.radius);
   fmt::print("path      {}, {} points, {:.6g} mm, longest jump {:.4g} mm, {} lifts\n", plan.path.kind,
              plan.metrics.points, plan.metrics.length, plan.metrics.longest_jump, plan.metrics.lifts);
+  fmt::print("weights   smoothness {:.4g}, time price {:.4g} nm^2/s ({})\n", plan.weights.smoothness,
+             plan.weights.time_price,
+             plan.search ? fmt::format("chosen from {} solves", plan.search->trials.size()) : "given");
   fmt::print("solver    {}: {} after {} iterations, {} operator applications, {:.2f} s\n", to_string(plan.solver.kind),
              to_string(plan.solver.status), plan.solver.iterations, plan.solver.operator_applications,
              plan.solver.seconds);
-  fmt::print("dwell     total {:.2f} s, from {:.4g} s to {:.4g} s a point\n", plan.dwell.sum(), plan.dwell.minCoeff(),
-             plan.dwell.maxCoeff());
+  fmt::print("dwell     total {:.2f} s, from {:.4g} s to {:.4g} s a point, step RMS {:.4g} s\n", plan.dwell.sum(),
+             plan.dwell.minCoeff(), plan.dwell.maxCoeff(), plan.step_rms);
   fmt::print("feed      {:.4g} to {:.4g} mm/min, {} of {} segments at a limit\n",
              units::mm_per_min(plan.feed.min_speed), units::mm_per_min(plan.feed.max_speed), plan.feed.segments_limited,
              plan.path.size());

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "core/errors.h"
+#include "core/number_text.h"
 #include "core/spec_text.h"
 #include "core/version.h"
 #include "core/whole_file.h"
@@ -22,13 +23,17 @@ const JobOptionRecord& record_of(const std::string& key, const std::string& file
   throw InputError(fmt::format("{}: unknown field '{}'; accepted: {}", file, key, known));
 }
 
+/// Whether an option takes this string: a number is written as one.
+bool takes_text(const JobOptionRecord& record, const std::string& text) {
+  return !record.is_number || (record.takes_words && !parse_number(text));
+}
+
 std::string text_of(const toml::node& node, const JobOptionRecord& record, const std::string& source) {
   if (record.is_number) {
     if (const auto whole = node.as_integer()) return fmt::format("{}", whole->get());
     if (const auto real = node.as_floating_point()) return fmt::format("{}", real->get());
-  } else if (const auto text = node.as_string()) {
-    return text->get();
   }
+  if (const auto text = node.as_string(); text && takes_text(record, text->get())) return text->get();
   std::ostringstream type, value;
   type << node.type();
   if (node.is_value())
@@ -36,7 +41,9 @@ std::string text_of(const toml::node& node, const JobOptionRecord& record, const
       if constexpr (toml::is_value<decltype(v)>) value << ' ' << v;
     });
   throw InputError(fmt::format("{}:{} is of type {}; required {}", source, value.str(), type.str(),
-                               record.is_number ? "a number (without quotes)" : "a string (in quotes)"));
+                               record.takes_words ? "a number (without quotes) or words (in quotes)"
+                               : record.is_number ? "a number (without quotes)"
+                                                  : "a string (in quotes)"));
 }
 
 /// Whether the value of a file option names a file: a removal function may be a formula.
@@ -88,7 +95,7 @@ std::string job_file_text(const JobOptions& options) {
     if (value.empty()) {
       text += fmt::format("# {} = {}\n", record.key, record.is_number ? "" : "\"\"");
     } else {
-      text += fmt::format("{} = {}\n", record.key, record.is_number ? value : quoted.str());
+      text += fmt::format("{} = {}\n", record.key, takes_text(record, value) ? quoted.str() : value);
     }
   }
   return text;

@@ -13,6 +13,7 @@
 #include "runs/gcode_dialect.h"
 #include "runs/input_files.h"
 #include "runs/motion.h"
+#include "runs/weight_option.h"
 #include "solvers/dwell_solver.h"
 
 namespace dwell {
@@ -103,13 +104,16 @@ std::vector<JobOptionRecord> make_table() {
        [](Options& o, const std::string& t) { o.max_feed_mm_per_min = positive(t); },
        [](const Options& o) { return shown(o.max_feed_mm_per_min); }},
       {"smoothness", "smoothness", "WEIGHT",
-       "weight of smooth feed against residual, dimensionless: 0 = none, 0.01 light, 1 strong", false, true,
-       [](Options& o, const std::string& t) { o.smoothness = not_negative(t); },
-       [](const Options& o) { return shown(o.smoothness); }},
+       "weight of smooth feed against residual, dimensionless: 0 = none, 0.01 light, 1 strong; or auto, step<=S (RMS "
+       "change of dwell between neighbours in s) or residual<=NM",
+       false, true, [](Options& o, const std::string& t) { o.smoothness = parse_weight_goal(t, kSmoothnessTarget); },
+       [](const Options& o) { return to_string(o.smoothness); }, true},
       {"time-price", "time_price_nm2_per_s", "NM2/S",
-       "price of machine time: half the mean square residual in nm^2 that a second may cost", false, true,
-       [](Options& o, const std::string& t) { o.time_price_nm2_per_s = not_negative(t); },
-       [](const Options& o) { return shown(o.time_price_nm2_per_s); }},
+       "price of machine time: half the mean square residual in nm^2 that a second may cost; or auto, total<=S or "
+       "residual<=NM",
+       false, true,
+       [](Options& o, const std::string& t) { o.time_price_nm2_per_s = parse_weight_goal(t, kTimePriceTarget); },
+       [](const Options& o) { return to_string(o.time_price_nm2_per_s); }, true},
       {"solver", "solver", "NAME", "auto, or another of " + solver_words(), false, false,
        [](Options& o, const std::string& t) { parse_solver_kind(t), o.solver = t; },
        [](const Options& o) { return o.solver; }},

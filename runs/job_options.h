@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/point.h"
+#include "solvers/weight_search.h"
 
 namespace dwell {
 
@@ -25,8 +26,8 @@ struct JobOptions {
   std::string aperture = "map";
   double min_dwell_s = 0.0;
   double max_feed_mm_per_min = 3000.0;
-  double smoothness = 0.1;
-  double time_price_nm2_per_s = 0.0;
+  WeightGoal smoothness{0.1};
+  WeightGoal time_price_nm2_per_s{0.0};
   std::string solver = "auto";
   double max_solve_s = 3600.0;
   int threads = 0;
@@ -47,6 +48,8 @@ struct JobOptionRecord {
   void (*set)(JobOptions&, const std::string&);
   /// The value as text; empty = not given.
   std::string (*get)(const JobOptions&);
+  /// A number may also be left open by words, which stand in quotes in a job file.
+  bool takes_words = false;
 };
 
 const std::vector<JobOptionRecord>& job_option_table();

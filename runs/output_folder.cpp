@@ -19,8 +19,8 @@ namespace {
 namespace fs = std::filesystem;
 
 /// An absolute path without links or a trailing separator, so that its parent is the folder that holds it.
-fs::path normal(const fs::path& target) {
-  if (target.empty()) throw InputError("--out: required; the folder for the plan");
+fs::path normal(const fs::path& target, const ResultFiles& files) {
+  if (target.empty()) throw InputError(fmt::format("--out: required; the folder for the {}", files.kind));
   std::error_code error;
   fs::path path = fs::weakly_canonical(fs::absolute(target), error);
   if (error) path = fs::absolute(target).lexically_normal();
@@ -29,33 +29,29 @@ fs::path normal(const fs::path& target) {
 }
 
 /// What shows that a folder is not an earlier result; empty if it is one.
-std::string foreign_entry(const fs::path& target) {
-  bool summary = false;
+std::string foreign_entry(const fs::path& target, const ResultFiles& files) {
+  bool whole = false;
   std::error_code error;
   for (fs::directory_iterator entry(target, error), end; !error && entry != end; entry.increment(error)) {
     const std::string name = entry->path().filename().string();
-    summary = summary || name == "summary.json";
-    if (std::find(kResultFiles.begin(), kResultFiles.end(), name) == kResultFiles.end() ||
-        !entry->is_regular_file(error)) {
-      return fmt::format("it holds '{}'", name);
-    }
+    whole = whole || name == files.always;
+    if (!files.has(name) || !entry->is_regular_file(error)) return fmt::format("it holds '{}'", name);
   }
   if (error) return error.message();
-  return summary ? "" : "it holds no summary.json";
+  return whole ? "" : fmt::format("it holds no {}", files.always);
 }
 
-void check_target(const fs::path& target, const fs::path& shown) {
+void check_target(const fs::path& target, const fs::path& shown, const ResultFiles& files) {
   std::error_code error;
   const fs::file_status status = fs::status(target, error);
   if (!fs::exists(status)) return;
   if (!fs::is_directory(status))
     throw InputError(fmt::format("--out: '{}' is a file; a folder is required", shown.string()));
   if (fs::is_empty(target, error)) return;
-  const std::string other = foreign_entry(target);
+  const std::string other = foreign_entry(target, files);
   if (other.empty()) return;
-  throw InputError(
-      fmt::format("--out: '{}' is not an earlier plan ({}) and is left alone; give an empty or a new folder",
-                  shown.string(), other));
+  throw InputError(fmt::format("--out: '{}' is not an earlier {} ({}) and is left alone; give an empty or a new folder",
+                               shown.string(), files.kind, other));
 }
 
 [[noreturn]] void refuse(const fs::path& target, const std::string& reason) {
@@ -64,8 +60,25 @@ void check_target(const fs::path& target, const fs::path& shown) {
 
 }  // namespace
 
-OutputFolder::OutputFolder(const fs::path& target) : target_(normal(target)) {
-  check_target(target_, target);
+bool ResultFiles::has(std::string_view name) const {
+  return name == always || std::find(others.begin(), others.end(), name) != others.end();
+}
+
+const ResultFiles& plan_files() {
+  static const ResultFiles kFiles{
+      "plan",
+      "summary.json",
+      {"feed.csv", "program.nc", "before.png", "after.png", "dwell.png", "residual.npy", "dwell.npy", "search.csv"}};
+  return kFiles;
+}
+
+const ResultFiles& pareto_files() {
+  static const ResultFiles kFiles{"pareto sweep", "pareto.json", {"pareto.csv", "pareto.png"}};
+  return kFiles;
+}
+
+OutputFolder::OutputFolder(const fs::path& target, const ResultFiles& files) : target_(normal(target, files)) {
+  check_target(target_, target, files);
   temporary_ = target_.parent_path() / fmt::format(".{}.tmp-{}", target_.filename().string(), getpid());
   try {
     make_parents();

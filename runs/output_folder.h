@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -8,10 +7,17 @@
 
 namespace dwell {
 
-/// The files of a plan. A folder that holds nothing else, and a summary.json, is an earlier result; any other file in
-/// it is the user's and not ours to remove.
-inline constexpr std::array<std::string_view, 8> kResultFiles{"summary.json", "feed.csv",  "program.nc",   "before.png",
-                                                              "after.png",    "dwell.png", "residual.npy", "dwell.npy"};
+/// The files of a kind of result. A folder that holds nothing else, and the one that every such result has, is an
+/// earlier result; any other file in it is the user's and not ours to remove.
+struct ResultFiles {
+  std::string_view kind;    // "plan"
+  std::string_view always;  // in every result of the kind
+  std::vector<std::string_view> others;
+
+  bool has(std::string_view name) const;
+};
+const ResultFiles& plan_files();
+const ResultFiles& pareto_files();
 
 /// A folder of results that appears whole or not at all. Files go to a temporary folder beside the target; commit()
 /// puts it in place in one step (an earlier result is exchanged with it and then removed); without commit() the
@@ -19,9 +25,9 @@ inline constexpr std::array<std::string_view, 8> kResultFiles{"summary.json", "f
 class OutputFolder {
  public:
   /// Throws InputError if the target is empty text, a file, a folder that holds anything but an earlier result
-  /// (kResultFiles), or if its parent cannot be written. Checks before any work is done; creates the temporary folder.
+  /// of the kind, or if its parent cannot be written. Checks before any work is done; creates the temporary folder.
   /// A link to a folder stays: what it points to is replaced.
-  explicit OutputFolder(const std::filesystem::path& target);
+  explicit OutputFolder(const std::filesystem::path& target, const ResultFiles& files = plan_files());
   ~OutputFolder();
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;

@@ -7,13 +7,12 @@
 
 #include "core/aperture.h"
 #include "core/errors.h"
-#include "core/removal_geometry.h"
 #include "core/units.h"
 #include "core/whole_file.h"
 #include "paths/path_spec.h"
 #include "runs/motion.h"
+#include "runs/plan_problem.h"
 #include "runs/plan_program.h"
-#include "runs/simulate.h"
 
 namespace dwell {
 namespace {
@@ -55,69 +54,21 @@ void lay_path(Plan& plan, const RunHooks& hooks) {
   hooks.report(fmt::format("path: {} dwell points, {:.4g} mm", plan.path.size(), plan.metrics.length));
 }
 
-std::shared_ptr<const RemovalGeometry> geometry_of(const Plan& plan) {
-  return std::make_shared<const RemovalGeometry>(
-      RemovalGeometry{plan.map.grid, finite_pixels(plan.map), plan.kernel, plan.strokes, plan.threads});
-}
-
-/// What the dwell has to remove: the map, less what the moves between halts remove on their way.
-Vector target_of(const Plan& plan, const std::vector<Index>& pixels, double max_feed) {
-  HeightMap target = plan.map;
-  if (plan.motion == Motion::Stop) {
-    const Program moves = program_of(plan.path, std::vector<double>(plan.path.size(), 0.0), Motion::Stop, max_feed);
-    target = surface_after(plan.map, simulate(moves, plan.map, plan.kernel, plan.threads));
-  }
-  Vector z(static_cast<Index>(pixels.size()));
-  for (std::size_t i = 0; i < pixels.size(); ++i)
-    z[static_cast<Index>(i)] = target.values[static_cast<std::size_t>(pixels[i])];
-  return z;
-}
-
-FeedLimits feed_limits(const JobOptions& o) { return {o.min_dwell_s, units::mm_per_s(o.max_feed_mm_per_min)}; }
-
-DwellProblem problem_of(const Plan& plan, RemovalOperator& removal, std::shared_ptr<const RemovalGeometry> geometry) {
-  const std::vector<Index>& pixels = geometry->pixels;
-  const JobOptions& o = plan.options;
-  const FeedLimits limits = feed_limits(o);
-  DwellProblem problem;
-  problem.removal = &removal;
-  problem.target = target_of(plan, pixels, limits.max_feed);
-  problem.form = form_basis(plan.map.grid, pixels, plan.terms);
-  problem.smoothness = path_smoothness(plan.path, plan.strokes);
-  problem.alpha = o.smoothness * plan.kernel.energy;
-  problem.gamma = o.time_price_nm2_per_s * static_cast<double>(pixels.size());
-  problem.lower = minimum_dwell(plan.strokes, limits);
-  problem.geometry = std::move(geometry);
-  return problem;
-}
-
 void solve_dwell(Plan& plan, const RunHooks& hooks) {
-  const auto geometry = geometry_of(plan);
-  const std::vector<Index>& pixels = geometry->pixels;
-  const auto removal = make_removal_operator(*geometry);
-  hooks.check();
-  const DwellProblem problem = problem_of(plan, *removal, geometry);
-  SolverOptions options;
-  options.kind = parse_solver_kind(plan.options.solver);
-  options.max_seconds = plan.options.max_solve_s;
-  options.progress = [&hooks](const SolverProgress& p) {
-    hooks.report(
-        fmt::format("solve: iteration {}, residual {:.4g} nm RMS, {:.1f} s", p.iterations, p.residual_rms, p.seconds));
-    return !(hooks.stop && hooks.stop());
-  };
-  plan.solver = make_solver(options)->solve(problem, plan.dwell);
-  hooks.check();
-  if (!plan.solver.usable()) throw std::runtime_error("solver " + plan.options.solver + ": " + plan.solver.message);
-  plan.certificate = certify(problem, plan.dwell);
-
-  Vector removed;
-  removal->apply(plan.dwell, removed);
-  HeightMap left(plan.map.grid);
-  for (std::size_t i = 0; i < pixels.size(); ++i) {
-    const auto k = static_cast<Index>(i);
-    left.values[static_cast<std::size_t>(pixels[i])] = problem.target[k] - removed[k];
+  const JobOptions& o = plan.options;
+  PlanProblem problem(plan);
+  WeightedDwell found;
+  if (plan.search) {
+    found = search_plan(problem, o, hooks, *plan.search);
+  } else {
+    found = problem.solve({o.smoothness.value, o.time_price_nm2_per_s.value}, {}, o.max_solve_s, "solve", hooks);
   }
-  plan.residual = map_statistics(left, plan.terms);
+  plan.weights = found.weights;
+  plan.dwell = std::move(found.dwell);
+  plan.solver = std::move(found.solver);
+  plan.step_rms = found.trade_off.step_rms;
+  plan.certificate = certify(problem.with(plan.weights), plan.dwell);
+  plan.residual = map_statistics(problem.left_by(plan.dwell), plan.terms);
 }
 
 void schedule_feed(Plan& plan) {
@@ -132,6 +83,7 @@ void schedule_feed(Plan& plan) {
                                       plan.solver.message,
                                       time ? fmt::format("; --max-solve is {} s", o.max_solve_s) : ""));
   }
+  if (plan.search) plan.limits.insert(plan.limits.end(), plan.search->limits.begin(), plan.search->limits.end());
   if (plan.feed.segments_infeasible > 0) {
     plan.limits.push_back(fmt::format("{} of {} segments run faster than --max-feed {} mm/min allows",
                                       plan.feed.segments_infeasible, plan.path.size(), o.max_feed_mm_per_min));
@@ -142,7 +94,9 @@ void schedule_feed(Plan& plan) {
 
 int thread_count(int asked) { return asked > 0 ? asked : omp_get_num_procs(); }
 
-Plan make_plan(const JobOptions& options, const RunHooks& hooks) {
+FeedLimits feed_limits(const JobOptions& o) { return {o.min_dwell_s, units::mm_per_s(o.max_feed_mm_per_min)}; }
+
+Plan prepare_plan(const JobOptions& options, const RunHooks& hooks) {
   Plan plan;
   plan.options = options;
   plan.threads = thread_count(options.threads);
@@ -150,6 +104,13 @@ Plan make_plan(const JobOptions& options, const RunHooks& hooks) {
   hooks.check();
   lay_path(plan, hooks);
   hooks.check();
+  return plan;
+}
+
+Plan make_plan(const JobOptions& options, const RunHooks& hooks) {
+  const bool search = weights_are_searched(options);
+  Plan plan = prepare_plan(options, hooks);
+  if (search) plan.search.emplace();
   solve_dwell(plan, hooks);
   schedule_feed(plan);
   return plan;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "runs/feed_table.h"
 #include "runs/input_files.h"
 #include "runs/job_options.h"
+#include "runs/plan_search.h"
 #include "runs/run_hooks.h"
 #include "solvers/certificate.h"
 #include "solvers/dwell_solver.h"
@@ -37,7 +39,10 @@ struct Plan {
   std::vector<Stroke> strokes;
   PathMetrics metrics;
 
-  Vector dwell;  // [s], path order
+  Weights weights;                   // given, or found by
+  std::optional<PlanSearch> search;  // nothing = both given
+  Vector dwell;                      // [s], path order
+  double step_rms = 0.0;             // of the dwell, |D t| / sqrt(number of links) [s]
   SolverSummary solver;
   Certificate certificate;
   MapStatistics residual;  // as the solver predicts, form terms removed
@@ -52,6 +57,12 @@ struct Plan {
 /// Plans a job. Throws InputError for anything the user gave that cannot be used, Interrupted if the hooks say stop.
 /// Cost: the solver's operator applications dominate (docs/math.md).
 Plan make_plan(const JobOptions& options, const RunHooks& hooks);
+
+/// The first part of make_plan: inputs read, path laid, no dwell yet.
+Plan prepare_plan(const JobOptions& options, const RunHooks& hooks);
+
+/// The limits on dwell and speed that the options set.
+FeedLimits feed_limits(const JobOptions& options);
 
 /// The number of threads to run: `asked`, or one for every processor if 0.
 int thread_count(int asked);

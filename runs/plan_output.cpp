@@ -93,6 +93,7 @@ WrittenPlan write_plan(Plan& plan, const OutputFolder& folder, const RunHooks& h
   write_pictures(plan, without_form(plan.map, plan.terms), residual, folder);
   folder.write("residual.npy", npy_bytes(residual));
   folder.write("dwell.npy", npy_bytes(std::span<const double>(plan.table.dwell_s)));
+  if (plan.search) folder.write("search.csv", search_table_text(*plan.search));
   written.summary = plan_summary_text(plan, written);
   folder.write("summary.json", written.summary);
   hooks.check();

@@ -14,7 +14,8 @@ struct WrittenPlan {
   std::string summary;           // the text of summary.json
 };
 
-/// Writes feed.csv, program.nc, the pictures, residual.npy, dwell.npy and summary.json into `folder` (docs/formats.md)
+/// Writes feed.csv, program.nc, the pictures, residual.npy, dwell.npy, summary.json and, if the weights were searched,
+/// search.csv into `folder` (docs/formats.md)
 /// without committing it. program.nc is read back from disk and simulated with continuous motion; where that differs
 /// from the solver's prediction by more than kSimulationTolerance, or the two files disagree, a sentence is added to
 /// plan.limits.

@@ -2,22 +2,15 @@
 
 #include <nlohmann/json.hpp>
 
-#include <cmath>
-
 #include "core/units.h"
 #include "core/version.h"
 #include "runs/inputs_json.h"
+#include "runs/options_json.h"
 
 namespace dwell {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// RMS of t[j+1] - t[j] along the path [s].
-double step_rms(const Vector& t) {
-  if (t.size() < 2) return 0.0;
-  return std::sqrt((t.tail(t.size() - 1) - t.head(t.size() - 1)).squaredNorm() / static_cast<double>(t.size() - 1));
-}
 
 Json map_json(const Plan& plan) {
   const Grid& g = plan.map.grid;
@@ -56,15 +49,25 @@ Json solve_json(const Plan& plan) {
             {"complementarity_s", c.complementarity}}}};
 }
 
-Json options_json(const Plan& plan) {
-  Json options = Json::object();
-  for (const JobOptionRecord& record : job_option_table()) {
-    if (record.key == "out") continue;  // where a plan lies is not part of what it is
-    const std::string value = record.get(plan.options);
-    if (!value.empty()) options[record.key] = value;
+/// How the weights were found: the trials in order.
+Json search_json(const PlanSearch& search) {
+  Json trials = Json::array();
+  for (const PlanTrial& t : search.trials) {
+    trials.push_back({{"smoothness", t.weights.smoothness},
+                      {"time_price_nm2_per_s", t.weights.time_price},
+                      {"residual_rms_nm", t.trade_off.residual_rms},
+                      {"total_s", t.trade_off.total},
+                      {"step_rms_s", t.trade_off.step_rms},
+                      {"objective_nm2", t.objective},
+                      {"operator_applications", t.operator_applications}});
   }
-  options["threads"] = std::to_string(plan.threads);
-  return options;
+  return {{"criterion", search.criterion}, {"chosen", search.chosen}, {"trials", trials}};
+}
+
+Json weights_json(const Plan& plan) {
+  Json weights{{"smoothness", plan.weights.smoothness}, {"time_price_nm2_per_s", plan.weights.time_price}};
+  if (plan.search) weights["search"] = search_json(*plan.search);
+  return weights;
 }
 
 }  // namespace
@@ -81,12 +84,13 @@ std::string plan_summary_text(const Plan& plan, const WrittenPlan& written) {
         {"length_mm", plan.metrics.length},
         {"longest_jump_mm", plan.metrics.longest_jump},
         {"lifts", plan.metrics.lifts}}},
+      {"weights", weights_json(plan)},
       {"solve", solve_json(plan)},
       {"dwell",
        {{"total_s", plan.dwell.sum()},
         {"min_s", plan.dwell.minCoeff()},
         {"max_s", plan.dwell.maxCoeff()},
-        {"step_rms_s", step_rms(plan.dwell)}}},
+        {"step_rms_s", plan.step_rms}}},
       {"residual", {{"removed", to_string(plan.terms)}, {"rms_nm", plan.residual.rms}, {"pv_nm", plan.residual.pv}}},
       {"feed",
        {{"motion", to_string(plan.motion)},

@@ -29,7 +29,7 @@ double projected_gradient_norm(const Vector& lower, const Vector& upper, const Q
 
 BoundedCg::BoundedCg(const Vector& lower, const Vector& upper)
     : lower_(lower), upper_(upper), free_(static_cast<std::size_t>(lower.size()), 0) {
-  for (Vector* v : {&direction_, &product_, &step_, &step_product_, &descent_, &preconditioned_})
+  for (Vector* v : {&direction_, &product_, &step_, &step_product_, &descent_})
     v->resize(lower.size());
 }
 
@@ -129,11 +129,10 @@ void BoundedCg::minimise_on_face() {
   mark_free();
   descent_ = -point_->gradient;
   mask(descent_);
-  form_->precondition(free_, descent_, preconditioned_);
-  direction_ = preconditioned_;
+  direction_ = descent_;
   step_.setZero();
   step_product_.setZero();
-  double rho = descent_.dot(preconditioned_), best_decrease = 0.0;
+  double rho = descent_.squaredNorm(), best_decrease = 0.0;
   for (long k = 0; k < cg_limit_ && descent_.squaredNorm() > 0.01 * tolerance_ * tolerance_ && rho > 0.0 && running_;
        ++k) {
     if (!multiply(direction_, product_)) break;
@@ -144,9 +143,8 @@ void BoundedCg::minimise_on_face() {
     step_product_ += a * product_;
     mask(product_);
     descent_ -= a * product_;
-    form_->precondition(free_, descent_, preconditioned_);
-    const double next = descent_.dot(preconditioned_);
-    direction_ = preconditioned_ + (next / rho) * direction_;
+    const double next = descent_.squaredNorm();
+    direction_ = descent_ + (next / rho) * direction_;
     const double decrease = 0.5 * a * rho;
     rho = next;
     best_decrease = std::max(best_decrease, decrease);

@@ -22,7 +22,7 @@ double projected_gradient_norm(const Vector& lower, const Vector& upper, const Q
 /// over the rest as if there were no bounds, a projected search brings the result back; repeated. The gradient is
 /// carried along, so a step costs the one product with H that it needs. MPRGP (Dostal 2009), which stops its conjugate
 /// gradients at the first bound met, was tried on one problem (ibfest-70x30, smooth dwell): to an objective that this
-/// reached in 423 products it needed 1421, and with the projected-CG expansion more than 2421. Memory: 6 vectors and a
+/// reached in 423 products it needed 1421, and with the projected-CG expansion more than 2421. Memory: 5 vectors and a
 /// byte a variable.
 class BoundedCg {
  public:
@@ -62,7 +62,7 @@ class BoundedCg {
   void mask(Vector& v) const;
 
   const Vector &lower_, &upper_;
-  Vector direction_, product_, step_, step_product_, descent_, preconditioned_;
+  Vector direction_, product_, step_, step_product_, descent_;
   std::vector<char> free_;
   long products_ = 0;
   double spectral_length_ = 0.0;  // kept from one call to the next; 0 = not known

@@ -40,6 +40,12 @@ double PathSmoothness::squared_norm(const Vector& t) const {
   return sum;
 }
 
+double PathSmoothness::step_rms(const Vector& t) const {
+  Index links = 0;
+  for (Index j = 1; j < scale_.size(); ++j) links += linked(j);
+  return links == 0 ? 0.0 : std::sqrt(squared_norm(t) / static_cast<double>(links));
+}
+
 void PathSmoothness::add_normal(double weight, const Vector& t, Vector& out) const {
   for (Index j = 1; j < scale_.size(); ++j) {
     if (!joined_[static_cast<std::size_t>(j)]) continue;
@@ -47,34 +53,6 @@ void PathSmoothness::add_normal(double weight, const Vector& t, Vector& out) con
     out[j] += scale_[j] * d;
     out[j - 1] -= scale_[j - 1] * d;
   }
-}
-
-void PathSmoothness::solve_normal(double weight, double ridge, const std::vector<char>& free, const Vector& r,
-                                  Vector& out, Vector& scratch) const {
-  const Index n = scale_.size();
-  out.resize(n);
-  scratch.resize(n);  // scratch[j]: factor of out[j - 1] in the back substitution, 0 = not coupled
-  const auto is_free = [&](Index j) { return free[static_cast<std::size_t>(j)] != 0; };
-  double pivot = 1.0;
-  for (Index j = 0; j < n; ++j) {
-    scratch[j] = 0.0;
-    if (!is_free(j)) {
-      out[j] = 0.0;
-      continue;
-    }
-    double diagonal = ridge, value = r[j];
-    if (linked(j)) diagonal += weight * scale_[j] * scale_[j];
-    if (j + 1 < n && linked(j + 1)) diagonal += weight * scale_[j] * scale_[j];
-    if (linked(j) && is_free(j - 1)) {
-      const double off = -weight * scale_[j] * scale_[j - 1];
-      scratch[j] = off / pivot;
-      diagonal -= off * scratch[j];
-      value -= off * out[j - 1];
-    }
-    pivot = diagonal;
-    out[j] = value / pivot;
-  }
-  for (Index j = n - 1; j > 0; --j) out[j - 1] -= scratch[j] * out[j];
 }
 
 Eigen::MatrixXd PathSmoothness::dense_normal() const {

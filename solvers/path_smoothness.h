@@ -27,12 +27,10 @@ class PathSmoothness {
 
   /// |D t|^2 [s^2].
   double squared_norm(const Vector& t) const;
+  /// |D t| / sqrt(number of links): how much the dwell changes from one stroke to the next [s]. 0 without links.
+  double step_rms(const Vector& t) const;
   /// out += weight * D' D t.
   void add_normal(double weight, const Vector& t, Vector& out) const;
-  /// out = ((weight D' D + ridge I) restricted to the free variables)^-1 r, zero elsewhere; scratch of n. The matrix is
-  /// tridiagonal along the path. weight >= 0, ridge > 0. Cost O(n), no allocation if out and scratch have size n.
-  void solve_normal(double weight, double ridge, const std::vector<char>& free, const Vector& r, Vector& out,
-                    Vector& scratch) const;
   /// Dense D' D, n x n, for oracles and small dense solvers.
   Eigen::MatrixXd dense_normal() const;
 

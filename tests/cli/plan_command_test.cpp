@@ -107,6 +107,33 @@ TEST(PlanCommand, CommandLineComesOverTheJobFile) {
   EXPECT_GE(s["dwell"]["min_s"], 0.03);
 }
 
+TEST(PlanCommand, FindsTheWeightThatMeetsATargetAndSaysWhich) {
+  const SmallInputs inputs;
+  ASSERT_EQ(inputs.run(SmallInputs::plan()).exit_code, 0);
+  const double limit = 0.9 * summary_of(inputs)["dwell"]["total_s"].get<double>();
+  const ProgramResult result =
+      inputs.run(SmallInputs::plan({"--time-price", "total <= " + std::to_string(limit) + " s"}));
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  expect_has(result.out, "weights   smoothness 0.1, time price ");
+  expect_has(result.out, "nm^2/s (chosen from ");
+  const json s = summary_of(inputs);
+  EXPECT_LE(s["dwell"]["total_s"], limit);
+  EXPECT_GT(s["weights"]["time_price_nm2_per_s"], 0.0);
+  EXPECT_TRUE(names_in(inputs / "plan").contains("search.csv"));
+  // The next plan replaces this one whole, and has no search.
+  ASSERT_EQ(inputs.run(SmallInputs::plan()).exit_code, 0);
+  EXPECT_FALSE(names_in(inputs / "plan").contains("search.csv"));
+}
+
+TEST(PlanCommand, ATargetOutOfReachStillPlansWithExitCode3) {
+  const SmallInputs inputs;
+  const ProgramResult result = inputs.run(SmallInputs::plan({"--time-price", "total<=0.001"}));
+  EXPECT_EQ(result.exit_code, 3) << result.err;
+  expect_has(result.err, "limit reached: --time-price 'total<=0.001' is not met");
+  expect_has(result.err, "the nearest has total ");
+  EXPECT_TRUE(std::filesystem::exists(inputs / "plan/program.nc"));
+}
+
 TEST(PlanCommand, WrittenJobPlansTheSame) {
   const SmallInputs inputs;
   ASSERT_EQ(inputs.run(SmallInputs::plan()).exit_code, 0);

@@ -86,6 +86,16 @@ const std::vector<Wrong>& cases() {
       {"negative_pitch", none, {"--map-pixel", "-0.5"}, {"--map-pixel", "-0.5", "> 0"}},
       {"nan_pitch", none, {"--map-pixel", "nan"}, {"--map-pixel", "nan", "> 0"}},
       {"nan_option", none, {"--smoothness", "nan"}, {"--smoothness", "nan", ">= 0"}},
+      {"total_for_smoothness",
+       none,
+       {"--smoothness", "total<=3"},
+       {"--smoothness", "'total<=3'", "step<=S", "residual<=NM"}},
+      {"step_for_time_price", none, {"--time-price", "step<=3"}, {"--time-price", "'step<=3'", "total<=S", "auto"}},
+      {"target_without_number", none, {"--smoothness", "step<="}, {"--smoothness", "'step<='", "S > 0"}},
+      {"two_residual_targets",
+       none,
+       {"--smoothness", "residual<=2", "--time-price", "residual<=1"},
+       {"'residual<=2'", "'residual<=1'", "required for one of them"}},
       {"negative_origin_without_y", none, {"--map-origin", "-5"}, {"--map-origin", "-5", "X,Y"}},
       {"unknown_unit", none, {"--map-unit", "inch"}, {"--map-unit", "inch", "nm, um, mm, m"}},
       {"unknown_option", none, {"--max-fed", "1"}, {"dwell: unknown option --max-fed", "'dwell plan --help'"}},
@@ -156,6 +166,8 @@ TEST(WrongInputWithoutOption, NamesTheOptionThatIsMissing) {
           {"tif.csv", "no pixel pitch", "--tif-pixel"});
   refused({"plan", "--out", "plan", "--map", "map.csv", "--map-pixel", "0.5", "--tif", "gaussian:peak=1,fwhm=2"},
           {"--path", "required"});
+  refused({"pareto"}, {"--out", "required", "pareto"});
+  refused({"pareto", "--out", "sweep"}, {"--map", "required"});
   refused({"simulate"}, {"--program", "required"});
   refused({"map"}, {"file", "required"});
   refused({"map", "map.csv", "--map-pixel", "0.5", "--write", "a.tiff"}, {"a.tiff", ".csv", ".npy"});

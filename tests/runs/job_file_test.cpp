@@ -33,8 +33,8 @@ JobOptions unusual() {
   o.aperture = "rect:0,0,1,2";
   o.min_dwell_s = 1.0 / 7.0;
   o.max_feed_mm_per_min = 1e7;
-  o.smoothness = 1e-9;
-  o.time_price_nm2_per_s = 1e-300;
+  o.smoothness = {1e-9};
+  o.time_price_nm2_per_s = {1.0 / 3.0, GoalKind::TotalAtMost};
   o.solver = "dense-nnls";
   o.max_solve_s = 12.5;
   o.threads = 2;
@@ -69,11 +69,24 @@ TEST(JobFile, WrittenDefaultsReadBackAsDefaultsWithAllOptionsExplained) {
 TEST(JobFile, ComesOverTheOptionsItIsReadInto) {
   const TemporaryFolder folder;
   JobOptions before;
-  before.smoothness = 0.5;
+  before.smoothness = {0.5};
   before.min_dwell_s = 0.25;
   const JobOptions after = read(folder, "smoothness = 0.75\n", before);
-  EXPECT_EQ(after.smoothness, 0.75);
+  EXPECT_EQ(after.smoothness, WeightGoal{0.75});
   EXPECT_EQ(after.min_dwell_s, 0.25);
+}
+
+TEST(JobFile, TakesWordsWhereAWeightIsLeftOpen) {
+  const TemporaryFolder folder;
+  const JobOptions o = read(folder, "smoothness = 'step RMS <= 0.004 s'\ntime_price_nm2_per_s = 'auto'\n");
+  EXPECT_EQ(o.smoothness, (WeightGoal{0.004, GoalKind::StepAtMost}));
+  EXPECT_EQ(o.time_price_nm2_per_s, (WeightGoal{0.0, GoalKind::Corner}));
+  const JobOptions back = read(folder, job_file_text(o));
+  EXPECT_EQ(back.smoothness, o.smoothness);
+  EXPECT_EQ(back.time_price_nm2_per_s, o.time_price_nm2_per_s);
+  expect_input_error([&] { read(folder, "smoothness = 'total<=3'\n"); },
+                     {"job.toml: smoothness", "'total<=3'", "step<=S", "residual<=NM"});
+  expect_input_error([&] { read(folder, "min_dwell_s = 'auto'\n"); }, {"job.toml: min_dwell_s", "without quotes"});
 }
 
 TEST(JobFile, TakesWholeAndRealNumbers) {

@@ -61,6 +61,7 @@ TEST(JobOptionTable, GivesBackWhatItIsGiven) {
                                                                   {"aperture", "circle:1,2,3"},
                                                                   {"min-dwell", "0.1"},
                                                                   {"max-feed", "1234.5"},
+                                                                  {"smoothness", "step<=0.004"},
                                                                   {"time-price", "1e-07"},
                                                                   {"solver", "dense-nnls"},
                                                                   {"threads", "2"},

@@ -107,7 +107,7 @@ class Orientation : public testing::TestWithParam<Case> {
     o.path = fmt::format("raster:pitch=0.5,angle={}", GetParam().angle);
     o.remove = "none";
     o.max_feed_mm_per_min = 1e5;  // so fast that passing removes next to nothing
-    o.smoothness = 1e-4;
+    o.smoothness = {1e-4};
     o.threads = 1;
     return o;
   }

@@ -91,6 +91,25 @@ TEST(OutputFolder, RefusesAFolderThatHoldsOtherThings) {
   EXPECT_EQ(temporary.entries(), 1u);
 }
 
+TEST(OutputFolder, ReplacesOnlyAResultOfItsOwnKind) {
+  const TemporaryFolder temporary;
+  const fs::path plan = temporary.path() / "plan", sweep = temporary.path() / "sweep";
+  write_result(plan, "one");
+  expect_input_error([&] { OutputFolder folder(plan, pareto_files()); },
+                     {"--out", "not an earlier pareto sweep", "it holds '"});
+  {
+    OutputFolder folder(sweep, pareto_files());
+    folder.write("pareto.json", "{}");
+    folder.commit();
+  }
+  EXPECT_NO_THROW(OutputFolder(sweep, pareto_files()));
+  expect_input_error([&] { OutputFolder folder(sweep); }, {"--out", "not an earlier plan", "pareto.json"});
+  fs::remove(sweep / "pareto.json");
+  temporary.file("sweep/pareto.csv", "x");
+  expect_input_error([&] { OutputFolder folder(sweep, pareto_files()); }, {"it holds no pareto.json"});
+  expect_input_error([] { OutputFolder folder("", pareto_files()); }, {"--out", "required", "pareto sweep"});
+}
+
 TEST(OutputFolder, WritesThroughALinkToAFolder) {
   const TemporaryFolder temporary;
   fs::create_directory(temporary.path() / "real");

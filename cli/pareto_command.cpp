@@ -1,0 +1,95 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "cli/commands.h"
+#include "cli/job_arguments.h"
+#include "cli/terminal.h"
+#include "runs/pareto_output.h"
+
+namespace dwell::cli {
+namespace {
+
+struct ParetoArguments {
+  std::unique_ptr<JobArguments> job;
+  std::string smoothnesses, time_prices;
+  bool json = false;
+};
+
+void print_front(const ParetoSweep& sweep) {
+  const auto on_front =
+      std::count_if(sweep.points.begin(), sweep.points.end(), [](const auto& p) { return p.on_front; });
+  long applications = 0;
+  for (const ParetoPoint& p : sweep.points) applications += p.solver.operator_applications;
+  fmt::print("solves    {}, {} operator applications, {:.2f} s; {} on the Pareto front:\n", sweep.points.size(),
+             applications, sweep.seconds, on_front);
+  fmt::print("{:>12} {:>20} {:>18} {:>10} {:>12}\n", "smoothness", "time price [nm^2/s]", "residual RMS [nm]",
+             "total [s]", "step RMS [s]");
+  for (const ParetoPoint& p : sweep.points) {
+    if (!p.on_front) continue;
+    fmt::print("{:>12.4g} {:>20.4g} {:>18.4g} {:>10.2f} {:>12.4g}\n", p.weights.smoothness, p.weights.time_price,
+               p.trade_off.residual_rms, p.trade_off.total, p.trade_off.step_rms);
+  }
+}
+
+int run_pareto(const ParetoArguments& arguments) {
+  const JobOptions options = arguments.job->options();
+  ParetoRanges ranges;
+  if (!arguments.smoothnesses.empty())
+    ranges.smoothnesses = parse_weight_list(arguments.smoothnesses, "--smoothnesses");
+  if (!arguments.time_prices.empty()) ranges.time_prices = parse_weight_list(arguments.time_prices, "--time-prices");
+  OutputFolder folder(options.out, pareto_files());
+  const ParetoSweep sweep = sweep_weights(options, ranges, terminal_hooks());
+  const std::string json = write_pareto(sweep, folder);
+  folder.commit();
+  finish_progress();
+  if (arguments.json) {
+    fmt::print("{}", json);
+  } else {
+    print_front(sweep);
+    fmt::print("written   {}\n", options.out);
+  }
+  for (const std::string& limit : sweep.limits) fmt::print(stderr, "dwell: limit reached: {}\n", limit);
+  return sweep.limits.empty() ? kDone : kLimitReached;
+}
+
+/// The options of a plan but for the weights, which are swept, and the program, which is not written.
+std::vector<std::string> swept_flags() {
+  std::vector<std::string> flags = every_flag();
+  std::erase_if(flags, [](const std::string& f) {
+    return f == "smoothness" || f == "time-price" || f == "gcode" || f == "lift-height";
+  });
+  return flags;
+}
+
+}  // namespace
+
+void add_pareto_command(CLI::App& program, int& exit_code) {
+  CLI::App* command =
+      program.add_subcommand("pareto", "sweep the weights of a plan: residual against total time against smooth feed");
+  auto arguments = std::make_shared<ParetoArguments>();
+  arguments->job = std::make_unique<JobArguments>(*command, swept_flags(), true);
+  command
+      ->add_option(
+          "--smoothnesses", arguments->smoothnesses,
+          "weights of smooth feed: FROM:TO:COUNT in equal ratios, or a list like 0,0.01,0.1 (default 0.001:10:5)")
+      ->type_name("WEIGHTS");
+  command
+      ->add_option(
+          "--time-prices", arguments->time_prices,
+          "prices of machine time in nm^2/s, likewise (default 0 and four up to a hundredth of the highest that "
+          "has any effect)")
+      ->type_name("PRICES");
+  command->add_flag("--json", arguments->json, "print pareto.json on standard output instead of the table");
+  command->footer(
+      "Example:\n"
+      "  dwell pareto --map mirror.csv --map-pixel 0.0938 --tif spot.csv --tif-pixel 0.0938 \\\n"
+      "               --path raster:pitch=1 --smoothnesses 0.001:10:7 --time-prices 0,1e-6,1e-5 --out pareto/\n"
+      "A job file's smoothness, time_price_nm2_per_s, gcode and lift_height_mm are not used; max_solve_s is for each "
+      "solve.\n"
+      "Exit codes: 0 done, 1 internal fault, 2 bad usage or input, 3 done but a limit was reached, 130 interrupted.");
+  command->callback([arguments, &exit_code] { exit_code = run_pareto(*arguments); });
+}
+
+}  // namespace dwell::cli

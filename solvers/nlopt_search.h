@@ -1,0 +1,26 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+namespace dwell {
+
+/// A function of one to a few variables in a box, subject to constraints c(x) <= 0, each evaluation costly and slightly
+/// noisy. All vectors of variables have the same size; variables should be of size one.
+struct FewVariableProblem {
+  std::vector<double> start, lower, upper;
+  std::vector<double> first_step;  // > 0: about how far the answer may be from the start
+  int constraints = 0;
+  double tolerance = 1e-3;   // ends when steps are smaller
+  int max_evaluations = 20;  // ends after these
+  /// Sets the objective and the constraints at x, which lies in the box; false = end the search. Called once an
+  /// evaluation. May throw: the search ends and what was thrown goes on to the caller.
+  std::function<bool(const std::vector<double>& x, double& objective, std::vector<double>& constraints)> evaluate;
+};
+
+/// Minimises by NLopt's LN_COBYLA (Powell 1994, linear models in a shrinking trust region): no derivatives, any
+/// number of variables from one, constraints and noise tolerated. Deterministic. What was found is for `evaluate` to
+/// remember, since with noise only what was evaluated can be trusted. Throws std::invalid_argument if the sizes differ.
+void search_few_variables(const FewVariableProblem& problem);
+
+}  // namespace dwell
