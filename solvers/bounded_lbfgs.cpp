@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kLeastCurvature = 1e-30;  // of |d| |Hd|: below that, a pair holds rounding
 constexpr double kRounding = 1e-15;        // of the objective: a step that lowers it by less does not
-constexpr int kLastTries = 3;              // such steps in a row before giving up
+constexpr int kLastTries = 50;             // such steps that do not halve the squared gradient either: then it is over
 
 constexpr Index kLanes = 8;
 using Lanes = float __attribute__((vector_size(kLanes * sizeof(float))));
@@ -117,6 +117,7 @@ void BoundedLbfgs::forget() {
 void BoundedLbfgs::minimise(QuadraticForm& form, double tolerance, QuadraticPoint& point, const Monitor& go_on) {
   form_ = &form;
   point_ = &point;
+  double least = std::numeric_limits<double>::infinity();
   for (int idle = 0; idle < kLastTries;) {
     const Products products = free_products();
     if (!(std::sqrt(products.gg) > tolerance)) return;
@@ -126,8 +127,12 @@ void BoundedLbfgs::minimise(QuadraticForm& form, double tolerance, QuadraticPoin
     }
     const double before = point.value;
     if (!advance(slope)) return;
-    idle = point.value < before - kRounding * std::abs(before) ? 0 : idle + 1;
-    if (idle > 0) forget();
+    if (products.gg < 0.5 * least || point.value < before - kRounding * std::abs(before)) {
+      idle = 0;
+      least = std::min(least, products.gg);
+    } else {
+      ++idle;
+    }
     if (!go_on(point)) return;
   }
 }

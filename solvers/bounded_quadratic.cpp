@@ -29,8 +29,7 @@ double projected_gradient_norm(const Vector& lower, const Vector& upper, const Q
 
 BoundedCg::BoundedCg(const Vector& lower, const Vector& upper)
     : lower_(lower), upper_(upper), free_(static_cast<std::size_t>(lower.size()), 0) {
-  for (Vector* v : {&direction_, &product_, &step_, &step_product_, &descent_})
-    v->resize(lower.size());
+  for (Vector* v : {&direction_, &product_, &step_, &step_product_, &descent_}) v->resize(lower.size());
 }
 
 double BoundedCg::Segment::best_step() const {

@@ -52,6 +52,7 @@ class SplineGram {
   CoarseFactor factor_;
   // (row, dy, dx, col): contiguous along columns. Single precision: reading it is what apply() costs.
   std::vector<float> stencil_;
+  std::vector<std::array<double, 4>> along_x_, along_y_;  // weights by pixel within a coarse step
   int threads_;
 };
 

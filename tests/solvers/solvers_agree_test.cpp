@@ -153,7 +153,7 @@ TEST_P(NativeSolvers, RefusesWhatIsNotFinite) {
 
 INSTANTIATE_TEST_SUITE_P(Native, NativeSolvers,
                          testing::Values(SolverKind::Auto, SolverKind::SpectralProjectedGradient,
-                                         SolverKind::ProjectedCg),
+                                         SolverKind::ProjectedCg, SolverKind::ProjectedLbfgs),
                          [](const auto& instance) {
                            std::string name = to_string(instance.param);
                            std::erase(name, '-');
@@ -161,8 +161,7 @@ INSTANTIATE_TEST_SUITE_P(Native, NativeSolvers,
                          });
 
 TEST(SolverKinds, WordsReadBack) {
-  for (SolverKind kind :
-       {SolverKind::Auto, SolverKind::SpectralProjectedGradient, SolverKind::ProjectedCg, SolverKind::DenseNnls}) {
+  for (SolverKind kind : solver_kinds()) {
     EXPECT_EQ(parse_solver_kind(to_string(kind)), kind);
   }
   EXPECT_THROW(parse_solver_kind("simplex"), InputError);
