@@ -13,7 +13,8 @@ namespace dwell::bench {
 namespace {
 
 constexpr double kChange = 1e-6;
-constexpr long kFirstLook = 500;  // iterations; more than the longest cycle in which a solver reports no gain
+constexpr double kFirstLook = 500.0;  // operator pairs; more than the longest cycle in which a solver shows no gain
+constexpr long kLeastIterations = 3;
 
 }  // namespace
 
@@ -22,19 +23,22 @@ nlohmann::json make_reference(const Scenario& scenario, SolverKind kind, int thr
   const Instance instance = make_instance(scenario, threads);
   SolverOptions options;
   options.kind = kind;
-  options.gradient_tolerance = 1e-10;
+  options.gradient_tolerance = 1e-8;
   options.objective_tolerance = 0.0;
   options.max_iterations = 1'000'000;
   options.max_seconds = max_seconds;
-  long look = kFirstLook;
-  double half_way = 0.0, change = 1.0;
+  double look = kFirstLook, half_way = 0.0, change = 1.0;
+  long iterations = 0;
   bool settled = false;
   options.progress = [&](const SolverProgress& p) {
-    if (p.iterations < look) return true;
+    const double work = static_cast<double>(p.iterations) + p.coarse_pairs;
+    // Between two of its iterations, a solver on coarse pixels shows no gain.
+    if (work < look || p.iterations < iterations + kLeastIterations) return true;
+    iterations = p.iterations;
     if (half_way > 0.0) change = (half_way - p.objective) / p.objective;
     settled = half_way > 0.0 && change <= kChange;
     half_way = p.objective;
-    look *= 2;
+    look = 2.0 * work;
     return !settled;
   };
   Vector t;

@@ -89,7 +89,10 @@ class Watch {
  private:
   static void note(nlohmann::json& slot, bool reached, const SolverProgress& p, long applications, double seconds) {
     if (!reached || !slot.is_null()) return;
-    slot = {{"iterations", p.iterations}, {"applications", applications}, {"seconds", seconds}};
+    slot = {{"iterations", p.iterations},
+            {"applications", applications},
+            {"coarse_pairs", p.coarse_pairs},
+            {"seconds", seconds}};
   }
 
   const RemovalOperator& removal_;
@@ -166,7 +169,7 @@ nlohmann::json solve_once(const Scenario& scenario, const SolveOptions& options)
     result["peak_memory"] = memory_field("VmHWM");
     result["solve_memory"] = memory_field("VmHWM") - held;
     const double rms = certify(instance.problem, t).residual_rms;
-    watch.see({s.iterations, s.seconds, s.objective, rms}, s.operator_applications, s.seconds);
+    watch.see({s.iterations, s.coarse_pairs, s.seconds, s.objective, rms}, s.operator_applications, s.seconds);
     result["reached"] = watch.reached();
     result["trace"] = watch.trace();
     describe_end(result, s, instance.problem, t);

@@ -32,7 +32,8 @@ struct SolveOptions {
 
 /// Solves a scenario once, from the lower bound, and tells what happened:
 ///   pair_seconds   one apply and one adjoint, the fastest of five, in this process
-///   reached        for each quality: iterations, applications and seconds when the objective ("objective") and the
+///   reached        for each quality: iterations, applications, coarse_pairs and seconds when the objective
+///   ("objective") and the
 ///                  residual ("residual") first were within it; null if never
 ///   trace          [seconds, applications, objective, residual_rms] where the objective fell by 0.1 % since the last
 ///   certificate, total_dwell, status, message, iterations, applications, coarse_pairs, seconds at the end

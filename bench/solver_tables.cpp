@@ -40,8 +40,7 @@ std::string pairs_cell(const Json& run, std::size_t quality) {
   if (!pairs) return "-";
   const double by_clock = number(slot, "seconds") / number(run, "pair_seconds");
   if (!(pairs->coarse > 0.0)) return fmt::format("{:.0f} ({:.0f})", pairs->fine, by_clock);
-  return fmt::format("{:.0f} + {:.0f} = {}{:.0f} ({:.0f})", pairs->fine, pairs->coarse, pairs->exact ? "" : "≤ ",
-                     pairs->total(), by_clock);
+  return fmt::format("{:.0f} + {:.0f} = {:.0f} ({:.0f})", pairs->fine, pairs->coarse, pairs->total(), by_clock);
 }
 
 std::string line_of(const Json& run, double reference) {
@@ -111,12 +110,7 @@ std::optional<Pairs> pairs_to(const Json& run, std::size_t quality) {
   if (run.is_null() || !run.contains("reached")) return std::nullopt;
   const Json& slot = run.at("reached").at("objective").at(quality);
   if (slot.is_null()) return std::nullopt;
-  if (quality == kOnePercent && run.contains("to_1_percent")) {
-    const Json& ended = run.at("to_1_percent");
-    return Pairs{0.5 * number(ended, "applications"), number(ended, "coarse_pairs"), true};
-  }
-  const double coarse = number(run, "coarse_pairs");
-  return Pairs{0.5 * number(slot, "applications"), coarse, coarse == 0.0};
+  return Pairs{0.5 * number(slot, "applications"), number(slot, "coarse_pairs")};
 }
 
 std::optional<PeerRatio> peer_ratio(const Json& all, const std::string& scenario) {

@@ -20,11 +20,9 @@ nlohmann::json find_run(const nlohmann::json& all, const std::string& scenario, 
 /// Seconds to within 1 % of the reference; none if it was not reached.
 std::optional<double> seconds_to_1_percent(const nlohmann::json& run);
 
-/// Work to within 1 % in operator pairs of the full problem. Coarse work is known at the end of a solve only: `exact`
-/// where a solve was ended there, else that of a solve that went on, which is more.
+/// Work to within a quality in operator pairs of the full problem.
 struct Pairs {
   double fine = 0.0, coarse = 0.0;
-  bool exact = true;
   double total() const { return fine + coarse; }
 };
 std::optional<Pairs> pairs_to(const nlohmann::json& run, std::size_t quality);

@@ -14,11 +14,18 @@ namespace {
 
 /// In the order of their turns, so that what the budget cuts off is what matters least: ours that is judged, the peers
 /// that are fastest on most scenarios, the others.
-constexpr SolverKind kTurns[] = {
-    SolverKind::Auto,        SolverKind::Lbfgsb,       SolverKind::NloptLbfgs,
-    SolverKind::ProjectedCg, SolverKind::NloptTnewton, SolverKind::SpectralProjectedGradient,
-    SolverKind::Fourier,     SolverKind::Ceres,        SolverKind::DenseNnls,
-    SolverKind::NloptMma,    SolverKind::NloptSlsqp};
+constexpr SolverKind kTurns[] = {SolverKind::Auto,
+                                 SolverKind::Lbfgsb,
+                                 SolverKind::NloptLbfgs,
+                                 SolverKind::ProjectedLbfgs,
+                                 SolverKind::ProjectedCg,
+                                 SolverKind::NloptTnewton,
+                                 SolverKind::SpectralProjectedGradient,
+                                 SolverKind::Fourier,
+                                 SolverKind::Ceres,
+                                 SolverKind::DenseNnls,
+                                 SolverKind::NloptMma,
+                                 SolverKind::NloptSlsqp};
 
 /// Runs whoever has not had its turn in `round`, until that share of the budget is spent.
 struct Pass {
@@ -45,7 +52,6 @@ struct Entry {
   SolverKind kind;
   int threads;
   std::vector<nlohmann::json> runs;
-  nlohmann::json to_1_percent;
 
   bool reached_all() const {
     return !runs.empty() && runs.front().contains("reached") && !runs.front()["reached"]["objective"].back().is_null();
@@ -60,7 +66,7 @@ class Suite {
     for (const SolverKind kind : kTurns) {
       for (const Scenario& s : all_) {
         if (!wanted(s) || (is_peer(kind) && !s.peers)) continue;
-        for (const int threads : {2, 1}) entries_.push_back({&s, kind, threads, {}, {}});
+        for (const int threads : {2, 1}) entries_.push_back({&s, kind, threads, {}});
       }
     }
   }
@@ -120,17 +126,8 @@ class Suite {
       if (pass.round > 0 && !worth_repeating(entry)) continue;
       const double left = budget_.left(pass.share) - around_[entry.scenario];
       if (left < kShortest) continue;
-      entry.runs.push_back(run_once(entry, left, SolveRequest{}.stop_gap));
-      if (pass.round == 0 && entry.kind == SolverKind::Auto && entry.threads == 2) end_at_1_percent(entry, left);
+      entry.runs.push_back(run_once(entry, left));
     }
-  }
-
-  /// What the coarse levels of `auto` cost is only known at the end of a solve.
-  void end_at_1_percent(Entry& entry, double left) {
-    if (!entry.runs.front().contains("reached") || entry.runs.front()["reached"]["objective"][1].is_null()) return;
-    const nlohmann::json run = run_once(entry, left, kQualities[1]);
-    if (!run.contains("reached") || run["reached"]["objective"][1].is_null()) return;
-    for (const char* key : {"applications", "coarse_pairs", "seconds"}) entry.to_1_percent[key] = run[key];
   }
 
   /// What did not arrive in its first round is not waited for again.
@@ -141,14 +138,13 @@ class Suite {
     });
   }
 
-  nlohmann::json run_once(const Entry& entry, double left, double stop_gap) {
+  nlohmann::json run_once(const Entry& entry, double left) {
     const double longest = options_.quick ? 3.0 : entry.kind == SolverKind::Auto ? 60.0 : 20.0;
     const nlohmann::json run = solve_in_child({.scenario = entry.scenario->name,
                                                .kind = entry.kind,
                                                .threads = entry.threads,
                                                .max_seconds = std::min(longest, left),
                                                .wall_limit = std::max(1.0, budget_.left()),
-                                               .stop_gap = stop_gap,
                                                .data = options_.data,
                                                .references = options_.references});
     const double process = run["process_seconds"], solve = run.value("seconds", 0.0);
@@ -177,7 +173,6 @@ class Suite {
     result["solver"] = to_string(entry.kind);
     result["threads"] = entry.threads;
     result["rounds"] = entry.runs.size();
-    if (!entry.to_1_percent.is_null()) result["to_1_percent"] = entry.to_1_percent;
     if (!result.contains("reached")) return result;
     std::vector<double> whole;
     for (const auto& run : entry.runs) {

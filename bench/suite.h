@@ -24,10 +24,10 @@ bool is_peer(SolverKind kind);
 /// Runs every solver on every scenario, each solve in a process of its own, in interleaved rounds: `auto` first, on two
 /// threads and on one, then the others on two; then again, on both, whoever came within 0.1 % of the reference, until
 /// the rounds or the budget are used up. The result has one entry a scenario, solver and number of threads:
-///   objective, residual   for 10 %, 1 % and 0.1 %: operator applications, median seconds, fastest, slowest; null where
+///   objective, residual   for 10 %, 1 % and 0.1 %: operator applications, coarse_pairs, median seconds, fastest,
+///   slowest; null where
 ///                         it was not reached, with "limit" the seconds allowed
 ///   whole                 the same of the whole solve
-///   to_1_percent          auto on two threads: applications, coarse_pairs and seconds of a solve that was ended there
 ///   and what solve_once tells of the first run, its trace included; "refused" or "killed" where there was no answer;
 ///   "skipped" where there was no time for it.
 nlohmann::json run_suite(const SuiteOptions& options, const Budget& budget);

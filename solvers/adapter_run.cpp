@@ -58,7 +58,8 @@ double AdapterRun::evaluate(Vector& t, Vector& gradient) {
   }
   ++summary_.iterations;
   const double mean_square = residual_.squaredNorm() / static_cast<double>(std::max<Index>(1, residual_.size()));
-  if (options_.progress && !options_.progress({summary_.iterations, seconds(), best_value_, std::sqrt(mean_square)})) {
+  if (options_.progress &&
+      !options_.progress({summary_.iterations, 0.0, seconds(), best_value_, std::sqrt(mean_square)})) {
     stop(SolverStatus::Interrupted, fmt::format("interrupted after {} iterations", summary_.iterations));
   } else if (gradient_norm_ <= options_.gradient_tolerance && value_ <= best_value_) {
     stop(SolverStatus::Converged, fmt::format("converged: |pg| {:.3g} <= {:.3g} |A'z| after {} iterations",

@@ -202,14 +202,15 @@ class Run {
         hessian.gradient(r_, point_.x, model_.gradient);
       }
       minimise(lbfgs, hessian, model_);
-      d_ = model_.x - point_.x;
+      const double left_by_model = gradient_norm(model_);
+      d_ -= point_.x;
       const double promised = point_.value - model_.value, before = point_.value;
       if (promised > 0.0) move_along_d();
       if (done()) break;
       const double gained = before - point_.value;
       const bool leads =
           exact ? gained > kLeadsOn * promised
-                : gained > kLeadsOnItsOwn * promised && gradient_norm(point_) < kOwnGradient * gradient_norm(model_);
+                : gained > kLeadsOnItsOwn * promised && gradient_norm(point_) < kOwnGradient * left_by_model;
       const double little = o_.objective_tolerance * std::abs(before);
       if (gained < little && (leads || promised < little) && total_products_ >= kLeastBeforeSettling) {
         settle(gained, factor);
@@ -240,8 +241,8 @@ class Run {
   DwellObjective objective_;
   Vector& t_;
   QuadraticPoint point_;  // dwell, its gradient and objective on the full problem
-  QuadraticPoint model_;  // of the dwell points
-  Vector r_, d_, image_;
+  QuadraticPoint model_;  // of the dwell points; its x becomes the step to take
+  Vector &d_ = model_.x, r_, image_;
   BoundedLbfgs::Monitor monitor_;
   double scale_ = 1.0, product_cost_ = 0.0;
 

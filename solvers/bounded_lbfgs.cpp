@@ -98,7 +98,8 @@ DWELL_SIMD void scale_block(double scale, const double* from, float* to, Index n
 
 BoundedLbfgs::BoundedLbfgs(const Vector& lower, const Vector& upper, int threads)
     : lower_(lower),
-      upper_(upper.size() != 0 ? upper : Vector::Constant(lower.size(), std::numeric_limits<double>::infinity())),
+      upper_(upper),
+      no_upper_(Vector::Constant(kBlock, std::numeric_limits<double>::infinity())),
       threads_(threads),
       free_(lower.size()) {
   const Index n = lower.size();
@@ -142,7 +143,7 @@ BoundedLbfgs::Products BoundedLbfgs::free_products() {
   const QuadraticPoint& p = *point_;
   for_blocks(p.x.size(), threads_, [&](Index b, Index begin, Index length) {
     Block gradient;
-    sums_(0, b) = mark_free(&p.x[begin], &p.gradient[begin], &lower_[begin], &upper_[begin], &free_[begin],
+    sums_(0, b) = mark_free(&p.x[begin], &p.gradient[begin], &lower_[begin], upper_at(begin), &free_[begin],
                             gradient.data(), length);
     sum_block(b, begin, length, gradient.data());
   });
@@ -219,7 +220,7 @@ double BoundedLbfgs::aim(const Combination& step) {
       add_two(static_cast<float>(step.s[i]), s_.col(slot(i)).data() + begin, static_cast<float>(step.y[i]),
               y_.col(slot(i)).data() + begin, sum.data(), length);
     }
-    sums_(0, b) = aim_block(&p.x[begin], &p.gradient[begin], &lower_[begin], &upper_[begin], &free_[begin],
+    sums_(0, b) = aim_block(&p.x[begin], &p.gradient[begin], &lower_[begin], upper_at(begin), &free_[begin],
                             step.gradient, sum.data(), &direction_[begin], length);
   });
   return sum_of_blocks();
@@ -269,8 +270,8 @@ bool BoundedLbfgs::advance(double slope) {
   }
   const double scale = curved ? 1.0 / std::sqrt(curvature) : 0.0;
   for_blocks(p.x.size(), threads_, [&](Index, Index begin, Index length) {
-    move_block(a, &direction_[begin], &product_[begin], &lower_[begin], &upper_[begin], &p.x[begin], &p.gradient[begin],
-               length);
+    move_block(a, &direction_[begin], &product_[begin], &lower_[begin], upper_at(begin), &p.x[begin],
+               &p.gradient[begin], length);
     if (!curved) return;
     scale_block(scale, &direction_[begin], &s_(begin, newest_), length);
     scale_block(scale, &product_[begin], &y_(begin, newest_), length);

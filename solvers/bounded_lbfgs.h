@@ -17,13 +17,13 @@ namespace dwell {
 ///
 /// Monotone and feasible. Pairs are held in single precision: they steer, they do not enter x or its gradient
 /// (tests/solvers/bounded_lbfgs_test compares with an exact solver). Same bytes for any number of threads.
-/// Memory: 3.5 vectors and the pairs, which are worth kPairs vectors.
+/// Memory: 2.5 vectors and the pairs, which are worth kPairs vectors.
 class BoundedLbfgs {
  public:
   using Monitor = BoundedCg::Monitor;
   static constexpr Index kPairs = 5;  // 10, 20 and 40 saved under 10 % of the products and cost more than that
 
-  /// The lower bounds must outlive this. upper may be empty.
+  /// The bounds must outlive this. upper may be empty.
   BoundedLbfgs(const Vector& lower, const Vector& upper, int threads);
 
   /// Improves the point until |projected gradient| <= tolerance, nothing descends any more (rounding), or the monitor,
@@ -57,8 +57,10 @@ class BoundedLbfgs {
   double sum_of_blocks() const;
   Index slot(Index age) const { return (newest_ - age + kPairs) % kPairs; }
 
-  const Vector& lower_;
-  const Vector upper_;  // infinite where there is none
+  const double* upper_at(Index begin) const { return upper_.size() != 0 ? &upper_[begin] : no_upper_.data(); }
+
+  const Vector &lower_, &upper_;
+  Vector no_upper_;  // infinity for a block
   int threads_;
   Vector direction_, product_;
   Eigen::VectorXf free_;                                // 1 = free, 0 = held

@@ -105,7 +105,7 @@ class ActiveSet {
 
   SolverProgress progress(long iterations, double seconds) {
     objective_.residual(t_, r_);
-    return {iterations, seconds, objective_.value(r_, t_),
+    return {iterations, 0.0, seconds, objective_.value(r_, t_),
             std::sqrt(r_.squaredNorm() / static_cast<double>(std::max<Index>(1, r_.size())))};
   }
 

@@ -47,6 +47,7 @@ std::string to_string(SolverStatus status);
 /// What a solver says of itself while it runs.
 struct SolverProgress {
   long iterations = 0;
+  double coarse_pairs = 0.0;  // auto: work on coarser pixels so far, in operator pairs of the full problem
   double seconds = 0.0;
   double objective = 0.0;     // [nm^2]
   double residual_rms = 0.0;  // [nm]

@@ -51,7 +51,7 @@ bool SolveLimits::poll(double value) {
 
 void SolveLimits::report(double value) {
   reported_seconds_ = seconds();
-  if (!options_.progress({summary_.iterations, reported_seconds_, value, residual_rms_}))
+  if (!options_.progress({summary_.iterations, summary_.coarse_pairs, reported_seconds_, value, residual_rms_}))
     stop(SolverStatus::Interrupted, fmt::format("interrupted after {} iterations", summary_.iterations));
 }
 
