@@ -13,7 +13,9 @@ namespace dwell::bench {
 namespace {
 
 constexpr double kChange = 1e-6;
-constexpr double kFirstLook = 500.0;  // operator pairs; more than the longest cycle in which a solver shows no gain
+// Operator pairs: more than the longest cycle in which a solver shows no gain. That of `auto` is a round.
+constexpr double kFirstLook = 500.0;
+constexpr double kFirstLookOfAuto = 30.0;
 constexpr long kLeastIterations = 3;
 
 }  // namespace
@@ -27,7 +29,7 @@ nlohmann::json make_reference(const Scenario& scenario, SolverKind kind, int thr
   options.objective_tolerance = 0.0;
   options.max_iterations = 1'000'000;
   options.max_seconds = max_seconds;
-  double look = kFirstLook, half_way = 0.0, change = 1.0;
+  double look = kind == SolverKind::Auto ? kFirstLookOfAuto : kFirstLook, half_way = 0.0, change = 1.0;
   long iterations = 0;
   bool settled = false;
   options.progress = [&](const SolverProgress& p) {
