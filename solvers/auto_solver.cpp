@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -25,10 +26,14 @@ constexpr double kFinePitch = 0.5;
 constexpr Index kPointsPerVariable = 3;
 constexpr Index kPointsPerFinerVariable = 10;
 // Smooth dwell is left for finer when a round lowers the objective by no more than this share.
-constexpr double kSmoothEnough = 0.002;
-// A round with a model is half as much work again as all before it, and at least so many products.
+constexpr double kSmoothEnough = 0.003;
+// A round with a model is half as much work again as all before it, and at least so many products; less where the last
+// third of its products yields no more than this share of what all have promised.
 constexpr double kRoundOfWork = 0.5;
 constexpr long kLeastProducts = 16;
+constexpr double kRoundIsOver = 0.03;
+// After smooth dwell, the points' first round is at most so many products: where they are very many, all else is cheap.
+constexpr long kFirstOnPoints = 48;
 constexpr long kLeastBeforeSettling = 64;  // a warm start is at rest before it is at its end
 // What a product costs besides its transforms, a variable, in the unit of transform_cost: spreading, stencils and the
 // minimiser's own vectors. Measured on six scenarios: 10 to 40, and 45 to 60.
@@ -64,7 +69,7 @@ class Run {
  public:
   Run(const DwellProblem& problem, const SolverOptions& options, Vector& t, SolverSummary& summary)
       : p_(problem), o_(options), summary_(summary), limits_(problem, options, summary), objective_(problem), t_(t) {
-    monitor_ = [this](const QuadraticPoint&) { return go_on(); };
+    monitor_ = [this](const QuadraticPoint& model) { return go_on(model); };
   }
 
   void run(CoarseFactor factor) {
@@ -74,6 +79,7 @@ class Run {
     take_stock();
     const CoarseFactor fine = fine_pixels(p_.geometry->kernel, factor);
     const bool smooth = !done() && t_ == p_.lower && smooth_levels(fine);
+    if (smooth) most_products_ = kFirstOnPoints;
     if (!done()) points_levels(smooth ? fine : factor);
     t_ = point_.x;
     summary_.objective = point_.value;
@@ -97,11 +103,16 @@ class Run {
   }
 
   /// Called after every product with a model.
-  bool go_on() {
+  bool go_on(const QuadraticPoint& model) {
     summary_.coarse_pairs += product_cost_;
     work_ += product_work_;
     ++total_products_;
-    return ++products_ < budget_ && limits_.poll(point_.value);
+    if (++products_ >= budget_ || !limits_.poll(point_.value)) return false;
+    if (products_ < next_look_) return true;
+    next_look_ = products_ + products_ / 2;
+    const double lately = seen_ - model.value, all = start_ - model.value;
+    seen_ = model.value;
+    return lately > kRoundIsOver * all;
   }
 
   /// The cost of a product, by its transforms alone and with all else.
@@ -112,7 +123,10 @@ class Run {
 
   void minimise(BoundedLbfgs& lbfgs, QuadraticForm& hessian, QuadraticPoint& model) {
     products_ = 0;
-    budget_ = std::max(kLeastProducts, std::lround(kRoundOfWork * work_ / product_work_));
+    next_look_ = kLeastProducts;
+    start_ = seen_ = model.value;
+    budget_ = std::clamp(std::lround(kRoundOfWork * work_ / product_work_), kLeastProducts, most_products_);
+    most_products_ = std::numeric_limits<long>::max();
     lbfgs.minimise(hessian, 0.1 * o_.gradient_tolerance * scale_, model, monitor_);
   }
 
@@ -248,6 +262,8 @@ class Run {
 
   double product_work_ = 0.0, work_ = 0.0;  // in operator pairs
   long products_ = 0, budget_ = 0;          // of the running round
+  long next_look_ = 0, most_products_ = std::numeric_limits<long>::max();
+  double start_ = 0.0, seen_ = 0.0;  // value of the model at its start and at the last look
   long total_products_ = 0;
 };
 

@@ -247,6 +247,35 @@ TEST(AutoSolver, SettlesNoWorseThanProjectedLbfgsAtEqualWork) {
   }
 }
 
+/// The rule that it stops by is not a bound, but on these mirrors it keeps its word: within 1 % of the optimum.
+TEST(AutoSolver, SettlesWithinOnePerCent) {
+  for (Index step : {1, 2, 4}) {
+    SCOPED_TRACE(step);
+    const Mirror mirror(step);
+    Vector t, best;
+    const SolverSummary summary = make_solver(options(5e-3, 1e-9, 2000))->solve(mirror.problem, t);
+    ASSERT_EQ(summary.status, SolverStatus::Settled) << summary.message;
+    SolverOptions exact = options(0.0, 1e-7, 20'000);
+    exact.kind = SolverKind::ProjectedLbfgs;
+    ASSERT_EQ(make_solver(exact)->solve(mirror.problem, best).status, SolverStatus::Converged);
+    EXPECT_LE(summary.objective, 1.01 * certify(mirror.problem, best).objective);
+  }
+}
+
+/// From the optimum of other weights, which is far away though the first steps gain little.
+TEST(AutoSolver, LeavesAWarmStartBehind) {
+  Mirror mirror(2);
+  Vector cold, warm;
+  mirror.problem.gamma = 200.0;
+  ASSERT_TRUE(make_solver(options(5e-3, 1e-9, 2000))->solve(mirror.problem, warm).usable());
+  mirror.problem.gamma = 1.0;
+  const double start = certify(mirror.problem, warm).objective;
+  const double expected = make_solver(options(5e-3, 1e-9, 2000))->solve(mirror.problem, cold).objective;
+  const SolverSummary summary = make_solver(options(5e-3, 1e-9, 2000))->solve(mirror.problem, warm);
+  EXPECT_GT(start, 1.05 * expected);
+  EXPECT_LE(summary.objective, 1.02 * expected) << summary.message;
+}
+
 TEST(AutoSolver, ReachesTheCertificateWhenAsked) {
   const Mirror mirror(4);
   Vector t;
