@@ -46,10 +46,8 @@ constexpr const char* kSolvers =
     "1e-4 of the reference or by their own certificate of 1e-6 or at their time limit, and run in processes of "
     "their own in interleaved rounds: medians, and from fastest to slowest in brackets. Pairs: operator "
     "applications divided by two, plus work on coarser pixels by its count of operations; in brackets, seconds divided "
-    "by those of a pair, which counts everything. Coarse work is known at the end of a solve: to 1 % `auto` was run "
-    "once "
-    "more and ended there, else ≤ marks that of the whole solve. Gradient: projected, relative to |A'z|. Memory: peak "
-    "of the process while solving above what it held before, also as vectors of the larger of points and pixels.\n\n";
+    "by those of a pair, which counts everything. Gradient: projected, relative to |A'z|. Memory: peak of the process "
+    "while solving above what it held before, also as vectors of the larger of points and pixels.\n\n";
 
 }  // namespace
 
