@@ -32,7 +32,8 @@ void read_inputs(Plan& plan, const RunHooks& hooks) {
   plan.map_pixels = whole.valid_pixels();
   plan.map = within(whole, parse_aperture(o.aperture));
   plan.terms = parse_form_terms(o.remove);
-  plan.before = map_statistics(plan.map, plan.terms);
+  plan.figure = without_form(plan.map, plan.terms, plan.threads);
+  plan.before = map_statistics(plan.figure, {}, plan.threads);
   hooks.report(fmt::format("map: {} x {} pixels of {:.4g} mm, {} in the aperture, RMS {:.4g} nm", plan.map.grid.rows,
                            plan.map.grid.cols, plan.map.grid.pitch_x, plan.before.valid_pixels, plan.before.rms));
   plan.tif = load_removal_function(o, plan.inputs);
@@ -46,7 +47,7 @@ void lay_path(Plan& plan, const RunHooks& hooks) {
     throw InputError("--path: required; for instance raster:pitch=1, nearest:cell=2 or file:path.csv");
   plan.motion = parse_motion(o.motion);
   const PathSpec spec = parse_path_spec(o.path);
-  plan.path = rounded(plan_path(spec, without_form(plan.map, plan.terms), plan.tif.radius));
+  plan.path = rounded(plan_path(spec, plan.figure, plan.tif.radius));
   if (const auto* file = std::get_if<PathFromFile>(&spec)) {
     plan.inputs.push_back({"path", file->file.string(), sha256_of_file(file->file)});
   }
@@ -82,7 +83,7 @@ DwellProblem problem_of(const Plan& plan, RemovalOperator& removal, std::shared_
   DwellProblem problem;
   problem.removal = &removal;
   problem.target = target_of(plan, pixels, limits.max_feed);
-  problem.form = form_basis(plan.map.grid, pixels, plan.terms);
+  problem.form = form_basis(plan.map.grid, pixels, plan.terms, {}, plan.threads);
   problem.smoothness = path_smoothness(plan.path, plan.strokes);
   problem.alpha = o.smoothness * plan.kernel.energy;
   problem.gamma = o.time_price_nm2_per_s * static_cast<double>(pixels.size());
@@ -117,7 +118,7 @@ void solve_dwell(Plan& plan, const RunHooks& hooks) {
     const auto k = static_cast<Index>(i);
     left.values[static_cast<std::size_t>(pixels[i])] = problem.target[k] - removed[k];
   }
-  plan.residual = map_statistics(left, plan.terms);
+  plan.residual = map_statistics(left, plan.terms, plan.threads);
 }
 
 void schedule_feed(Plan& plan) {
