@@ -95,9 +95,12 @@ DwellProblem problem_of(const Plan& plan, RemovalOperator& removal, std::shared_
 void solve_dwell(Plan& plan, const RunHooks& hooks) {
   const auto geometry = geometry_of(plan);
   const std::vector<Index>& pixels = geometry->pixels;
+  hooks.report("solve: removal operator");
   const auto removal = make_removal_operator(*geometry);
   hooks.check();
+  hooks.report("solve: target, form and limits");
   const DwellProblem problem = problem_of(plan, *removal, geometry);
+  hooks.report(fmt::format("solve: {}", plan.options.solver));
   SolverOptions options;
   options.kind = parse_solver_kind(plan.options.solver);
   options.max_seconds = plan.options.max_solve_s;
@@ -109,6 +112,7 @@ void solve_dwell(Plan& plan, const RunHooks& hooks) {
   plan.solver = make_solver(options)->solve(problem, plan.dwell);
   hooks.check();
   if (!plan.solver.usable()) throw std::runtime_error("solver " + plan.options.solver + ": " + plan.solver.message);
+  hooks.report("solve: certificate");
   plan.certificate = certify(problem, plan.dwell);
 
   Vector removed;
