@@ -131,7 +131,7 @@ struct SpreadRun {
 template <typename Take>
 void spread_all(const Grid& map, const PaddedConvolution& convolution, const std::vector<Stroke>& strokes, int threads,
                 const Take& take) {
-  constexpr std::size_t kRun = 1024;  // strokes; their entries stay in the cache
+  constexpr std::size_t kRun = 8192;  // strokes; a few MB of entries, and few barriers
   const int count = std::max(threads, 1);
   std::vector<SpreadRun> runs(static_cast<std::size_t>(count), SpreadRun(map, convolution));
   const std::span<const Stroke> all(strokes);

@@ -4,6 +4,7 @@
 #include <omp.h>
 
 #include <cmath>
+#include <utility>
 
 #include "core/aperture.h"
 #include "core/errors.h"
@@ -28,9 +29,9 @@ ToolPath rounded(ToolPath path) {
 
 void read_inputs(Plan& plan, const RunHooks& hooks) {
   const JobOptions& o = plan.options;
-  const HeightMap whole = load_map(o, plan.inputs);
+  HeightMap whole = load_map(o, plan.inputs);
   plan.map_pixels = whole.valid_pixels();
-  plan.map = within(whole, parse_aperture(o.aperture));
+  plan.map = within(std::move(whole), parse_aperture(o.aperture));
   plan.terms = parse_form_terms(o.remove);
   plan.figure = without_form(plan.map, plan.terms, plan.threads);
   plan.before = map_statistics(plan.figure, {}, plan.threads);
