@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cli/commands.h"
+#include "cli/memory.h"
 #include "cli/terminal.h"
 #include "core/errors.h"
 #include "core/version.h"
@@ -59,6 +60,7 @@ int fail(int exit_code, const char* prefix, const std::exception& error) {
 
 int main(int argc, char** argv) {
   using namespace dwell::cli;
+  keep_freed_memory();
   catch_interrupts();
   try {
     return run(argc, argv);

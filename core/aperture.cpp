@@ -80,23 +80,23 @@ std::string to_string(const Aperture& aperture) {
   return "";
 }
 
-HeightMap within(const HeightMap& map, const Aperture& aperture) {
-  const Grid& grid = map.grid;
+HeightMap within(HeightMap map, const Aperture& aperture) {
+  const Grid grid = map.grid;
+  const Index with_data = map.valid_pixels();
   // The boundary is closed: a pixel centre that rounding (0.1 * 3 > 0.3) puts a hair outside belongs to it.
   const double slack = 1e-9 * std::min(grid.pitch_x, grid.pitch_y);
-  HeightMap result = map;
-  for (Index i = 0; i < grid.size(); ++i) {
+  for (Index i = 0; aperture.kind != Aperture::Kind::Map && i < grid.size(); ++i) {
     if (!contains(aperture, grid.centre(i), slack)) {
-      result.values[static_cast<std::size_t>(i)] = std::numeric_limits<double>::quiet_NaN();
+      map.values[static_cast<std::size_t>(i)] = std::numeric_limits<double>::quiet_NaN();
     }
   }
-  if (result.valid_pixels() == 0) {
+  if (map.valid_pixels() == 0) {
     throw InputError(fmt::format(
         "aperture '{}' leaves no pixel with data; the map ({} pixels with data) has pixel "
         "centres at x = {} to {} mm, y = {} to {} mm",
-        to_string(aperture), map.valid_pixels(), grid.x(0), grid.x(grid.cols - 1), grid.y(0), grid.y(grid.rows - 1)));
+        to_string(aperture), with_data, grid.x(0), grid.x(grid.cols - 1), grid.y(0), grid.y(grid.rows - 1)));
   }
-  return result;
+  return map;
 }
 
 }  // namespace dwell

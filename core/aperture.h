@@ -19,6 +19,6 @@ std::string to_string(const Aperture& aperture);
 
 /// Copy of the map with every pixel whose centre is outside the aperture (beyond its closed boundary) set to NaN.
 /// Throws InputError if no finite pixel is left, saying where the map lies.
-HeightMap within(const HeightMap& map, const Aperture& aperture);
+HeightMap within(HeightMap map, const Aperture& aperture);
 
 }  // namespace dwell

@@ -25,10 +25,10 @@ std::string to_string(const FormTerms& terms);  // "piston,tilt", or "none"
 
 /// Basis of the form terms on the given pixels, orthonormal in the weighted sense: with w the weights (empty = all
 /// one), B = diag(w) [1, x, y, x^2 + y^2 restricted to `terms`] and the result Q has orthonormal columns spanning B.
-/// Coordinates are centred and scaled before the QR. Columns that are dependent on these pixels (one pixel, one
+/// Columns that are dependent on these pixels (one pixel, one
 /// row) are dropped. Size pixels.size() x (0..4). Cost O(pixels).
 Eigen::MatrixXd form_basis(const Grid& grid, const std::vector<Index>& pixels, const FormTerms& terms,
-                           const std::vector<double>& weights = {});
+                           const std::vector<double>& weights = {}, int threads = 1);
 
 /// v - Q (Q' v), twice, in place: removes the form terms to rounding. v has one value a pixel of the basis.
 void remove_form(const Eigen::MatrixXd& basis, Eigen::Ref<Eigen::VectorXd> v);

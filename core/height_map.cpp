@@ -44,6 +44,7 @@ Index HeightMap::valid_pixels() const {
 
 std::vector<Index> finite_pixels(const HeightMap& map) {
   std::vector<Index> pixels;
+  pixels.reserve(static_cast<std::size_t>(map.valid_pixels()));
   for (Index i = 0; i < map.grid.size(); ++i) {
     if (std::isfinite(map.values[static_cast<std::size_t>(i)])) pixels.push_back(i);
   }

@@ -13,9 +13,9 @@ struct MapStatistics {
 
 /// PV and RMS over the finite pixels after removing `terms` by least squares on them. With piston not removed, RMS
 /// is about zero, not about the mean. Throws InputError if no pixel is finite. Cost O(pixels).
-MapStatistics map_statistics(const HeightMap& map, const FormTerms& terms);
+MapStatistics map_statistics(const HeightMap& map, const FormTerms& terms, int threads = 1);
 
 /// The map with the form terms removed on its finite pixels; NaN stays NaN.
-HeightMap without_form(const HeightMap& map, const FormTerms& terms);
+HeightMap without_form(const HeightMap& map, const FormTerms& terms, int threads = 1);
 
 }  // namespace dwell

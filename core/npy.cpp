@@ -185,6 +185,10 @@ NpyMatrix parse_npy(std::string_view bytes, const std::string& where) {
         where, rows > held / cols ? "truncated" : "overlong", rows, cols, element.type.size, parts.data.size()));
   }
   NpyMatrix matrix{shape.rows, shape.cols, std::vector<double>(rows * cols)};
+  if (element.type.name == "f8" && !element.reversed && !fortran) {
+    std::memcpy(matrix.values.data(), parts.data.data(), parts.data.size());
+    return matrix;
+  }
   for (std::size_t row = 0; row < rows; ++row) {
     for (std::size_t col = 0; col < cols; ++col) {
       const std::size_t at = fortran ? col * rows + row : row * cols + col;

@@ -33,12 +33,6 @@ PaddedConvolution::PaddedConvolution(const Grid& map, const std::vector<Index>& 
   for (Index pixel : pixels) pixel_nodes_.push_back(node(pixel / map.cols, pixel % map.cols));
 }
 
-Index PaddedConvolution::node(Index row, Index col) const {
-  const Index r = row + half_rows_, c = col + half_cols_;
-  if (r < 0 || c < 0 || r >= map_.rows + 2 * half_rows_ || c >= map_.cols + 2 * half_cols_) return -1;
-  return r * fft_.cols() + c;
-}
-
 void PaddedConvolution::clear_field() {
   const auto field = fft_.real();
 #pragma omp parallel for num_threads(threads_) schedule(static)

@@ -21,7 +21,11 @@ class PaddedConvolution {
 
   /// Index into field() of map lattice node (row, col), or -1 if no pixel of the map can feel it. Nodes outside the map
   /// are legal.
-  Index node(Index row, Index col) const;
+  Index node(Index row, Index col) const {
+    const Index r = row + half_rows_, c = col + half_cols_;
+    if (r < 0 || c < 0 || r >= map_.rows + 2 * half_rows_ || c >= map_.cols + 2 * half_cols_) return -1;
+    return r * fft_.cols() + c;
+  }
 
   std::span<double> field() { return fft_.real(); }
   void clear_field();

@@ -1,6 +1,7 @@
 #include "core/scattered_removal.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -17,56 +18,88 @@ struct NodeWeight {
   double weight;
 };
 
-/// B-spline weights of one stroke on the lattice, one entry a node, ascending; nodes that no pixel feels are left out.
+/// Lattice nodes [first_row, last_row] x [first_col, last_col].
+struct NodeBox {
+  Index first_row, last_row, first_col, last_col;
+
+  Index rows() const { return last_row - first_row + 1; }
+  Index cols() const { return last_col - first_col + 1; }
+  NodeBox with(const NodeBox& other) const {
+    return {std::min(first_row, other.first_row), std::max(last_row, other.last_row),
+            std::min(first_col, other.first_col), std::max(last_col, other.last_col)};
+  }
+};
+
+/// B-spline weights of one stroke on the lattice, without nodes that no pixel feels. Summed in a small box of nodes,
+/// and so one entry a node, ascending, for a stroke that lies in one box; a longer one is cut, and shares nodes at the
+/// cuts.
 class StrokeSpreader {
  public:
   StrokeSpreader(const Grid& map, const PaddedConvolution& convolution) : map_(map), convolution_(convolution) {}
 
-  const std::vector<NodeWeight>& spread(const Stroke& stroke) {
+  /// Appends the entries of a stroke.
+  void spread(const Stroke& stroke, std::vector<NodeWeight>& entries) {
     points_.clear();
-    entries_.clear();
     append_stroke_quadrature(stroke, map_, points_);
-    for (const QuadraturePoint& q : points_) append(q);
-    merge();
-    return entries_;
+    supports_.clear();
+    for (const QuadraturePoint& q : points_) add_support(q);
+    for (std::size_t begin = 0; begin < supports_.size();) begin = spread_box(begin, entries);
   }
 
  private:
-  void append(const QuadraturePoint& q) {
+  /// The 4 x 4 nodes that a quadrature point reaches.
+  struct Support {
+    NodeBox box;
+    std::array<double, 4> wx, wy;  // wy with the point's own weight
+  };
+
+  void add_support(const QuadraturePoint& q) {
     const double u = (q.position.x - map_.origin.x) / map_.pitch_x;
     const double v = (q.position.y - map_.origin.y) / map_.pitch_y;
     const double fu = std::floor(u), fv = std::floor(v);
     constexpr double kFar = 1e9;  // beyond any lattice, and beyond what the conversion below can hold
     if (!(std::abs(fu) < kFar && std::abs(fv) < kFar)) return;
-    const auto wx = bspline_weights(u - fu), wy = bspline_weights(v - fv);
-    for (std::size_t i = 0; i < 4; ++i) {
-      const Index row = static_cast<Index>(fv) - 1 + static_cast<Index>(i);
-      for (std::size_t j = 0; j < 4; ++j) {
-        const Index node = convolution_.node(row, static_cast<Index>(fu) - 1 + static_cast<Index>(j));
-        if (node >= 0) entries_.push_back({static_cast<std::int32_t>(node), q.weight * wy[i] * wx[j]});
-      }
-    }
+    const auto row = static_cast<Index>(fv), col = static_cast<Index>(fu);
+    Support support{{row - 1, row + 2, col - 1, col + 2}, bspline_weights(u - fu), bspline_weights(v - fv)};
+    for (double& w : support.wy) w *= q.weight;
+    supports_.push_back(support);
   }
 
-  void merge() {
-    std::sort(entries_.begin(), entries_.end(), [](const NodeWeight& a, const NodeWeight& b) {
-      return a.node != b.node ? a.node < b.node : a.weight < b.weight;
-    });
-    std::size_t kept = 0;
-    for (std::size_t k = 0; k < entries_.size(); ++k) {
-      if (kept > 0 && entries_[kept - 1].node == entries_[k].node) {
-        entries_[kept - 1].weight += entries_[k].weight;
-      } else {
-        entries_[kept++] = entries_[k];
+  /// Spreads the supports from `begin` on that share a box of at most kCells nodes; returns the first left out.
+  std::size_t spread_box(std::size_t begin, std::vector<NodeWeight>& entries) {
+    constexpr Index kCells = 1024;
+    NodeBox box = supports_[begin].box;
+    std::size_t end = begin + 1;
+    for (; end < supports_.size(); ++end) {
+      const NodeBox wider = box.with(supports_[end].box);
+      if (wider.rows() * wider.cols() > kCells) break;
+      box = wider;
+    }
+    const Index cols = box.cols();
+    cells_.assign(static_cast<std::size_t>(box.rows() * cols), 0.0);
+    for (std::size_t k = begin; k < end; ++k) {
+      const Support& s = supports_[k];
+      double* cell = cells_.data() + (s.box.first_row - box.first_row) * cols + (s.box.first_col - box.first_col);
+      for (std::size_t i = 0; i < 4; ++i, cell += cols) {
+        for (std::size_t j = 0; j < 4; ++j) cell[j] += s.wy[i] * s.wx[j];
       }
     }
-    entries_.resize(kept);
+    const double* cell = cells_.data();
+    for (Index row = box.first_row; row <= box.last_row; ++row) {
+      for (Index col = box.first_col; col <= box.last_col; ++col, ++cell) {
+        if (!(*cell > 0.0)) continue;
+        const Index node = convolution_.node(row, col);
+        if (node >= 0) entries.push_back({static_cast<std::int32_t>(node), *cell});
+      }
+    }
+    return end;
   }
 
   const Grid& map_;
   const PaddedConvolution& convolution_;
   std::vector<QuadraturePoint> points_;
-  std::vector<NodeWeight> entries_;
+  std::vector<Support> supports_;
+  std::vector<double> cells_;
 };
 
 /// Nodes are numbered in 32 bits.
@@ -84,8 +117,7 @@ struct SpreadRun {
     entries.clear();
     ends.clear();
     for (const Stroke& stroke : strokes) {
-      const auto& more = spreader.spread(stroke);
-      entries.insert(entries.end(), more.begin(), more.end());
+      spreader.spread(stroke, entries);
       ends.push_back(entries.size());
     }
   }
@@ -99,7 +131,7 @@ struct SpreadRun {
 template <typename Take>
 void spread_all(const Grid& map, const PaddedConvolution& convolution, const std::vector<Stroke>& strokes, int threads,
                 const Take& take) {
-  constexpr std::size_t kRun = 1024;  // strokes; their entries stay in the cache
+  constexpr std::size_t kRun = 8192;  // strokes; a few MB of entries, and few barriers
   const int count = std::max(threads, 1);
   std::vector<SpreadRun> runs(static_cast<std::size_t>(count), SpreadRun(map, convolution));
   const std::span<const Stroke> all(strokes);

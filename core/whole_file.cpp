@@ -95,6 +95,9 @@ fs::path temporary_beside(const fs::path& file) {
 
 std::string read_whole_file(const fs::path& file) {
   std::string bytes;
+  std::error_code unknown;  // a pipe has no size: then it grows as it is read
+  const std::uintmax_t size = fs::file_size(file, unknown);
+  if (!unknown && size < bytes.max_size()) bytes.reserve(static_cast<std::size_t>(size));
   for_each_block(file, [&](std::string_view block) { bytes += block; });
   return bytes;
 }

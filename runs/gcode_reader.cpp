@@ -50,14 +50,14 @@ class GcodeInterpreter {
   }
 
  private:
-  std::string where() const { return fmt::format("{}, line {}", file_, line_number_); }
-
-  [[noreturn]] void fail(const std::string& what) const { throw InputError(where() + ": " + what); }
+  [[noreturn]] void fail(const std::string& what) const {
+    throw InputError(GcodePlace{file_, line_number_}.text() + ": " + what);
+  }
 
   bool run_line(std::string_view line) {
-    const GcodeLine parts = split_gcode_line(line, where());
-    for (const std::string_view comment : parts.comments) read_comment(comment);
-    const Block block = collect(parts);
+    split_gcode_line(line, {file_, line_number_}, parts_);
+    for (const std::string_view comment : parts_.comments) read_comment(comment);
+    const Block block = collect(parts_);
     if (block.feed_mode) set_feed_mode(*block.feed_mode);
     if (block.f) set_feed(*block.f);
     if (block.halt) halt(block);
@@ -262,6 +262,7 @@ class GcodeInterpreter {
   std::optional<GcodeDialect> dialect_;
   Program program_;
   std::size_t line_number_ = 0;
+  GcodeLine parts_;  // of the line
   std::optional<double> x_, y_, z_;
   std::optional<int> motion_;
   std::optional<double> feed_;

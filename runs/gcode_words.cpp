@@ -14,7 +14,7 @@ bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 bool is_letter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); }
 bool is_numeric(char c) { return (c >= '0' && c <= '9') || c == '.' || c == '-' || c == '+'; }
 
-GcodeWord read_word(std::string_view line, std::size_t& at, const std::string& where) {
+GcodeWord read_word(std::string_view line, std::size_t& at, const GcodePlace& where) {
   const std::size_t start = at;
   const char letter = line[at++];
   while (at < line.size() && is_blank(line[at])) ++at;
@@ -29,15 +29,18 @@ GcodeWord read_word(std::string_view line, std::size_t& at, const std::string& w
   const auto [end, error] = std::from_chars(number.data(), number_end, word.value, std::chars_format::fixed);
   if (error != std::errc() || end != number_end || !std::isfinite(word.value)) {
     throw InputError(fmt::format("{}: \"{}\" has no readable number; required a letter and a decimal number, as X-1.5",
-                                 where, word.text));
+                                 where.text(), word.text));
   }
   return word;
 }
 
 }  // namespace
 
-GcodeLine split_gcode_line(std::string_view line, const std::string& where) {
-  GcodeLine result;
+std::string GcodePlace::text() const { return fmt::format("{}, line {}", file, line); }
+
+void split_gcode_line(std::string_view line, const GcodePlace& where, GcodeLine& result) {
+  result.words.clear();
+  result.comments.clear();
   std::size_t at = 0;
   while (at < line.size()) {
     const char c = line[at];
@@ -49,18 +52,17 @@ GcodeLine split_gcode_line(std::string_view line, const std::string& where) {
     } else if (c == '(') {
       const std::size_t close = line.find(')', at);
       if (close == std::string_view::npos) {
-        throw InputError(fmt::format("{}: comment \"{}\" is not closed; required )", where, line.substr(at)));
+        throw InputError(fmt::format("{}: comment \"{}\" is not closed; required )", where.text(), line.substr(at)));
       }
       result.comments.push_back(line.substr(at + 1, close - at - 1));
       at = close + 1;
     } else if (is_letter(c)) {
       result.words.push_back(read_word(line, at, where));
     } else {
-      throw InputError(fmt::format("{}: \"{}\" begins no word; required a letter and a decimal number, as X-1.5", where,
-                                   line.substr(at)));
+      throw InputError(fmt::format("{}: \"{}\" begins no word; required a letter and a decimal number, as X-1.5",
+                                   where.text(), line.substr(at)));
     }
   }
-  return result;
 }
 
 }  // namespace dwell

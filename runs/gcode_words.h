@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,9 +20,17 @@ struct GcodeLine {
   std::vector<std::string_view> comments;  // between ( and ), and after ;
 };
 
-/// Splits a line. Letters in either case, blanks before letters and numbers optional, a line of % holds nothing.
-/// Numbers are decimal, without exponent. Throws InputError that begins with `where` ("program.nc, line 7") and names
-/// the text: a comment that is not closed, a letter without a number, a character that begins no word.
-GcodeLine split_gcode_line(std::string_view line, const std::string& where);
+/// A line of a program, for messages.
+struct GcodePlace {
+  const std::string& file;
+  std::size_t line = 0;
+
+  std::string text() const;  // "program.nc, line 7"
+};
+
+/// Splits a line into `result`, whose memory is used again. Letters in either case, blanks before letters and numbers
+/// optional, a line of % holds nothing. Numbers are decimal, without exponent. Throws InputError that begins with the
+/// place and names the text: a comment that is not closed, a letter without a number, a character that begins no word.
+void split_gcode_line(std::string_view line, const GcodePlace& where, GcodeLine& result);
 
 }  // namespace dwell

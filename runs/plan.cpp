@@ -4,6 +4,7 @@
 #include <omp.h>
 
 #include <cmath>
+#include <utility>
 
 #include "core/aperture.h"
 #include "core/errors.h"
@@ -27,11 +28,12 @@ ToolPath rounded(ToolPath path) {
 
 void read_inputs(Plan& plan, const RunHooks& hooks) {
   const JobOptions& o = plan.options;
-  const HeightMap whole = load_map(o, plan.inputs);
+  HeightMap whole = load_map(o, plan.inputs);
   plan.map_pixels = whole.valid_pixels();
-  plan.map = within(whole, parse_aperture(o.aperture));
+  plan.map = within(std::move(whole), parse_aperture(o.aperture));
   plan.terms = parse_form_terms(o.remove);
-  plan.before = map_statistics(plan.map, plan.terms);
+  plan.figure = without_form(plan.map, plan.terms, plan.threads);
+  plan.before = map_statistics(plan.figure, {}, plan.threads);
   hooks.report(fmt::format("map: {} x {} pixels of {:.4g} mm, {} in the aperture, RMS {:.4g} nm", plan.map.grid.rows,
                            plan.map.grid.cols, plan.map.grid.pitch_x, plan.before.valid_pixels, plan.before.rms));
   plan.tif = load_removal_function(o, plan.inputs);
@@ -45,7 +47,7 @@ void lay_path(Plan& plan, const RunHooks& hooks) {
     throw InputError("--path: required; for instance raster:pitch=1, nearest:cell=2 or file:path.csv");
   plan.motion = parse_motion(o.motion);
   const PathSpec spec = parse_path_spec(o.path);
-  plan.path = rounded(plan_path(spec, without_form(plan.map, plan.terms), plan.tif.radius));
+  plan.path = rounded(plan_path(spec, plan.figure, plan.tif.radius));
   if (const auto* file = std::get_if<PathFromFile>(&spec)) {
     plan.inputs.push_back({"path", file->file.string(), sha256_of_file(file->file)});
   }
@@ -56,7 +58,9 @@ void lay_path(Plan& plan, const RunHooks& hooks) {
 
 void solve_dwell(Plan& plan, const RunHooks& hooks) {
   const JobOptions& o = plan.options;
+  hooks.report("solve: removal operator, target and form");
   PlanProblem problem(plan);
+  hooks.check();
   WeightedDwell found;
   if (plan.search) {
     found = search_plan(problem, o, hooks, *plan.search);
@@ -67,8 +71,9 @@ void solve_dwell(Plan& plan, const RunHooks& hooks) {
   plan.dwell = std::move(found.dwell);
   plan.solver = std::move(found.solver);
   plan.step_rms = found.trade_off.step_rms;
+  hooks.report("solve: certificate");
   plan.certificate = certify(problem.with(plan.weights), plan.dwell);
-  plan.residual = map_statistics(problem.left_by(plan.dwell), plan.terms);
+  plan.residual = map_statistics(problem.left_by(plan.dwell), plan.terms, plan.threads);
 }
 
 void schedule_feed(Plan& plan) {

@@ -30,7 +30,8 @@ struct Plan {
   HeightMap map;         // within the aperture, as measured [nm]
   Index map_pixels = 0;  // valid pixels of the whole file
   FormTerms terms;
-  MapStatistics before;
+  HeightMap figure;      // the map, form terms removed [nm]
+  MapStatistics before;  // of it
   RemovalFunction tif;
   RemovalKernel kernel;
 

@@ -42,7 +42,7 @@ PlanProblem::PlanProblem(const Plan& plan)
   const FeedLimits limits = feed_limits(plan.options);
   problem_.removal = removal_.get();
   problem_.target = target_of(plan, geometry_->pixels, limits.max_feed);
-  problem_.form = form_basis(grid_, geometry_->pixels, plan.terms);
+  problem_.form = form_basis(grid_, geometry_->pixels, plan.terms, {}, plan.threads);
   problem_.smoothness = path_smoothness(plan.path, plan.strokes);
   problem_.lower = minimum_dwell(plan.strokes, limits);
   problem_.geometry = geometry_;

@@ -25,13 +25,13 @@ Simulation simulate_file(const std::filesystem::path& program, std::optional<Gco
   check_tool_fits(tif, map.grid);
   const RemovalKernel kernel = removal_kernel(tif, map.grid.pitch_x, map.grid.pitch_y);
   s.terms = parse_form_terms(options.remove);
-  s.before = map_statistics(map, s.terms);
+  s.before = map_statistics(map, s.terms, thread_count(options.threads));
   hooks.check();
   hooks.report(fmt::format("simulate: {} steps", s.program.steps.size()));
   s.removal = simulate(s.program, map, kernel, thread_count(options.threads));
   hooks.check();
-  s.residual = without_form(surface_after(map, s.removal), s.terms);
-  s.after = map_statistics(s.residual, {});
+  s.residual = without_form(surface_after(map, s.removal), s.terms, thread_count(options.threads));
+  s.after = map_statistics(s.residual, {}, thread_count(options.threads));
   return s;
 }
 

@@ -90,9 +90,24 @@ DwellObjective::DwellObjective(const DwellProblem& problem) : problem_(problem),
 
 void DwellObjective::weigh_and_project(Vector& v) const {
   if (problem_.weights.size() != 0) v.array() *= problem_.weights.array();
-  if (problem_.form.cols() != 0) {
-    const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxFormTerms, 1> c = problem_.form.transpose() * v;
-    v.noalias() -= problem_.form * c;
+  if (problem_.form.cols() == 0) return;
+  // Q is several times as large as v: in blocks of rows, by all threads; the blocks are summed in order.
+  constexpr Index kBlocks = 64, kSmall = 1 << 16;
+  const Index m = v.size(), terms = problem_.form.cols(), block = (m + kBlocks - 1) / kBlocks;
+  [[maybe_unused]] const int threads = problem_.geometry && m > kSmall ? std::max(problem_.geometry->threads, 1) : 1;
+  const auto begin = [&](Index b) { return std::min(b * block, m); };
+  const auto rows = [&](Index b) { return begin(b + 1) - begin(b); };
+  Eigen::Matrix<double, kMaxFormTerms, kBlocks> partial = Eigen::Matrix<double, kMaxFormTerms, kBlocks>::Zero();
+#pragma omp parallel for num_threads(threads) schedule(static)
+  for (Index b = 0; b < kBlocks; ++b) {
+    for (Index k = 0; k < terms; ++k)
+      partial(k, b) = problem_.form.col(k).segment(begin(b), rows(b)).dot(v.segment(begin(b), rows(b)));
+  }
+  const Eigen::Matrix<double, kMaxFormTerms, 1> c = partial.rowwise().sum();
+#pragma omp parallel for num_threads(threads) schedule(static)
+  for (Index b = 0; b < kBlocks; ++b) {
+    for (Index k = 0; k < terms; ++k)
+      v.segment(begin(b), rows(b)) -= c[k] * problem_.form.col(k).segment(begin(b), rows(b));
   }
 }
 

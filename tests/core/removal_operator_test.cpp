@@ -182,7 +182,7 @@ TEST(RemovalOperator, ABumpOfDwellAtPlusXRemovesAtPlusX) {
 TEST(RemovalOnce, IsTheScatteredOperatorBitByBit) {
   const Fixture f;
   std::vector<Stroke> strokes;  // more than one run of strokes a thread
-  for (int k = 0; k < 60; ++k) {
+  for (int k = 0; k < 600; ++k) {
     const auto more = strokes_for(f, Kind::Scattered, true, 0.0);
     strokes.insert(strokes.end(), more.begin(), more.end());
   }

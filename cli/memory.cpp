@@ -1,0 +1,27 @@
+#include "cli/memory.h"
+
+#include <malloc.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+
+namespace dwell::cli {
+
+void keep_freed_memory() {
+  // One heap for arrays of any size (no mapping of their own), never trimmed: see mallopt(3).
+  if (mallopt(M_MMAP_MAX, 0) == 0 || mallopt(M_TRIM_THRESHOLD, -1) == 0) return;
+  // Address space only: allocated, so that the heap reaches that far, advised, and freed untouched.
+  constexpr std::size_t kReserve = std::size_t{4} << 30;
+  void* const reserve = std::malloc(kReserve);
+  if (reserve == nullptr) return;
+  const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
+  const std::uintptr_t begin = (reinterpret_cast<std::uintptr_t>(reserve) + page - 1) / page * page;
+  const std::uintptr_t end = (reinterpret_cast<std::uintptr_t>(reserve) + kReserve) / page * page;
+  madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);  // advice: nothing is lost if it is refused
+  std::free(reserve);
+}
+
+}  // namespace dwell::cli
