@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "runs/plan_program.h"
@@ -97,6 +98,30 @@ TEST(ProgramOf, RaisesADwellThatRoundingPutBelowTheLimit) {
   const ToolPath path{"file", {{0, 0}, {1, 0}}, {1, 0}};
   const Program program = program_of(path, {0.1 - 1e-7, 0.1}, Motion::Moving, 10.0);
   EXPECT_DOUBLE_EQ(program.steps[0].seconds, 0.1);
+}
+
+TEST(SameRemovingSteps, TakesNoMoreThanTheRoundingOfFiles) {
+  const Program plan = program_of(winding_path(), winding_dwells(Motion::Moving), Motion::Moving, 50.0);
+  EXPECT_TRUE(same_removing_steps(plan, plan, 50.0));
+  ASSERT_TRUE(plan.steps[1].removes);
+  const auto changed = [&](const std::function<void(ProgramStep&)>& change) {
+    Program other = plan;
+    change(other.steps[1]);
+    return same_removing_steps(plan, other, 50.0) || same_removing_steps(other, plan, 50.0);
+  };
+  EXPECT_TRUE(changed([](ProgramStep& s) { s.start.x += 5e-7; }));
+  EXPECT_TRUE(changed([](ProgramStep& s) { s.seconds *= 1.0 + 5e-7; }));
+  EXPECT_FALSE(changed([](ProgramStep& s) { s.start.x += 2e-6; }));
+  EXPECT_FALSE(changed([](ProgramStep& s) { s.finish.y -= 2e-6; }));
+  EXPECT_FALSE(changed([](ProgramStep& s) { s.seconds += 2e-6 * s.seconds + 1e-7; }));
+  EXPECT_FALSE(changed([](ProgramStep& s) { s.removes = false; }));
+  EXPECT_FALSE(changed([](ProgramStep& s) { s.seconds = kNaN; }));
+  EXPECT_FALSE(changed([](ProgramStep& s) { s.finish.x = kNaN; }));
+  Program longer = plan;
+  longer.steps.push_back(plan.steps[1]);
+  EXPECT_FALSE(same_removing_steps(plan, longer, 50.0));
+  longer.steps.back().removes = false;
+  EXPECT_TRUE(same_removing_steps(plan, longer, 50.0));
 }
 
 TEST(ProgramOf, RefusesWhatCannotBeRun) {

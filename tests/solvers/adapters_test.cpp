@@ -173,7 +173,7 @@ TEST_P(Adapters, LeaveAnOptimumAlone) {
   Vector t = best;
   const SolverSummary s = make_solver(tight(GetParam()))->solve(line.problem, t);
   EXPECT_EQ(s.status, SolverStatus::Converged) << s.message;
-  EXPECT_EQ(t, best);
+  EXPECT_LE((t - best).cwiseAbs().maxCoeff(), 1e-10);  // of dwells up to 2.5 s
 }
 
 TEST_P(Adapters, SolveTheSimplestProblems) {
