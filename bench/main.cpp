@@ -45,10 +45,18 @@ void save(const Options& options, const nlohmann::json& all) {
   if (!options.out.empty()) write_whole_file(options.out, all.dump(1) + "\n");
 }
 
+/// The picture as seen from the Markdown file.
+std::string link_to_picture(const Options& options) {
+  if (options.markdown.empty() || options.picture.empty()) return options.picture;
+  return std::filesystem::absolute(options.picture)
+      .lexically_relative(std::filesystem::absolute(options.markdown).parent_path())
+      .generic_string();
+}
+
 /// Writes what was asked for of JSON, Markdown and picture, and prints the Markdown.
 void deliver(const Options& options, const nlohmann::json& all) {
   save(options, all);
-  const std::string text = markdown_report(all, std::filesystem::path(options.picture).filename().string());
+  const std::string text = markdown_report(all, link_to_picture(options));
   fmt::print("\n{}", text);
   if (!options.markdown.empty()) write_whole_file(options.markdown, text);
   if (!options.picture.empty()) write_whole_file(options.picture, chart_of(all));

@@ -205,8 +205,8 @@ class Run {
     ResolutionMatchedHessian hessian(p_, factor);
     set_product_cost(hessian.relative_cost(), kPointWork * static_cast<double>(p_.points()));
     lbfgs.forget();
-    const CoarseFactor fine = fine_pixels(p_.geometry->kernel, factor);
-    const bool finest = fine.x == factor.x && fine.y == factor.y;
+    const double pitch = static_cast<double>(std::max(factor.x, factor.y));
+    const bool fine = pitch <= kFinePitch * equivalent_sigma(p_.geometry->kernel) || std::min(factor.x, factor.y) < 4;
     while (!done()) {
       model_.x = point_.x;
       model_.value = point_.value;
@@ -228,7 +228,7 @@ class Run {
       const double little = o_.objective_tolerance * std::abs(before);
       if (gained < little && (leads || promised < little) && total_products_ >= kLeastBeforeSettling) {
         settle(gained, factor);
-      } else if (!leads && !exact && finest) {
+      } else if (!leads && !exact && fine) {
         exact = true;
       } else if (!leads) {
         break;

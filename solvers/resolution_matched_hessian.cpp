@@ -4,8 +4,8 @@ namespace dwell {
 
 ResolutionMatchedHessian::ResolutionMatchedHessian(const DwellProblem& problem, CoarseFactor factor)
     : problem_(problem),
-      strokes_(dwell_lattice(problem.geometry->map, problem.geometry->strokes, factor).lattice,
-               problem.geometry->strokes, StrokePart::Whole, problem.geometry->threads),
+      strokes_(dwell_lattice(*problem.geometry, factor).lattice, problem.geometry->strokes, StrokePart::Whole,
+               problem.geometry->threads),
       removal_(problem, strokes_.lattice(), factor) {}
 
 void ResolutionMatchedHessian::product(const Vector& d, Vector& hd) {

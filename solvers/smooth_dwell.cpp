@@ -30,7 +30,7 @@ void add_sums(const Vector& by_pixel, SplineGram::Take take, double scale, Splin
 }  // namespace
 
 SmoothDwell::SmoothDwell(const RemovalGeometry& g, CoarseFactor factor)
-    : cover_(cover_of(g.map, dwell_lattice(g.map, g.strokes, factor), factor)),
+    : cover_(cover_of(g.map, dwell_lattice(g, factor), factor)),
       origin_(g.map.origin),
       points_(SplineGram::lattice_of(cover_, factor), g.strokes, StrokePart::Via, g.threads) {}
 
@@ -67,9 +67,12 @@ SmoothDwellHessian::SmoothDwellHessian(const DwellProblem& problem, const Smooth
   const std::vector<Stroke>& strokes = problem.geometry->strokes;
   const Grid& cover = dwell.cover();
   const auto pixel = [&](const Stroke& s) {
-    const auto row = static_cast<Index>(std::llround((s.via.y - cover.origin.y) / cover.pitch_y));
-    const auto col = static_cast<Index>(std::llround((s.via.x - cover.origin.x) / cover.pitch_x));
-    return cover.index(std::clamp<Index>(row, 0, cover.rows - 1), std::clamp<Index>(col, 0, cover.cols - 1));
+    // Strokes far off are at the edge, as they are for SplineSpreading.
+    const auto nearest = [](double at, Index lines) {
+      return static_cast<Index>(std::lround(std::clamp(at, 0.0, static_cast<double>(lines - 1))));
+    };
+    return cover.index(nearest((s.via.y - cover.origin.y) / cover.pitch_y, cover.rows),
+                       nearest((s.via.x - cover.origin.x) / cover.pitch_x, cover.cols));
   };
   Vector sums = Vector::Zero(cover.size());
   for (const Stroke& s : strokes) sums[pixel(s)] += 1.0;

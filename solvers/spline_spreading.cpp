@@ -1,7 +1,5 @@
 #include "solvers/spline_spreading.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -14,7 +12,7 @@ namespace dwell {
 namespace {
 
 constexpr double kLongestPiece = 0.25;  // of the pitch
-constexpr double kRounding = 1e-6;      // of the pitch
+constexpr double kMostPieces = 1e5;     // of a stroke: as long as a hundred lattices
 constexpr Index kWorthThreads = 20000;  // strokes
 
 /// The point a share of the way along the stroke.
@@ -39,7 +37,7 @@ SplineSpreading::SplineSpreading(const Grid& lattice, const std::vector<Stroke>&
   const double longest = kLongestPiece * std::min(lattice.pitch_x, lattice.pitch_y);
   for (const Stroke& s : strokes) {
     const double length = part == StrokePart::Whole ? s.length() : 0.0;
-    const int pieces = std::max(1, static_cast<int>(std::ceil(length / longest)));
+    const int pieces = static_cast<int>(std::clamp(std::ceil(length / longest), 1.0, kMostPieces));
     for (int k = 0; k < pieces; ++k) append(length > 0.0 ? along(s, (k + 0.5) / pieces) : s.via);
     if (places_.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
       throw std::length_error("path has too many points on the lattice");
@@ -51,14 +49,10 @@ SplineSpreading::SplineSpreading(const Grid& lattice, const std::vector<Stroke>&
 
 void SplineSpreading::append(Point p) {
   const double u = (p.x - lattice_.origin.x) / lattice_.pitch_x, v = (p.y - lattice_.origin.y) / lattice_.pitch_y;
-  // Rounding must not carry a point on the first or last line off the lattice.
   const double fu = std::clamp(std::floor(u), 1.0, static_cast<double>(lattice_.cols - 3));
   const double fv = std::clamp(std::floor(v), 1.0, static_cast<double>(lattice_.rows - 3));
-  const auto within = [](double f) { return f >= -kRounding && f <= 1.0 + kRounding; };
-  if (!(within(u - fu) && within(v - fv)))
-    throw std::invalid_argument(fmt::format("point ({}, {}) mm lies off the coarse lattice", p.x, p.y));
   const auto phase = [](double f) {
-    return static_cast<std::uint16_t>(std::clamp<long>(std::lround(f * kPhases), 0, kPhases));
+    return static_cast<std::uint16_t>(std::lround(std::clamp(f, 0.0, 1.0) * kPhases));
   };
   places_.push_back(
       {static_cast<std::int32_t>((static_cast<Index>(fv) - 1) * lattice_.cols + static_cast<Index>(fu) - 1),
@@ -126,28 +120,45 @@ DWELL_SIMD void SplineSpreading::gather_range(const double* nodes, Index from, I
   }
 }
 
-DwellLattice dwell_lattice(const Grid& map, const std::vector<Stroke>& strokes, CoarseFactor factor) {
-  const double pitch_x = map.pitch_x * static_cast<double>(factor.x),
-               pitch_y = map.pitch_y * static_cast<double>(factor.y);
-  Index first_row = std::numeric_limits<Index>::max(), first_col = first_row, last_row = -first_row,
-        last_col = last_row;
-  for (const Stroke& s : strokes) {
+DwellLattice dwell_lattice(const RemovalGeometry& g, CoarseFactor factor) {
+  /// First and last cell of the coarse lattice along one axis that holds a stroke.
+  struct Range {
+    double origin, pitch, least, most;
+    double first = std::numeric_limits<double>::infinity(), last = -first;
+
+    // Three cells beyond the reach of the kernel: a stroke moved there stands on nodes that no pixel feels.
+    Range(double map_origin, double map_pitch, Index pixels, Index reach, Index step)
+        : origin(map_origin),
+          pitch(map_pitch * static_cast<double>(step)),
+          least(-std::ceil(static_cast<double>(reach) / static_cast<double>(step)) - 3.0),
+          most(std::ceil(static_cast<double>(pixels + reach) / static_cast<double>(step)) + 3.0) {}
+    void take(double at) {
+      const double cell = std::clamp(std::floor((at - origin) / pitch), least, most);
+      first = std::min(first, cell);
+      last = std::max(last, cell);
+    }
+  };
+  Range y(g.map.origin.y, g.map.pitch_y, g.map.rows, g.kernel.half_rows, factor.y);
+  Range x(g.map.origin.x, g.map.pitch_x, g.map.cols, g.kernel.half_cols, factor.x);
+  for (const Stroke& s : g.strokes) {
     for (const Point p : {s.start, s.via, s.finish}) {
-      const auto row = static_cast<Index>(std::floor((p.y - map.origin.y) / pitch_y));
-      const auto col = static_cast<Index>(std::floor((p.x - map.origin.x) / pitch_x));
-      first_row = std::min(first_row, row);
-      first_col = std::min(first_col, col);
-      last_row = std::max(last_row, row);
-      last_col = std::max(last_col, col);
+      y.take(p.y);
+      x.take(p.x);
     }
   }
-  if (strokes.empty()) first_row = first_col = last_row = last_col = 0;
+  if (g.strokes.empty()) {
+    y.take(g.map.origin.y);
+    x.take(g.map.origin.x);
+  }
   DwellLattice result;
-  result.first_row = first_row - 1;
-  result.first_col = first_col - 1;
-  result.lattice = {last_row - first_row + 4, last_col - first_col + 4, pitch_x, pitch_y, {}};
-  result.lattice.origin = map.origin + Point{pitch_x * static_cast<double>(result.first_col),
-                                             pitch_y * static_cast<double>(result.first_row)};
+  result.first_row = static_cast<Index>(y.first) - 1;
+  result.first_col = static_cast<Index>(x.first) - 1;
+  result.lattice = {static_cast<Index>(y.last - y.first) + 4,
+                    static_cast<Index>(x.last - x.first) + 4,
+                    x.pitch,
+                    y.pitch,
+                    {x.origin + x.pitch * static_cast<double>(result.first_col),
+                     y.origin + y.pitch * static_cast<double>(result.first_row)}};
   return result;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/grid.h"
+#include "core/removal_geometry.h"
 #include "core/removal_operator.h"
 #include "core/tool_path.h"
 #include "solvers/spline_gram.h"
@@ -20,7 +21,7 @@ enum class StrokePart { Via, Whole };
 /// serves a Hessian that is itself good to a percent at a tenth of the memory. Memory: 8 bytes a point, 4 a stroke.
 class SplineSpreading {
  public:
-  /// The lattice must have a node before and two behind every stroke, both ways; throws std::invalid_argument if not.
+  /// A stroke that does not have a node of the lattice before and two behind it, both ways, is moved to where it has.
   SplineSpreading(const Grid& lattice, const std::vector<Stroke>& strokes, StrokePart part, int threads);
 
   Index strokes() const { return static_cast<Index>(begin_.size()) - 1; }
@@ -58,11 +59,12 @@ class SplineSpreading {
   int threads_;
 };
 
-/// A lattice that has the map's lines at every factor-th pixel and on which a SplineSpreading of the strokes stands.
+/// A lattice that has the map's lines at every factor-th pixel and holds every stroke, as far as the removal function
+/// reaches the map from there: what lies farther off, SplineSpreading moves to where nothing is felt.
 struct DwellLattice {
   Grid lattice;
   Index first_row = 0, first_col = 0;  // of the lattice's first node, in its pitches from the map's origin
 };
-DwellLattice dwell_lattice(const Grid& map, const std::vector<Stroke>& strokes, CoarseFactor factor);
+DwellLattice dwell_lattice(const RemovalGeometry& geometry, CoarseFactor factor);
 
 }  // namespace dwell

@@ -26,6 +26,15 @@ Vector noise(Index n, unsigned seed) {
 const Grid kMap{40, 60, 0.5, 0.25, {3.0, -7.0}};
 const CoarseFactor kFactor{8, 6};
 
+RemovalGeometry geometry_of(std::vector<Stroke> strokes) {
+  RemovalGeometry g;
+  g.map = kMap;
+  g.kernel.half_rows = 9;
+  g.kernel.half_cols = 5;
+  g.strokes = std::move(strokes);
+  return g;
+}
+
 /// Anywhere on the map and a little beyond it.
 ToolPath scattered(Index n, unsigned seed) {
   const Vector x = noise(n, seed), y = noise(n, seed + 1);
@@ -43,7 +52,7 @@ double weight(const Grid& lattice, Index node, Point p) {
 
 TEST(SplineSpreading, GathersWhatTheBSplinesSay) {
   const auto strokes = halting_strokes(scattered(200, 1));
-  SplineSpreading spreading(dwell_lattice(kMap, strokes, kFactor).lattice, strokes, StrokePart::Whole, 1);
+  SplineSpreading spreading(dwell_lattice(geometry_of(strokes), kFactor).lattice, strokes, StrokePart::Whole, 1);
   const Vector nodes = noise(spreading.lattice().size(), 3);
   Vector t;
   spreading.gather(nodes, t);
@@ -60,7 +69,7 @@ TEST(SplineSpreading, TakesTheMeanAlongAStroke) {
   path.points = {{5.0, -6.0}, {9.0, -5.0}, {13.0, -6.5}, {12.0, 0.0}};
   path.lifted.assign(4, 0);
   const auto strokes = moving_strokes(path);
-  SplineSpreading whole(dwell_lattice(kMap, strokes, kFactor).lattice, strokes, StrokePart::Whole, 1);
+  SplineSpreading whole(dwell_lattice(geometry_of(strokes), kFactor).lattice, strokes, StrokePart::Whole, 1);
   const Vector nodes = noise(whole.lattice().size(), 4);
   Vector t;
   whole.gather(nodes, t);
@@ -81,7 +90,7 @@ TEST(SplineSpreading, TakesTheMeanAlongAStroke) {
 
 TEST(SplineSpreading, SpreadsTheTransposeOnAnyNumberOfThreads) {
   const auto strokes = halting_strokes(scattered(30'000, 5));
-  const Grid lattice = dwell_lattice(kMap, strokes, kFactor).lattice;
+  const Grid lattice = dwell_lattice(geometry_of(strokes), kFactor).lattice;
   const Vector t = noise(30'000, 6), nodes = noise(lattice.size(), 7);
   Vector one;
   for (int threads : {1, 2, 3}) {
@@ -97,11 +106,24 @@ TEST(SplineSpreading, SpreadsTheTransposeOnAnyNumberOfThreads) {
   }
 }
 
-TEST(SplineSpreading, NamesAPointOffItsLattice) {
-  const auto strokes = halting_strokes(scattered(10, 8));
-  Grid small = dwell_lattice(kMap, strokes, kFactor).lattice;
-  small.cols -= 1;
-  EXPECT_THROW(SplineSpreading(small, strokes, StrokePart::Via, 1), std::invalid_argument);
+/// One point a kilometre away must not make a lattice of a kilometre; it stands where no pixel feels it.
+TEST(SplineSpreading, MovesWhatIsFarOffToTheEdge) {
+  ToolPath path = scattered(20, 8);
+  path.points.push_back({1e6, -1e6});
+  path.lifted.push_back(1);
+  const auto strokes = halting_strokes(path);
+  const DwellLattice at = dwell_lattice(geometry_of(strokes), kFactor);
+  EXPECT_LE(at.lattice.size(), 400);
+  SplineSpreading spreading(at.lattice, strokes, StrokePart::Whole, 1);
+  Vector t = Vector::Zero(21), nodes;
+  t[20] = 1.0;
+  spreading.spread(t, nodes);
+  EXPECT_NEAR(nodes.sum(), 1.0, 1e-6);
+  for (Index k = 0; k < nodes.size(); ++k) {
+    if (nodes[k] == 0.0) continue;
+    const Point p = at.lattice.centre(k);
+    EXPECT_TRUE(p.x > kMap.centre(0, kMap.cols + 5).x || p.y < kMap.centre(-9, 0).y);
+  }
 }
 
 /// The lattice's lines are the map's, and points on its first and last lines are taken.
@@ -110,7 +132,7 @@ TEST(DwellLattice, HoldsEveryStroke) {
   path.points = {kMap.centre(0, 0), kMap.centre(36, 56), kMap.centre(-6, 8), {3.9999999, -6.5}};
   path.lifted.assign(4, 0);
   const auto strokes = halting_strokes(path);
-  const DwellLattice at = dwell_lattice(kMap, strokes, kFactor);
+  const DwellLattice at = dwell_lattice(geometry_of(strokes), kFactor);
   SplineSpreading spreading(at.lattice, strokes, StrokePart::Via, 1);
   Vector ones;
   spreading.gather(Vector::Ones(at.lattice.size()), ones);
@@ -123,7 +145,7 @@ TEST(DwellLattice, HoldsEveryStroke) {
 TEST(TwoScale, SaysOnTheCoarseLatticeWhatTheFineOneHolds) {
   const auto strokes = halting_strokes(scattered(300, 9));
   for (const CoarseFactor fine : {CoarseFactor{4, 3}, CoarseFactor{3, 5}}) {
-    SplineSpreading spreading(dwell_lattice(kMap, strokes, fine).lattice, strokes, StrokePart::Via, 1);
+    SplineSpreading spreading(dwell_lattice(geometry_of(strokes), fine).lattice, strokes, StrokePart::Via, 1);
     const Vector t = noise(300, 10);
     Vector on_fine, on_coarse, back;
     spreading.spread(t, on_fine);
