@@ -39,13 +39,12 @@ PlanCase square_case(long size, const std::string& motion, const std::filesystem
 
 /// The settings under which the published dwell is beaten on every axis.
 PlanCase udo_case(const std::filesystem::path& folder) {
-  return {
-      "udo-raster",
-      "measured mirror, measured spot, published raster",
-      0,
-      {"--map", (folder / "map_nm.csv").string(), "--map-pixel", "0.09383299999999997", "--tif",
-       (folder / "tif_nm_per_s.csv").string(), "--tif-pixel", "0.09383299766341224", "--path",
-       "file:" + (folder / "path_and_published_dwell.csv").string(), "--min-dwell", "0.1", "--smoothness", "0.001"}};
+  return {"udo-raster",
+          "measured mirror, measured spot, published raster",
+          0,
+          {"--map", (folder / "map_nm.csv").string(), "--map-pixel", "0.09383299999999997", "--tif",
+           (folder / "tif_nm_per_s.csv").string(), "--tif-pixel", "0.09383299766341224", "--path",
+           "file:" + (folder / "path_and_published_dwell.csv").string(), "--min-dwell", "0.1", "--time-price", "5e-6"}};
 }
 
 /// What a program that failed said at last.

@@ -27,7 +27,7 @@ struct SolveOptions {
   bool stop_at_target = true;
   double stop_gap = 1e-4;
   double gradient_tolerance = 1e-6;  // of the solver's own certificate
-  double max_seconds = 60.0;         // for the solve; that of the scenario if it is shorter
+  double max_seconds = 60.0;         // for the solve; to a target, that of the scenario if it is shorter
 };
 
 /// Solves a scenario once, from the lower bound, and tells what happened:

@@ -22,6 +22,8 @@ constexpr double kLooseKernelTolerance = 0.03;  // for measured removal function
 // Pitch of the finer pixels and of the lattice of smooth dwell, in sigmas: smooth dwell at 0.8 leaves 2 to 9 % of the
 // objective, at 0.4 under 1.5 %.
 constexpr double kFinePitch = 0.5;
+// Finer pixels are not worth their stencils: 196 bytes a node, which at a factor of two is six vectors of the map.
+constexpr Index kFinestFactor = 3;
 // Smooth dwell pays with so many dwell points a variable; finer levels of it only where the points are very many.
 constexpr Index kPointsPerVariable = 3;
 constexpr Index kPointsPerFinerVariable = 10;
@@ -34,7 +36,7 @@ constexpr long kLeastProducts = 16;
 constexpr double kRoundIsOver = 0.03;
 // After smooth dwell, the points' first round is at most so many products: where they are very many, all else is cheap.
 constexpr long kFirstOnPoints = 48;
-constexpr long kLeastBeforeSettling = 64;  // a warm start is at rest before it is at its end
+constexpr long kLeastBeforeSettling = 48;  // on the dwell points: a warm start is at rest before it is at its end
 // What a product costs besides its transforms, a variable, in the unit of transform_cost: spreading, stencils and the
 // minimiser's own vectors. Measured on six scenarios: 10 to 40, and 45 to 60.
 constexpr double kPointWork = 25.0;
@@ -65,6 +67,25 @@ CoarseFactor fine_pixels(const RemovalKernel& kernel, CoarseFactor factor) {
   return {part(factor.x), part(factor.y)};
 }
 
+/// The options of what finishes a run that took `seconds`: the rest of its limits, and progress that goes on from
+/// there.
+SolverOptions options_of_finish(const SolverOptions& options, const SolverSummary& so_far, double seconds) {
+  SolverOptions rest = options;
+  rest.kind = SolverKind::ProjectedLbfgs;
+  rest.max_iterations =
+      std::max<long>(0, options.max_iterations - so_far.iterations - std::lround(so_far.coarse_pairs));
+  rest.max_seconds = std::max(1e-9, options.max_seconds - seconds);
+  if (options.progress) {
+    rest.progress = [&options, iterations = so_far.iterations, pairs = so_far.coarse_pairs, seconds](SolverProgress p) {
+      p.iterations += iterations;
+      p.coarse_pairs += pairs;
+      p.seconds += seconds;
+      return options.progress(p);
+    };
+  }
+  return rest;
+}
+
 class Run {
  public:
   Run(const DwellProblem& problem, const SolverOptions& options, Vector& t, SolverSummary& summary)
@@ -85,12 +106,13 @@ class Run {
     summary_.objective = point_.value;
   }
 
-  /// The models are used up but the gradient is not small enough.
+  /// The models are used up and no rule has ended the run.
   bool unfinished() const { return !limits_.stopped(); }
+  double seconds() const { return limits_.seconds(); }
 
  private:
   bool done() {
-    return limits_.stopped() || !limits_.allow(point_.value) || limits_.converged(gradient_norm(point_), scale_);
+    return limits_.stopped() || limits_.converged(gradient_norm(point_), scale_) || !limits_.allow(point_.value);
   }
 
   /// Residual, gradient and objective at point_.x, from nothing. One operator pair.
@@ -106,7 +128,6 @@ class Run {
   bool go_on(const QuadraticPoint& model) {
     summary_.coarse_pairs += product_cost_;
     work_ += product_work_;
-    ++total_products_;
     if (++products_ >= budget_ || !limits_.poll(point_.value)) return false;
     if (products_ < next_look_) return true;
     next_look_ = products_ + products_ / 2;
@@ -135,7 +156,7 @@ class Run {
     std::optional<SmoothDwell> dwell;
     Vector s;
     Index points_per_variable = kPointsPerVariable;
-    for (; std::min(factor.x, factor.y) >= 2 && !done(); factor = {factor.x / 2, factor.y / 2}) {
+    for (; std::min(factor.x, factor.y) >= kFinestFactor && !done(); factor = {factor.x / 2, factor.y / 2}) {
       SmoothDwell next(*p_.geometry, factor);
       if (next.size() * points_per_variable > p_.points()) break;
       s = dwell ? next.refined(*dwell, s) : Vector::Zero(next.size());
@@ -195,7 +216,8 @@ class Run {
   /// The dwell points themselves, on pixels made finer each time the model no longer leads on.
   void points_levels(CoarseFactor factor) {
     BoundedLbfgs lbfgs(p_.lower, p_.upper, p_.geometry->threads);
-    for (bool exact = false; !done() && std::min(factor.x, factor.y) >= 2; factor = {factor.x / 2, factor.y / 2})
+    for (bool exact = false; !done() && std::min(factor.x, factor.y) >= kFinestFactor;
+         factor = {factor.x / 2, factor.y / 2})
       exact = points_level(lbfgs, factor, exact);
   }
 
@@ -206,7 +228,8 @@ class Run {
     set_product_cost(hessian.relative_cost(), kPointWork * static_cast<double>(p_.points()));
     lbfgs.forget();
     const double pitch = static_cast<double>(std::max(factor.x, factor.y));
-    const bool fine = pitch <= kFinePitch * equivalent_sigma(p_.geometry->kernel) || std::min(factor.x, factor.y) < 4;
+    const bool fine =
+        pitch <= kFinePitch * equivalent_sigma(p_.geometry->kernel) || std::min(factor.x, factor.y) / 2 < kFinestFactor;
     while (!done()) {
       model_.x = point_.x;
       model_.value = point_.value;
@@ -216,6 +239,7 @@ class Run {
         hessian.gradient(r_, point_.x, model_.gradient);
       }
       minimise(lbfgs, hessian, model_);
+      points_products_ += products_;
       const double left_by_model = gradient_norm(model_);
       d_ -= point_.x;
       const double promised = point_.value - model_.value, before = point_.value;
@@ -226,7 +250,7 @@ class Run {
           exact ? gained > kLeadsOn * promised
                 : gained > kLeadsOnItsOwn * promised && gradient_norm(point_) < kOwnGradient * left_by_model;
       const double little = o_.objective_tolerance * std::abs(before);
-      if (gained < little && (leads || promised < little) && total_products_ >= kLeastBeforeSettling) {
+      if (gained < little && (leads || promised < little) && points_products_ >= kLeastBeforeSettling) {
         settle(gained, factor);
       } else if (!leads && !exact && fine) {
         exact = true;
@@ -242,10 +266,10 @@ class Run {
   void settle(double gained, CoarseFactor factor) {
     limits_.stop(
         SolverStatus::Settled,
-        fmt::format("settled: objective {:.6g} fell by {:.2g} of itself with half as much work again; {} operator "
-                    "pairs and {:.1f} pairs' worth on {} x {} pixels; |pg| {:.2g}",
-                    point_.value, gained / std::abs(point_.value), summary_.iterations, summary_.coarse_pairs, factor.x,
-                    factor.y, gradient_norm(point_) / scale_));
+        fmt::format("settled: objective {:.6g} fell by {:.2g} in the last round, {} products on {} x {} pixels; {} "
+                    "operator pairs and {:.1f} pairs' worth of coarse transforms; |pg| {:.2g}",
+                    point_.value, gained, products_, factor.x, factor.y, summary_.iterations, summary_.coarse_pairs,
+                    gradient_norm(point_) / scale_));
   }
 
   const DwellProblem& p_;
@@ -264,30 +288,28 @@ class Run {
   long products_ = 0, budget_ = 0;          // of the running round
   long next_look_ = 0, most_products_ = std::numeric_limits<long>::max();
   double start_ = 0.0, seen_ = 0.0;  // value of the model at its start and at the last look
-  long total_products_ = 0;
+  long points_products_ = 0;         // of all rounds on the dwell points
 };
 
 }  // namespace
 
 void AutoSolver::do_solve(const DwellProblem& problem, Vector& t, SolverSummary& summary) {
   std::string why = "no removal geometry to coarsen";
+  double seconds = 0.0;
   if (problem.geometry) {
     const CoarseFactor factor = pixels_for(problem.geometry->kernel);
-    if (std::min(factor.x, factor.y) < 2) {
+    if (std::min(factor.x, factor.y) < kFinestFactor) {
       why = "removal function too narrow to coarsen the map";
     } else {
       Run run(problem, options_, t, summary);
       run.run(factor);
       if (!run.unfinished()) return;
-      why = fmt::format("coarse models used up after {} operator pairs and {:.1f} pairs' worth", summary.iterations,
-                        summary.coarse_pairs);
+      seconds = run.seconds();
+      why = fmt::format("coarse models used up after {} operator pairs and {:.1f} pairs' worth of coarse transforms",
+                        summary.iterations, summary.coarse_pairs);
     }
   }
-  SolverOptions rest = options_;
-  rest.kind = SolverKind::ProjectedLbfgs;
-  const long done = summary.iterations + std::lround(summary.coarse_pairs);
-  rest.max_iterations = std::max<long>(0, options_.max_iterations - done);
-  SolverSummary finish = ProjectedLbfgs(rest).solve(problem, t);
+  SolverSummary finish = ProjectedLbfgs(options_of_finish(options_, summary, seconds)).solve(problem, t);
   summary.status = finish.status;
   summary.objective = finish.objective;
   summary.iterations += finish.iterations;

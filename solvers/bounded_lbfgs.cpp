@@ -124,7 +124,7 @@ void BoundedLbfgs::minimise(QuadraticForm& form, double tolerance, QuadraticPoin
     if (!(std::sqrt(products.gg) > tolerance)) return;
     double slope = pairs_ > 0 ? aim(two_loops(products)) : 0.0;
     if (!(slope < 0.0)) {
-      if (!spectral_length_known() || !((slope = aim_along_gradient()) < 0.0)) return;
+      if (!find_spectral_length() || !((slope = aim_along_gradient()) < 0.0)) return;
     }
     const double before = point.value;
     if (!advance(slope)) return;
@@ -234,13 +234,14 @@ double BoundedLbfgs::aim_along_gradient() {
   return aim(step);
 }
 
-/// The inverse of the curvature along the projected gradient. False if the product is not finite.
-bool BoundedLbfgs::spectral_length_known() {
+/// The inverse of the curvature along the projected gradient. False if it is not finite.
+bool BoundedLbfgs::find_spectral_length() {
   if (spectral_length_ > 0.0) return true;
   const QuadraticPoint& p = *point_;
   for (Index j = 0; j < p.x.size(); ++j) direction_[j] = static_cast<double>(free_[j]) * p.gradient[j];
   form_->product(direction_, product_);
   const double curvature = direction_.dot(product_);
+  if (!std::isfinite(curvature)) return false;
   spectral_length_ = curvature > 0.0 ? direction_.squaredNorm() / curvature : 1.0;
   return std::isfinite(spectral_length_);
 }

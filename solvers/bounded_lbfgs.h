@@ -26,8 +26,9 @@ class BoundedLbfgs {
   /// The bounds must outlive this. upper may be empty.
   BoundedLbfgs(const Vector& lower, const Vector& upper, int threads);
 
-  /// Improves the point until |projected gradient| <= tolerance, nothing descends any more (rounding), or the monitor,
-  /// called after every product, says stop. Successive forms must have about the same H, or forget() must be called.
+  /// Improves the point until |projected gradient| <= tolerance, nothing descends any more (rounding), a product is not
+  /// finite, or the monitor, called after every step, says stop. A step costs one product; the first, and one that
+  /// finds the pairs of no use, may cost two. Successive forms must have about the same H, or forget() must be called.
   /// No allocation.
   void minimise(QuadraticForm& form, double tolerance, QuadraticPoint& point, const Monitor& go_on);
 
@@ -52,7 +53,7 @@ class BoundedLbfgs {
   Combination two_loops(const Products& products) const;
   double aim(const Combination& step);
   double aim_along_gradient();
-  bool spectral_length_known();
+  bool find_spectral_length();
   bool advance(double slope);
   double sum_of_blocks() const;
   Index slot(Index age) const { return (newest_ - age + kPairs) % kPairs; }

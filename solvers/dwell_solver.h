@@ -47,7 +47,7 @@ std::string to_string(SolverStatus status);
 /// What a solver says of itself while it runs.
 struct SolverProgress {
   long iterations = 0;
-  double coarse_pairs = 0.0;  // auto: work on coarser pixels so far, in operator pairs of the full problem
+  double coarse_pairs = 0.0;  // auto: transforms on coarser pixels so far, in operator pairs of the full problem
   double seconds = 0.0;
   double objective = 0.0;     // [nm^2]
   double residual_rms = 0.0;  // [nm]
@@ -62,13 +62,13 @@ struct SolverOptions {
   /// this share of itself. Relative; >= 0. The problem is ill-posed: the objective goes on falling, ever slower, long
   /// after the residual has stopped to change and while the gradient is still far from its tolerance.
   double objective_tolerance = 5e-3;
-  long settle_iterations = 20;
-  /// Iterations, each one operator pair (one apply, one adjoint); coarse work counts by its share. >= 0; 0 leaves the
-  /// start unchanged.
+  long settle_iterations = 20;  // not for the coarse rounds of auto, which have rules of their own
+  /// Iterations, each one operator pair (one apply, one adjoint); coarse work counts by its transforms. >= 0; 0 leaves
+  /// the start unchanged.
   long max_iterations = 2000;
   /// Wall clock [s]; > 0.
   double max_seconds = 3600.0;
-  /// Called once an iteration; return false to stop. May be empty.
+  /// Called once an iteration, and within long ones four times a second; return false to stop. May be empty.
   std::function<bool(const SolverProgress&)> progress;
 };
 
@@ -80,7 +80,7 @@ struct SolverSummary {
   SolverStatus status = SolverStatus::NotRun;
   long iterations = 0;
   long operator_applications = 0;  // applies plus adjoints
-  double coarse_pairs = 0.0;       // auto: work on coarser pixels, in operator pairs of the full problem
+  double coarse_pairs = 0.0;       // auto: transforms on coarser pixels, in operator pairs of the full problem
   double seconds = 0.0;
   double objective = 0.0;
   std::string message = "not run";

@@ -50,6 +50,22 @@ class Watch {
   long checkpoint_iteration_ = 0;
 };
 
+/// A minimiser ends where nothing descends, and on a product that is not finite.
+void end_at_rest(const DwellProblem& problem, FullHessian& hessian, const QuadraticPoint& point, double scale,
+                 SolveLimits& limits, const SolverSummary& summary) {
+  Vector product;
+  hessian.product(point.gradient, product);
+  if (product.allFinite()) {
+    limits.stop(SolverStatus::Settled,
+                fmt::format("settled: objective {:.6g} falls no more in rounding; |pg| {:.2g}", point.value,
+                            projected_gradient_norm(problem.lower, problem.upper, point) / scale));
+  } else {
+    limits.stop(
+        SolverStatus::Failed,
+        fmt::format("failed: the operator gave a value that is not finite after {} iterations", summary.iterations));
+  }
+}
+
 }  // namespace
 
 void solve_in_full(const DwellProblem& problem, const SolverOptions& options, const BoxMinimiser& minimise, Vector& t,
@@ -79,9 +95,7 @@ void solve_in_full(const DwellProblem& problem, const SolverOptions& options, co
     evaluate();  // the gradient carried along gathers rounding; what is reported does not
     if (!limits.stopped() && !(point.value < before) &&
         !limits.converged(projected_gradient_norm(problem.lower, problem.upper, point), scale)) {
-      limits.stop(SolverStatus::Settled,
-                  fmt::format("settled: objective {:.6g} falls no more in rounding; |pg| {:.2g}", point.value,
-                              projected_gradient_norm(problem.lower, problem.upper, point) / scale));
+      end_at_rest(problem, hessian, point, scale, limits, summary);
     }
   }
   summary.objective = point.value;

@@ -195,15 +195,19 @@ TEST(Targets, PeersDoNotCountBelowTenThousandPoints) {
 }
 
 TEST(Targets, UdoHasToMeetAllFour) {
-  Json run = solve("e-udo-raster", "auto", 2);
-  run["whole"]["seconds"] = 0.4;
-  EXPECT_EQ(line(results({run}), "udo-raster: solve").verdict, Verdict::Met);
-  for (const char* key : {"step_rms", "total_dwell"}) {
-    Json worse = run;
+  const auto of = [](const Json& plan) { return line({{"plans", {plan}}}, "udo-raster: solve"); };
+  const Json plan{{"name", "udo-raster"},
+                  {"solver_seconds", 0.4},
+                  {"step_rms", 0.003},
+                  {"residual_rms", 0.14},
+                  {"total_dwell", 420.0}};
+  EXPECT_EQ(of(plan).verdict, Verdict::Met);
+  for (const char* key : {"solver_seconds", "step_rms", "residual_rms", "total_dwell"}) {
+    Json worse = plan;
     worse[key] = 1e3;
-    EXPECT_EQ(line(results({worse}), "udo-raster: solve").verdict, Verdict::Missed) << key;
+    EXPECT_EQ(of(worse).verdict, Verdict::Missed) << key;
     worse[key] = nullptr;  // a NaN that went through a file
-    EXPECT_EQ(line(results({worse}), "udo-raster: solve").verdict, Verdict::Missed) << key;
+    EXPECT_EQ(of(worse).verdict, Verdict::Missed) << key;
   }
 }
 

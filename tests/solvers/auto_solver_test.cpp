@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <random>
@@ -260,6 +261,69 @@ TEST(AutoSolver, SettlesWithinOnePerCent) {
     ASSERT_EQ(make_solver(exact)->solve(mirror.problem, best).status, SolverStatus::Converged);
     EXPECT_LE(summary.objective, 1.01 * certify(mirror.problem, best).objective);
   }
+}
+
+/// Every term at once, where the dwell points are many enough for all the models, on two threads.
+TEST(AutoSolver, SolvesWithUpperBoundsAReferenceAndMovingStrokes) {
+  Mirror mirror(1);
+  RemovalGeometry& g = *mirror.geometry;
+  ToolPath path;
+  for (const Stroke& s : g.strokes) path.points.push_back(s.via);
+  path.lifted.assign(path.points.size(), 0);
+  path.lifted[2000] = path.lifted[5000] = 1;
+  g.strokes = moving_strokes(path);
+  g.threads = 2;
+  mirror.removal = make_removal_operator(g);
+  DwellProblem& p = mirror.problem;
+  p.removal = mirror.removal.get();
+  p.smoothness = path_smoothness(path, g.strokes);
+  p.beta = 1e-3 * g.kernel.energy;
+  p.reference = 0.02 * noise(p.points(), 11).cwiseAbs();
+  p.upper = p.lower + 0.02 * Vector::Ones(p.points()) + 0.1 * noise(p.points(), 12).cwiseAbs();
+  Vector settled, exact, full;
+  const SolverSummary first = make_solver(options(5e-3, 1e-9, 2000))->solve(p, settled);
+  const SolverSummary second = make_solver(options(0.0, 1e-6, 5000))->solve(p, exact);
+  SolverOptions plain = options(0.0, 1e-7, 50'000);
+  plain.kind = SolverKind::ProjectedLbfgs;
+  const SolverSummary oracle = make_solver(plain)->solve(p, full);
+  EXPECT_EQ(first.status, SolverStatus::Settled) << first.message;
+  EXPECT_EQ(second.status, SolverStatus::Converged) << second.message;
+  ASSERT_EQ(oracle.status, SolverStatus::Converged) << oracle.message;
+  EXPECT_GT((full.array() == p.upper.array()).count(), 50);
+  EXPECT_GT((full.array() == p.lower.array()).count(), 50);
+  EXPECT_TRUE(certify(p, exact).passes(1.01e-6));
+  EXPECT_EQ(certify(p, settled).bound_violation, 0.0);
+  EXPECT_LE(certify(p, settled).objective, 1.01 * oracle.objective);
+  EXPECT_NEAR(certify(p, exact).objective, oracle.objective, 1e-6 * oracle.objective);
+  EXPECT_NEAR(first.objective, certify(p, settled).objective, 1e-9 * first.objective);
+}
+
+/// With pixels to spare, the exact gradient comes in on coarse pixels: the full problem is not worked on.
+TEST(AutoSolver, ReachesTheCertificateOnCoarsePixels) {
+  const Mirror mirror(1);
+  Vector t;
+  const SolverSummary summary = make_solver(options(0.0, 1e-5, 5000))->solve(mirror.problem, t);
+  EXPECT_EQ(summary.status, SolverStatus::Converged) << summary.message;
+  EXPECT_THAT(summary.message, testing::Not(testing::HasSubstr("projected-lbfgs")));
+}
+
+TEST(AutoSolver, KeepsItsTimeAndTellsItGoingForward) {
+  const Mirror mirror(1);
+  SolverOptions o = options(0.0, 1e-14, 1'000'000);
+  o.max_seconds = 0.5;
+  SolverProgress last;
+  bool forward = true;
+  o.progress = [&](const SolverProgress& p) {
+    forward =
+        forward && p.seconds >= last.seconds && p.iterations >= last.iterations && p.coarse_pairs >= last.coarse_pairs;
+    last = p;
+    return true;
+  };
+  Vector t;
+  const SolverSummary summary = make_solver(o)->solve(mirror.problem, t);
+  EXPECT_EQ(summary.status, SolverStatus::TimeLimit) << summary.message;
+  EXPECT_TRUE(forward);
+  EXPECT_GT(last.coarse_pairs, 0.0);
 }
 
 /// From the optimum of other weights, which is far away though the first steps gain little.

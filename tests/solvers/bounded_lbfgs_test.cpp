@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "tests/solvers/small_problem.h"
@@ -121,6 +123,18 @@ TEST(BoundedLbfgs, FollowsAStraightLineToItsBound) {
   long products = 0;
   lbfgs.minimise(form, 1e-12, point, [&](const QuadraticPoint&) { return ++products < 1000; });
   EXPECT_TRUE(point.x == Vector(Eigen::Vector3d(0.0, 5.0, 1.0)));
+}
+
+TEST(BoundedLbfgs, GivesUpOnAProductThatIsNotFinite) {
+  DenseForm form(Eigen::MatrixXd::Identity(3, 3));
+  const Vector c = Eigen::Vector3d(1.0, -2.0, 3.0), lower = Vector::Zero(3), none;
+  QuadraticPoint point = at(form, Vector::Ones(3), c);
+  form.h(1, 1) = std::numeric_limits<double>::quiet_NaN();
+  BoundedLbfgs lbfgs(lower, none, 1);
+  long calls = 0;
+  lbfgs.minimise(form, 1e-12, point, [&](const QuadraticPoint&) { return ++calls < 100; });
+  EXPECT_EQ(calls, 0);
+  EXPECT_TRUE(point.x == Vector::Ones(3));
 }
 
 TEST(BoundedLbfgs, PairsServeTheNextCall) {
