@@ -5,8 +5,8 @@
 #include <unistd.h>
 
 #include <cstddef>
-#include <cstdint>
 #include <cstdlib>
+#include <memory>
 
 namespace dwell::cli {
 
@@ -17,10 +17,11 @@ void keep_freed_memory() {
   constexpr std::size_t kReserve = std::size_t{4} << 30;
   void* const reserve = std::malloc(kReserve);
   if (reserve == nullptr) return;
-  const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
-  const std::uintptr_t begin = (reinterpret_cast<std::uintptr_t>(reserve) + page - 1) / page * page;
-  const std::uintptr_t end = (reinterpret_cast<std::uintptr_t>(reserve) + kReserve) / page * page;
-  madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);  // advice: nothing is lost if it is refused
+  const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+  void* begin = reserve;
+  std::size_t room = kReserve;
+  if (std::align(page, kReserve - 2 * page, begin, room) != nullptr)
+    madvise(begin, room / page * page, MADV_HUGEPAGE);  // advice: nothing is lost if it is refused
   std::free(reserve);
 }
 

@@ -15,7 +15,7 @@ MapStatistics map_statistics(const HeightMap& map, const FormTerms& terms, int t
     double low = std::numeric_limits<double>::infinity(), high = -low, square = 0.0;
   };
   std::vector<RowSums> rows(static_cast<std::size_t>(map.grid.rows));
-  const int count = std::max(threads, 1);
+  [[maybe_unused]] const int count = std::max(threads, 1);
 #pragma omp parallel for num_threads(count) schedule(static)
   for (Index row = 0; row < map.grid.rows; ++row) {
     RowSums sums;
