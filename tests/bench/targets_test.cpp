@@ -197,6 +197,8 @@ TEST(Targets, PeersDoNotCountBelowTenThousandPoints) {
 TEST(Targets, UdoHasToMeetAllFour) {
   const auto of = [](const Json& plan) { return line({{"plans", {plan}}}, "udo-raster: solve"); };
   const Json plan{{"name", "udo-raster"},
+                  {"seconds", 1.0},
+                  {"peak_memory", 1e8},
                   {"solver_seconds", 0.4},
                   {"step_rms", 0.003},
                   {"residual_rms", 0.14},
