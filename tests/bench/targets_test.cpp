@@ -196,13 +196,8 @@ TEST(Targets, PeersDoNotCountBelowTenThousandPoints) {
 
 TEST(Targets, UdoHasToMeetAllFour) {
   const auto of = [](const Json& plan) { return line({{"plans", {plan}}}, "udo-raster: solve"); };
-  const Json plan{{"name", "udo-raster"},
-                  {"seconds", 1.0},
-                  {"peak_memory", 1e8},
-                  {"solver_seconds", 0.4},
-                  {"step_rms", 0.003},
-                  {"residual_rms", 0.14},
-                  {"total_dwell", 420.0}};
+  const Json plan{{"name", "udo-raster"}, {"seconds", 1.0},       {"peak_memory", 1e8},  {"solver_seconds", 0.4},
+                  {"step_rms", 0.003},    {"residual_rms", 0.14}, {"total_dwell", 420.0}};
   EXPECT_EQ(of(plan).verdict, Verdict::Met);
   for (const char* key : {"solver_seconds", "step_rms", "residual_rms", "total_dwell"}) {
     Json worse = plan;
