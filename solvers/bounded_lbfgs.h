@@ -18,9 +18,8 @@ namespace dwell {
 /// Monotone and feasible. Pairs are held in single precision: they steer, they do not enter x or its gradient
 /// (tests/solvers/bounded_lbfgs_test compares with an exact solver). Same bytes for any number of threads.
 /// Memory: 2.5 vectors and the pairs, which are worth kPairs vectors.
-class BoundedLbfgs {
+class BoundedLbfgs final : public BoxMinimiser {
  public:
-  using Monitor = BoundedCg::Monitor;
   static constexpr Index kPairs = 5;  // 10, 20 and 40 saved under 10 % of the products and cost more than that
 
   /// The bounds must outlive this. upper may be empty.
@@ -30,7 +29,7 @@ class BoundedLbfgs {
   /// finite, or the monitor, called after every step, says stop. A step costs one product; the first, and one that
   /// finds the pairs of no use, may cost two. Successive forms must have about the same H, or forget() must be called.
   /// No allocation.
-  void minimise(QuadraticForm& form, double tolerance, QuadraticPoint& point, const Monitor& go_on);
+  void minimise(QuadraticForm& form, double tolerance, QuadraticPoint& point, const Monitor& go_on) override;
 
   /// Drops the curvature pairs.
   void forget();

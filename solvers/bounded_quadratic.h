@@ -17,6 +17,17 @@ struct QuadraticPoint {
 /// |gradient restricted to what the bounds allow to move|. upper empty = no upper bounds. No workspace.
 double projected_gradient_norm(const Vector& lower, const Vector& upper, const QuadraticPoint& point);
 
+/// What minimises a quadratic form in a box.
+class BoxMinimiser {
+ public:
+  /// Called as a run goes on; return false to stop. The point is feasible and no worse than the start.
+  using Monitor = std::function<bool(const QuadraticPoint&)>;
+
+  virtual ~BoxMinimiser() = default;
+  /// Improves the point until |projected gradient| <= tolerance, nothing descends any more, or the monitor says stop.
+  virtual void minimise(QuadraticForm& form, double tolerance, QuadraticPoint& point, const Monitor& go_on) = 0;
+};
+
 /// Conjugate gradients in a box (after More and Toraldo 1991, "On the solution of large quadratic programming problems
 /// with bound constraints"): spectral projected-gradient steps find which bounds hold, conjugate gradients minimise
 /// over the rest as if there were no bounds, a projected search brings the result back; repeated. The gradient is
@@ -24,20 +35,15 @@ double projected_gradient_norm(const Vector& lower, const Vector& upper, const Q
 /// gradients at the first bound met, was tried on one problem (ibfest-70x30, smooth dwell): to an objective that this
 /// reached in 423 products it needed 1421, and with the projected-CG expansion more than 2421. Memory: 5 vectors and a
 /// byte a variable.
-class BoundedCg {
+class BoundedCg final : public BoxMinimiser {
  public:
-  /// Called after every product; return false to stop. The point is feasible and no worse than the start; while
-  /// conjugate gradients run it is the point they set out from.
-  using Monitor = std::function<bool(const QuadraticPoint&)>;
-
   /// The bounds must outlive this. upper may be empty.
   BoundedCg(const Vector& lower, const Vector& upper);
 
   /// Improves the point until |projected gradient| <= tolerance, no step descends any more (rounding), or the monitor
-  /// says stop; never worsens it. No allocation.
-  void minimise(QuadraticForm& form, double tolerance, QuadraticPoint& point, const Monitor& go_on);
-
-  long products() const { return products_; }  // since construction
+  /// says stop, which is asked after every product; while conjugate gradients run it sees the point they set out from.
+  /// Never worsens it. No allocation.
+  void minimise(QuadraticForm& form, double tolerance, QuadraticPoint& point, const Monitor& go_on) override;
 
  private:
   /// x + step * direction, with the product of the direction.

@@ -68,7 +68,7 @@ void end_at_rest(const DwellProblem& problem, FullHessian& hessian, const Quadra
 
 }  // namespace
 
-void solve_in_full(const DwellProblem& problem, const SolverOptions& options, const BoxMinimiser& minimise, Vector& t,
+void solve_in_full(const DwellProblem& problem, const SolverOptions& options, BoxMinimiser& minimiser, Vector& t,
                    SolverSummary& summary) {
   SolveLimits limits(problem, options, summary);
   DwellObjective objective(problem);
@@ -86,11 +86,11 @@ void solve_in_full(const DwellProblem& problem, const SolverOptions& options, co
   evaluate();
   Watch watch(problem, options, limits, summary, scale);
   watch.start(point.value);
-  const BoundedCg::Monitor monitor = [&watch](const QuadraticPoint& p) { return watch(p); };
+  const BoxMinimiser::Monitor monitor = [&watch](const QuadraticPoint& p) { return watch(p); };
   while (!limits.converged(projected_gradient_norm(problem.lower, problem.upper, point), scale) &&
          limits.allow(point.value)) {
     const double before = point.value;
-    minimise(hessian, 0.9 * options.gradient_tolerance * scale, point, monitor);
+    minimiser.minimise(hessian, 0.9 * options.gradient_tolerance * scale, point, monitor);
     t = point.x;
     evaluate();  // the gradient carried along gathers rounding; what is reported does not
     if (!limits.stopped() && !(point.value < before) &&

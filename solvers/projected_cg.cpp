@@ -7,12 +7,7 @@ namespace dwell {
 
 void ProjectedCg::do_solve(const DwellProblem& problem, Vector& t, SolverSummary& summary) {
   BoundedCg cg(problem.lower, problem.upper);
-  solve_in_full(
-      problem, options_,
-      [&](QuadraticForm& form, double tolerance, QuadraticPoint& point, const BoundedCg::Monitor& go_on) {
-        cg.minimise(form, tolerance, point, go_on);
-      },
-      t, summary);
+  solve_in_full(problem, options_, cg, t, summary);
 }
 
 }  // namespace dwell

@@ -7,12 +7,7 @@ namespace dwell {
 
 void ProjectedLbfgs::do_solve(const DwellProblem& problem, Vector& t, SolverSummary& summary) {
   BoundedLbfgs lbfgs(problem.lower, problem.upper, problem.geometry ? problem.geometry->threads : 1);
-  solve_in_full(
-      problem, options_,
-      [&](QuadraticForm& form, double tolerance, QuadraticPoint& point, const BoundedLbfgs::Monitor& go_on) {
-        lbfgs.minimise(form, tolerance, point, go_on);
-      },
-      t, summary);
+  solve_in_full(problem, options_, lbfgs, t, summary);
 }
 
 }  // namespace dwell
