@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "core/grid.h"
@@ -10,7 +11,8 @@ namespace dwell {
 /// [nm/s] and residuals: any scalar over the part.
 struct HeightMap {
   Grid grid;
-  std::vector<double> values;  // grid.size(), row-major
+  std::vector<double> values;        // grid.size(), row-major
+  std::vector<std::string> history;  // how it was made from what was measured, a step each (one line), oldest first
 
   HeightMap() = default;
   /// All pixels NaN. Throws InputError unless rows, cols >= 1 and both pitches are finite and > 0.

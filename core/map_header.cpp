@@ -45,13 +45,18 @@ void read_header_line(std::string_view line, const std::string& place, MapHeader
   } else if (key == "unit") {
     only_once(header.unit.has_value());
     header.unit = std::string(value);
+  } else if (key == "made" && !value.empty()) {
+    header.history.emplace_back(value);
   }
 }
 
-std::string header_lines(const Grid& grid) {
+std::string header_lines(const Grid& grid, const std::vector<std::string>& history) {
   const std::string pitch =
       grid.pitch_x == grid.pitch_y ? fmt::format("{}", grid.pitch_x) : fmt::format("{},{}", grid.pitch_x, grid.pitch_y);
-  return fmt::format("# pitch_mm: {}\n# origin_mm: {},{}\n# unit: nm\n", pitch, grid.origin.x, grid.origin.y);
+  std::string lines =
+      fmt::format("# pitch_mm: {}\n# origin_mm: {},{}\n# unit: nm\n", pitch, grid.origin.x, grid.origin.y);
+  for (const std::string& step : history) lines += fmt::format("# made: {}\n", step);
+  return lines;
 }
 
 }  // namespace dwell

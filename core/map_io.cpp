@@ -8,6 +8,7 @@
 
 #include "core/errors.h"
 #include "core/file_kind.h"
+#include "core/map_formats.h"
 #include "core/matrix_text.h"
 #include "core/npy.h"
 #include "core/number_text.h"
@@ -84,51 +85,46 @@ void check_unit(const MapHeader& header, const MapReadOptions& options, const st
   }
 }
 
-Grid grid_of_matrix(Index rows, Index cols, const MapHeader& header, const MapReadOptions& options,
-                    const std::string& where, const char* hint) {
-  const std::optional<Point> pitch = known_pitch(header, options, where);
+HeightMap map_of_source(MapSource source, const MapReadOptions& options, const std::string& where) {
+  check_unit(source.header, options, where);
+  const std::optional<Point> pitch = known_pitch(source.header, options, where);
   if (!pitch) {
-    throw InputError(
-        fmt::format("{}: the file says no pixel pitch; give --{}-pixel [mm] > 0{}", where, options.name, hint));
+    throw InputError(fmt::format("{}: the file says no pixel pitch; give --{}-pixel [mm] > 0{}", where, options.name,
+                                 source.pitch_hint));
   }
-  return {rows, cols, pitch->x, pitch->y, known_origin(header, options, where).value_or(Point{})};
-}
-
-HeightMap read_npy(std::string_view bytes, const MapReadOptions& options, const std::string& where) {
-  NpyMatrix matrix = parse_npy(bytes, where);
-  return {grid_of_matrix(matrix.rows, matrix.cols, {}, options, where, ""), std::move(matrix.values)};
+  const Point origin = known_origin(source.header, options, where).value_or(Point{});
+  HeightMap map({source.rows, source.cols, pitch->x, pitch->y, origin}, std::move(source.values));
+  map.history = std::move(source.header.history);
+  return map;
 }
 
 HeightMap read_xyz(std::string_view text, const MapReadOptions& options, const std::string& where) {
-  const XyzText xyz = parse_xyz_text(text, where);
+  XyzText xyz = parse_xyz_text(text, where);
   check_unit(xyz.header, options, where);
-  return grid_points(xyz.points, known_pitch(xyz.header, options, where), known_origin(xyz.header, options, where),
-                     where, options.name);
-}
-
-HeightMap read_matrix(std::string_view text, const MapReadOptions& options, const std::string& where) {
-  MatrixText matrix = parse_matrix_text(text, where);
-  check_unit(matrix.header, options, where);
-  const char* hint = matrix.cols == 3 ? "; or, if its lines are x y z, name it .xyz or begin it with a line 'x y z'"
-                                      : ", or begin the file with a line '# pitch_mm: 0.1'";
-  return {grid_of_matrix(matrix.rows, matrix.cols, matrix.header, options, where, hint), std::move(matrix.values)};
+  HeightMap map = grid_points(xyz.points, known_pitch(xyz.header, options, where),
+                              known_origin(xyz.header, options, where), where, options.name);
+  map.history = std::move(xyz.header.history);
+  return map;
 }
 
 std::string extension_of(const std::filesystem::path& file) { return lower_case(file.extension().string()); }
 
 HeightMap parse_map(const std::filesystem::path& file, std::string_view bytes, const MapReadOptions& options,
                     const std::string& where) {
-  constexpr const char* kAccepted = "a matrix of numbers (.csv, .txt), lines x y z (.xyz) or an NPY array (.npy)";
-  if (bytes.empty()) throw InputError(fmt::format("{}: the file is empty; {} is required", where, kAccepted));
-  if (is_npy(bytes)) return read_npy(bytes, options, where);
-  const std::string binary = kind_of_binary(bytes);
-  if (!binary.empty()) {
-    throw InputError(fmt::format("{}: the file looks like {}; {} is required", where, binary, kAccepted));
+  if (bytes.empty()) {
+    throw InputError(fmt::format("{}: the file is empty; {} is required", where, accepted_map_formats()));
   }
   const std::string extension = extension_of(file);
+  if (const MapFormat* format = map_format_of(bytes, extension)) {
+    return map_of_source(format->read(bytes, where), options, where);
+  }
+  const std::string binary = kind_of_binary(bytes);
+  if (!binary.empty()) {
+    throw InputError(fmt::format("{}: the file looks like {}; {} is required", where, binary, accepted_map_formats()));
+  }
   if (extension == ".npy") throw InputError(fmt::format("{}: not an NPY array but text; name it .csv or .xyz", where));
   if (extension == ".xyz" || names_xyz_columns(bytes)) return read_xyz(bytes, options, where);
-  return read_matrix(bytes, options, where);
+  return map_of_source(parse_matrix_text(bytes, where), options, where);
 }
 
 /// Values to nm; every one finite or NaN, and one at least finite.

@@ -49,8 +49,8 @@ Index read_row(std::string_view row, char separator, const std::string& where, l
 
 }  // namespace
 
-MatrixText parse_matrix_text(std::string_view text, const std::string& where) {
-  MatrixText matrix;
+MapSource parse_matrix_text(std::string_view text, const std::string& where) {
+  MapSource matrix;
   char separator = ' ';
   long first_line = 0;
   for (TextLines lines(text); lines.next();) {
@@ -79,13 +79,16 @@ MatrixText parse_matrix_text(std::string_view text, const std::string& where) {
     ++matrix.rows;
   }
   if (matrix.rows == 0) throw InputError(fmt::format("{}: no row of numbers; a matrix of heights is required", where));
+  matrix.pitch_hint = matrix.cols == 3 ? "; or, if its lines are x y z, name it .xyz or begin it with a line 'x y z'"
+                                       : ", or begin the file with a line '# pitch_mm: 0.1'";
   return matrix;
 }
 
 std::string matrix_text(const HeightMap& map, char separator) {
   fmt::memory_buffer buffer;
   auto out = std::back_inserter(buffer);
-  fmt::format_to(out, "{}# rows: row 1 = smallest y; columns: column 1 = smallest x\n", header_lines(map.grid));
+  fmt::format_to(out, "{}# rows: row 1 = smallest y; columns: column 1 = smallest x\n",
+                 header_lines(map.grid, map.history));
   for (Index row = 0; row < map.grid.rows; ++row) {
     for (Index col = 0; col < map.grid.cols; ++col) {
       if (col > 0) buffer.push_back(separator);

@@ -168,7 +168,7 @@ void append_values(std::string& bytes, std::span<const double> values) {
 
 bool is_npy(std::string_view bytes) { return bytes.starts_with(kMagic); }
 
-NpyMatrix parse_npy(std::string_view bytes, const std::string& where) {
+MapSource parse_npy(std::string_view bytes, const std::string& where) {
   if (!is_npy(bytes)) throw InputError(fmt::format("{}: not an NPY file; it must begin with \\x93NUMPY", where));
   const Parts parts = split_file(bytes, where);
   const Element element = parse_descr(entry(parts.header, "descr", where), where);
@@ -184,7 +184,10 @@ NpyMatrix parse_npy(std::string_view bytes, const std::string& where) {
         "header",
         where, rows > held / cols ? "truncated" : "overlong", rows, cols, element.type.size, parts.data.size()));
   }
-  NpyMatrix matrix{shape.rows, shape.cols, std::vector<double>(rows * cols)};
+  MapSource matrix;
+  matrix.rows = shape.rows;
+  matrix.cols = shape.cols;
+  matrix.values.resize(rows * cols);
   if (element.type.name == "f8" && !element.reversed && !fortran) {
     std::memcpy(matrix.values.data(), parts.data.data(), parts.data.size());
     return matrix;

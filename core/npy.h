@@ -6,22 +6,16 @@
 #include <vector>
 
 #include "core/height_map.h"
+#include "core/map_source.h"
 
 namespace dwell {
 
-/// A two-dimensional NPY array, as doubles.
-struct NpyMatrix {
-  Index rows = 0;
-  Index cols = 0;
-  std::vector<double> values;  // row-major
-};
-
 bool is_npy(std::string_view bytes);
 
-/// Reads NPY format 1, 2 or 3: two dimensions, C or Fortran order, either byte order, f4 f8 i1 i2 i4 i8 u1 u2 u4 u8
-/// (integers beyond 2^53 are rounded). `where` begins error messages. Throws InputError naming what is not so, and
-/// sizes of a file that is too short or too long. Source: numpy.lib.format.
-NpyMatrix parse_npy(std::string_view bytes, const std::string& where);
+/// Reads a two-dimensional NPY array, format 1, 2 or 3: C or Fortran order, either byte order, f4 f8 i1 i2 i4 i8 u1 u2
+/// u4 u8 (integers beyond 2^53 are rounded). `where` begins error messages. Throws InputError naming what is not so,
+/// and sizes of a file that is too short or too long. Source: numpy.lib.format.
+MapSource parse_npy(std::string_view bytes, const std::string& where);
 
 /// NPY format 1 of the map's values ('<f8', C order, rows x cols); grid and unit are not in it.
 std::string npy_bytes(const HeightMap& map);

@@ -39,6 +39,15 @@ TEST_P(TextRoundTrip, ReadsBackEqualWithoutAnyOption) {
   EXPECT_EQ(folder.entries(), 1u);
 }
 
+TEST_P(TextRoundTrip, KeepsHowTheMapWasMade) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / GetParam();
+  HeightMap map = asymmetric();
+  map.history = {"read part.dat", "crop rect:0,0,1,1: kept"};
+  write_map(file, map);
+  EXPECT_EQ(read_map(file).history, map.history);
+}
+
 TEST_P(TextRoundTrip, ReadsBackEmptyBordersAndSingleLines) {
   const TemporaryFolder folder;
   const auto file = folder.path() / GetParam();

@@ -10,7 +10,7 @@ namespace dwell {
 namespace {
 
 void expect_two_by_three(const std::string& text) {
-  const MatrixText matrix = parse_matrix_text(text, "map a.csv");
+  const MapSource matrix = parse_matrix_text(text, "map a.csv");
   ASSERT_EQ(matrix.rows, 2) << text;
   ASSERT_EQ(matrix.cols, 3) << text;
   const std::vector<double> expected{1.0, -2.5, 3e2, 4.0, 5.0, 6.0};
@@ -27,14 +27,14 @@ TEST(MatrixText, ReadsEverySeparatorAndLineEnd) {
 }
 
 TEST(MatrixText, EmptyFieldsAndNanAreNoData) {
-  const MatrixText matrix = parse_matrix_text(",nan,NaN\n1,,No Data\n,,\n", "map a.csv");
+  const MapSource matrix = parse_matrix_text(",nan,NaN\n1,,No Data\n,,\n", "map a.csv");
   ASSERT_EQ(matrix.rows, 3);
   ASSERT_EQ(matrix.cols, 3);
   for (std::size_t i = 0; i < 9; ++i) EXPECT_EQ(std::isnan(matrix.values[i]), i != 3) << i;
 }
 
 TEST(MatrixText, ARowOfTabsIsARowWithoutData) {
-  const MatrixText matrix = parse_matrix_text("\t\n1\t2\n\t\n\t3\n", "map a.txt");
+  const MapSource matrix = parse_matrix_text("\t\n1\t2\n\t\n\t3\n", "map a.txt");
   ASSERT_EQ(matrix.rows, 4);
   ASSERT_EQ(matrix.cols, 2);
   EXPECT_TRUE(std::isnan(matrix.values[0]));

@@ -26,11 +26,11 @@ std::string dictionary(const std::string& descr, const std::string& shape, const
 
 TEST(Npy, ReadsBothOrdersAsRowsAndColumns) {
   const std::string data{1, 2, 3, 4, 5, 6};
-  const NpyMatrix c = parse_npy(npy(dictionary("|u1", "(2, 3)"), data), "map a.npy");
+  const MapSource c = parse_npy(npy(dictionary("|u1", "(2, 3)"), data), "map a.npy");
   EXPECT_EQ(c.rows, 2);
   EXPECT_EQ(c.cols, 3);
   EXPECT_EQ(c.values, (std::vector<double>{1, 2, 3, 4, 5, 6}));
-  const NpyMatrix fortran = parse_npy(npy(dictionary("|u1", "(2, 3)", "True"), data), "map a.npy");
+  const MapSource fortran = parse_npy(npy(dictionary("|u1", "(2, 3)", "True"), data), "map a.npy");
   EXPECT_EQ(fortran.rows, 2);
   EXPECT_EQ(fortran.cols, 3);
   EXPECT_EQ(fortran.values, (std::vector<double>{1, 3, 5, 2, 4, 6}));
@@ -38,7 +38,7 @@ TEST(Npy, ReadsBothOrdersAsRowsAndColumns) {
 
 TEST(Npy, ReadsEveryVersionOfTheFormat) {
   for (const int version : {1, 2, 3}) {
-    const NpyMatrix matrix = parse_npy(npy(dictionary("|i1", "(1, 2)"), "\x07\xff", version), "map a.npy");
+    const MapSource matrix = parse_npy(npy(dictionary("|i1", "(1, 2)"), "\x07\xff", version), "map a.npy");
     EXPECT_EQ(matrix.values, (std::vector<double>{7, -1})) << version;
   }
 }
@@ -56,7 +56,7 @@ TEST(Npy, ReadsEveryElementTypeInBothByteOrders) {
         Case{"<i4", "\xff\xff\xff\xff"s, -1.0}, Case{"<u4", "\xff\xff\xff\xff"s, 4294967295.0},
         Case{"<i8", "\xff\xff\xff\xff\xff\xff\xff\xff"s, -1.0}, Case{">u8", "\0\0\0\0\0\0\x01\x02"s, 258.0},
         Case{"|i1", "\x80"s, -128.0}, Case{"|u1", "\x80"s, 128.0}}) {
-    const NpyMatrix matrix = parse_npy(npy(dictionary(c.descr, "(1, 1)"), c.data), "map a.npy");
+    const MapSource matrix = parse_npy(npy(dictionary(c.descr, "(1, 1)"), c.data), "map a.npy");
     EXPECT_EQ(matrix.values.at(0), c.value) << c.descr;
   }
 }
@@ -91,7 +91,7 @@ TEST(Npy, WritesMapsThatReadBack) {
   const std::string bytes = npy_bytes(map);
   EXPECT_EQ((bytes.size() - 6 * 8) % 64, 0u);  // data begin on a multiple of 64 bytes
   EXPECT_NE(bytes.find("'shape': (2, 3)"), std::string::npos);
-  const NpyMatrix matrix = parse_npy(bytes, "map a.npy");
+  const MapSource matrix = parse_npy(bytes, "map a.npy");
   EXPECT_EQ(matrix.rows, 2);
   EXPECT_EQ(matrix.cols, 3);
   for (std::size_t i = 0; i < 6; ++i) {

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "core/map_source.h"
+
+namespace dwell {
+
+/// A format that holds a regular array of heights. Formats are tried in the order of the table.
+struct MapFormat {
+  const char* name;  // as messages list it: "an NPY array (.npy)"
+  /// Whether a file of these first bytes and this extension (lower case, with its dot) is to be read as one.
+  bool (*claims)(std::string_view bytes, std::string_view extension);
+  /// Reads it. `where` begins error messages ("map part.dat"). Throws InputError naming byte, line or field.
+  MapSource (*read)(std::string_view bytes, const std::string& where);
+};
+
+/// The format that claims the file, or null: text, lines x y z (core/xyz_text.h) or a matrix (core/matrix_text.h).
+const MapFormat* map_format_of(std::string_view bytes, std::string_view extension);
+
+/// What read_map accepts, for messages: names of all formats.
+std::string accepted_map_formats();
+
+}  // namespace dwell

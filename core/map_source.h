@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/map_header.h"
+
+namespace dwell {
+
+/// What a reader found in a file that holds a regular array of heights, before the user's options have a say:
+/// read_map (core/map_io.h) applies pitch, origin and unit of options and header, which must agree.
+struct MapSource {
+  Index rows = 0;
+  Index cols = 0;
+  std::vector<double> values;  // row-major, row 0 = smallest y, NaN = no data, in header.unit
+  MapHeader header;            // what the file says: pitch, origin, unit, history; nothing it leaves open
+  std::string pitch_hint;      // ends the message when neither file nor option says a pitch
+};
+
+}  // namespace dwell
