@@ -60,6 +60,7 @@ void append_measured_mirrors(std::vector<Scenario>& all, const std::filesystem::
     s.name = "e-" + folder;
     s.what = what;
     s.smoothness = smoothness;
+    s.patience = 20.0;
     s.make = [=] { return make(path); };
     all.push_back(s);
   };

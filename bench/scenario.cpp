@@ -116,6 +116,7 @@ void append_made_up(std::vector<Scenario>& all) {
       s.peers = n <= 1024;
       s.make = [=] { return square_mirror(n, step); };
       if (n == 4096) s.pairs = 60.0;
+      if (n == 1024 && step == 1) s.patience = 60.0;
       all.push_back(s);
     }
   }
@@ -175,7 +176,7 @@ Instance make_instance(const Scenario& scenario, int threads) {
     p.target[static_cast<Index>(k)] = parts.map.values[static_cast<std::size_t>(geometry->pixels[k])];
   p.form = form_basis(grid, geometry->pixels, {true, true, false});
   remove_form(p.form, p.target);
-  p.smoothness = path_smoothness(parts.path, geometry->strokes);
+  p.smoothness = path_smoothness(parts.path, geometry->strokes, threads);
   p.lower = Vector::Constant(i.removal->cols(), parts.least);
   const double rms = std::sqrt(p.target.squaredNorm() / static_cast<double>(p.target.size()));
   p.alpha = scenario.smoothness * geometry->kernel.energy;

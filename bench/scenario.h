@@ -30,9 +30,10 @@ struct Parts {
 struct Scenario {
   std::string name;
   std::string what;
-  bool quick = false;    // is part of --quick
-  bool peers = true;     // false: too large for any solver but the native ones
-  double pairs = 400.0;  // time limit of a solve, in operator pairs at its number of threads
+  bool quick = false;     // is part of --quick
+  bool peers = true;      // false: too large for any solver but the native ones
+  double pairs = 400.0;   // time limit of a solve, in operator pairs at its number of threads
+  double patience = 2.0;  // but at least so many seconds for L-BFGS-B, the peer that is first nearly everywhere
   double smoothness = 0.1;
   double price = 1e-4;
   std::function<Parts()> make;

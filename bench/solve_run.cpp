@@ -155,8 +155,10 @@ nlohmann::json solve_once(const Scenario& scenario, const SolveOptions& options)
   solver.gradient_tolerance = options.gradient_tolerance;
   constexpr double kLeastSeconds = 2.0;
   solver.max_seconds = options.max_seconds;
-  if (options.stop_at_target)
-    solver.max_seconds = std::min(std::max(scenario.pairs * pair, kLeastSeconds), options.max_seconds);
+  if (options.stop_at_target) {
+    const double least = options.kind == SolverKind::Lbfgsb ? scenario.patience : kLeastSeconds;
+    solver.max_seconds = std::min(std::max({scenario.pairs * pair, kLeastSeconds, least}), options.max_seconds);
+  }
   result["max_seconds"] = solver.max_seconds;
   // Not every solver looks at the clock often enough: the signal ends the process.
   end_process_after(2.0 * solver.max_seconds + 3.0);

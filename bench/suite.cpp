@@ -139,7 +139,8 @@ class Suite {
   }
 
   nlohmann::json run_once(const Entry& entry, double left) {
-    const double longest = options_.quick ? 3.0 : entry.kind == SolverKind::Auto ? 60.0 : 20.0;
+    const double usual = entry.kind == SolverKind::Auto ? 60.0 : std::max(20.0, entry.scenario->patience);
+    const double longest = options_.quick ? 3.0 : usual;
     const nlohmann::json run = solve_in_child({.scenario = entry.scenario->name,
                                                .kind = entry.kind,
                                                .threads = entry.threads,

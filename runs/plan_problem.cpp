@@ -43,7 +43,7 @@ PlanProblem::PlanProblem(const Plan& plan)
   problem_.removal = removal_.get();
   problem_.target = target_of(plan, geometry_->pixels, limits.max_feed);
   problem_.form = form_basis(grid_, geometry_->pixels, plan.terms, {}, plan.threads);
-  problem_.smoothness = path_smoothness(plan.path, plan.strokes);
+  problem_.smoothness = path_smoothness(plan.path, plan.strokes, plan.threads);
   problem_.lower = minimum_dwell(plan.strokes, limits);
   problem_.geometry = geometry_;
 }

@@ -205,7 +205,7 @@ class Run {
     const double a = curvature > 0.0 ? std::min(1.0, -slope / curvature) : 1.0;
     point_.x += a * d_;
     clip_to_bounds(p_, point_.x);  // rounding only
-    r_ += a * image_;
+    objective_.advance(a, image_, r_);
     objective_.gradient(r_, point_.x, point_.gradient);
     point_.value = objective_.value(r_, point_.x);
     work_ += 1.0;

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <numeric>
 
 #include "core/removal_operator.h"
 
@@ -18,6 +20,21 @@ void for_blocks(Index n, int threads, const Body& body) {
   constexpr Index kWorthThreads = 16;  // blocks; below that, waking a thread costs more than it saves
 #pragma omp parallel for num_threads(threads) schedule(static) if (threads > 1 && count >= kWorthThreads)
   for (Index b = 0; b < count; ++b) body(b, b * kBlock, std::min(kBlock, n - b * kBlock));
+}
+
+/// Sum of part(begin, length) over a fixed number of stretches of 0..n, each by one thread, added up in order: the same
+/// bytes for any number of threads, and no allocation.
+template <class Part>
+double sum_over(Index n, int threads, const Part& part) {
+  constexpr Index kParts = 64, kWorthThreads = 16 * kBlock;
+  const Index length = (n + kParts - 1) / kParts;
+  std::array<double, kParts> sums{};
+#pragma omp parallel for num_threads(threads) schedule(static) if (threads > 1 && n >= kWorthThreads)
+  for (Index k = 0; k < kParts; ++k) {
+    const Index begin = std::min(k * length, n);
+    sums[static_cast<std::size_t>(k)] = part(begin, std::min(length, n - begin));
+  }
+  return std::accumulate(sums.begin(), sums.end(), 0.0);
 }
 
 }  // namespace dwell

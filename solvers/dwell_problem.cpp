@@ -7,6 +7,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "solvers/blocks.h"
+
 namespace dwell {
 namespace {
 
@@ -94,17 +96,17 @@ void DwellObjective::weigh_and_project(Vector& v) const {
   // Q is several times as large as v: in blocks of rows, by all threads; the blocks are summed in order.
   constexpr Index kBlocks = 64, kSmall = 1 << 16;
   const Index m = v.size(), terms = problem_.form.cols(), block = (m + kBlocks - 1) / kBlocks;
-  [[maybe_unused]] const int threads = problem_.geometry && m > kSmall ? std::max(problem_.geometry->threads, 1) : 1;
+  [[maybe_unused]] const int team = m > kSmall ? threads() : 1;
   const auto begin = [&](Index b) { return std::min(b * block, m); };
   const auto rows = [&](Index b) { return begin(b + 1) - begin(b); };
   Eigen::Matrix<double, kMaxFormTerms, kBlocks> partial = Eigen::Matrix<double, kMaxFormTerms, kBlocks>::Zero();
-#pragma omp parallel for num_threads(threads) schedule(static)
+#pragma omp parallel for num_threads(team) schedule(static)
   for (Index b = 0; b < kBlocks; ++b) {
     for (Index k = 0; k < terms; ++k)
       partial(k, b) = problem_.form.col(k).segment(begin(b), rows(b)).dot(v.segment(begin(b), rows(b)));
   }
   const Eigen::Matrix<double, kMaxFormTerms, 1> c = partial.rowwise().sum();
-#pragma omp parallel for num_threads(threads) schedule(static)
+#pragma omp parallel for num_threads(team) schedule(static)
   for (Index b = 0; b < kBlocks; ++b) {
     for (Index k = 0; k < terms; ++k)
       v.segment(begin(b), rows(b)) -= c[k] * problem_.form.col(k).segment(begin(b), rows(b));
@@ -113,7 +115,9 @@ void DwellObjective::weigh_and_project(Vector& v) const {
 
 void DwellObjective::residual(const Vector& t, Vector& r) {
   problem_.removal->apply(t, r);
-  r -= problem_.target;
+  for_blocks(r.size(), threads(), [&](Index, Index begin, Index length) {
+    r.segment(begin, length) -= problem_.target.segment(begin, length);
+  });
   weigh_and_project(r);
 }
 
@@ -144,15 +148,27 @@ void DwellObjective::hessian_times(const Vector& d, const Vector& image, Vector&
 }
 
 double DwellObjective::curvature(const Vector& d, const Vector& image) const {
-  double c = image.squaredNorm();
+  double c = squared_norm(image);
   if (problem_.alpha > 0.0 && !problem_.smoothness.empty()) c += problem_.alpha * problem_.smoothness.squared_norm(d);
   if (problem_.beta > 0.0) c += problem_.beta * d.squaredNorm();
   return c;
 }
 
 double DwellObjective::value(const Vector& r, const Vector& t) const {
-  return 0.5 * r.squaredNorm() + penalty(problem_, t);
+  return 0.5 * squared_norm(r) + penalty(problem_, t);
 }
+
+void DwellObjective::advance(double a, const Vector& image, Vector& r) const {
+  for_blocks(r.size(), threads(),
+             [&](Index, Index begin, Index length) { r.segment(begin, length) += a * image.segment(begin, length); });
+}
+
+double DwellObjective::squared_norm(const Vector& v) const {
+  return sum_over(v.size(), threads(),
+                  [&](Index begin, Index length) { return v.segment(begin, length).squaredNorm(); });
+}
+
+int DwellObjective::threads() const { return problem_.geometry ? std::max(problem_.geometry->threads, 1) : 1; }
 
 double DwellObjective::gradient_scale() {
   if (gradient_scale_ < 0.0) {

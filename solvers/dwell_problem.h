@@ -71,12 +71,16 @@ class DwellObjective {
   double curvature(const Vector& d, const Vector& image) const;
   /// Objective at t, given r. No application.
   double value(const Vector& r, const Vector& t) const;
+  /// r += a image: the residual after a step of a along d, given image = W P A d. No application.
+  void advance(double a, const Vector& image, Vector& r) const;
   /// |A' P' W' W P z|: the scale against which gradients are measured. One application, computed once.
   double gradient_scale();
 
  private:
   void weigh_and_project(Vector& v) const;
   void adjoint_of_weighted(const Vector& r, Vector& g);
+  double squared_norm(const Vector& v) const;
+  int threads() const;
 
   const DwellProblem& problem_;
   Vector weighted_;

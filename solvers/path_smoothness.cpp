@@ -6,10 +6,12 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "solvers/blocks.h"
+
 namespace dwell {
 
-PathSmoothness::PathSmoothness(const std::vector<double>& lengths, const std::vector<char>& joined)
-    : scale_(Vector::Ones(static_cast<Index>(lengths.size()))), joined_(joined) {
+PathSmoothness::PathSmoothness(const std::vector<double>& lengths, const std::vector<char>& joined, int threads)
+    : scale_(Vector::Ones(static_cast<Index>(lengths.size()))), joined_(joined), threads_(threads) {
   if (joined.size() != lengths.size())
     throw std::invalid_argument("path smoothness: lengths and joined differ in size");
   double sum = 0.0;
@@ -31,13 +33,14 @@ PathSmoothness::PathSmoothness(const std::vector<double>& lengths, const std::ve
 }
 
 double PathSmoothness::squared_norm(const Vector& t) const {
-  double sum = 0.0;
-  for (Index j = 1; j < scale_.size(); ++j) {
-    if (!joined_[static_cast<std::size_t>(j)]) continue;
-    const double d = scale_[j] * t[j] - scale_[j - 1] * t[j - 1];
-    sum += d * d;
-  }
-  return sum;
+  return sum_over(size(), threads_, [&](Index begin, Index length) {
+    double sum = 0.0;
+    for (Index j = begin; j < begin + length; ++j) {
+      const double d = step(j, 1.0, t);
+      sum += d * d;
+    }
+    return sum;
+  });
 }
 
 double PathSmoothness::step_rms(const Vector& t) const {
@@ -47,12 +50,15 @@ double PathSmoothness::step_rms(const Vector& t) const {
 }
 
 void PathSmoothness::add_normal(double weight, const Vector& t, Vector& out) const {
-  for (Index j = 1; j < scale_.size(); ++j) {
-    if (!joined_[static_cast<std::size_t>(j)]) continue;
-    const double d = weight * (scale_[j] * t[j] - scale_[j - 1] * t[j - 1]);
-    out[j] += scale_[j] * d;
-    out[j - 1] -= scale_[j - 1] * d;
-  }
+  for_blocks(size(), threads_, [&](Index, Index begin, Index length) {
+    double before = step(begin, weight, t);
+    for (Index j = begin; j < begin + length; ++j) {
+      const double after = step(j + 1, weight, t);
+      out[j] += scale_[j] * before;
+      out[j] -= scale_[j] * after;
+      before = after;
+    }
+  });
 }
 
 Eigen::MatrixXd PathSmoothness::dense_normal() const {
@@ -67,14 +73,14 @@ Eigen::MatrixXd PathSmoothness::dense_normal() const {
   return normal;
 }
 
-PathSmoothness path_smoothness(const ToolPath& path, const std::vector<Stroke>& strokes) {
+PathSmoothness path_smoothness(const ToolPath& path, const std::vector<Stroke>& strokes, int threads) {
   std::vector<double> lengths;
   std::vector<char> joined;
   for (std::size_t j = 0; j < strokes.size(); ++j) {
     lengths.push_back(strokes[j].length());
     joined.push_back(j > 0 && !path.lifted[j]);
   }
-  return {lengths, joined};
+  return {lengths, joined, threads};
 }
 
 }  // namespace dwell

@@ -15,8 +15,9 @@ class PathSmoothness {
  public:
   PathSmoothness() = default;
   /// joined[j]: dwell point j continues from j - 1 without a lift. lengths [mm], one a stroke. Both of size n.
-  /// Throws std::invalid_argument if the sizes differ or a length is negative or not finite.
-  PathSmoothness(const std::vector<double>& lengths, const std::vector<char>& joined);
+  /// Throws std::invalid_argument if the sizes differ or a length is negative or not finite. What the members compute
+  /// has the same bytes for any number of threads.
+  PathSmoothness(const std::vector<double>& lengths, const std::vector<char>& joined, int threads = 1);
 
   bool empty() const { return scale_.size() == 0; }
   Index size() const { return scale_.size(); }  // n
@@ -35,11 +36,18 @@ class PathSmoothness {
   Eigen::MatrixXd dense_normal() const;
 
  private:
+  /// weight * (D t) of the link of point j to j - 1; 0 without one, or beyond the last point.
+  double step(Index j, double weight, const Vector& t) const {
+    if (j >= size() || !linked(j)) return 0.0;
+    return weight * (scale_[j] * t[j] - scale_[j - 1] * t[j - 1]);
+  }
+
   Vector scale_;
   std::vector<char> joined_;
+  int threads_ = 1;
 };
 
 /// The smoothness of a path's strokes: tool running through, or halting (all scales one).
-PathSmoothness path_smoothness(const ToolPath& path, const std::vector<Stroke>& strokes);
+PathSmoothness path_smoothness(const ToolPath& path, const std::vector<Stroke>& strokes, int threads = 1);
 
 }  // namespace dwell

@@ -33,6 +33,41 @@ TEST(PathSmoothness, IgnoresTheFlagOfTheFirstPoint) {
   EXPECT_DOUBLE_EQ(PathSmoothness({1.0, 1.0}, {0, 1}).squared_norm(vector_of({1.0, 3.0})), 4.0);
 }
 
+// More points than a stretch holds, so that links cross from one to the next; the sums here go link by link.
+TEST(PathSmoothness, AgreesWithALoopOverLinksOnManyPointsForAnyNumberOfThreads) {
+  constexpr Index kPoints = 40'000;
+  std::vector<double> lengths;
+  std::vector<char> joined;
+  Vector t(kPoints), start(kPoints);
+  for (Index j = 0; j < kPoints; ++j) {
+    lengths.push_back(0.5 + 0.1 * static_cast<double>(j % 7));
+    joined.push_back(j % 911 != 0);
+    t[j] = std::sin(0.37 * static_cast<double>(j * j % 1013));
+    start[j] = 0.01 * static_cast<double>(j % 13);
+  }
+  const PathSmoothness one(lengths, joined);
+  Vector expected = start;
+  double squares = 0.0;
+  for (Index j = 1; j < kPoints; ++j) {
+    if (!joined[static_cast<std::size_t>(j)]) continue;
+    const double step = one.scale(j) * t[j] - one.scale(j - 1) * t[j - 1];
+    squares += step * step;
+    expected[j] += 0.3 * one.scale(j) * step;
+    expected[j - 1] -= 0.3 * one.scale(j - 1) * step;
+  }
+  Vector normal = start;
+  one.add_normal(0.3, t, normal);
+  EXPECT_LE((normal - expected).norm(), 1e-14 * expected.norm());
+  EXPECT_NEAR(one.squared_norm(t), squares, 1e-12 * squares);
+  for (const int threads : {2, 3}) {
+    const PathSmoothness many(lengths, joined, threads);
+    Vector other = start;
+    many.add_normal(0.3, t, other);
+    EXPECT_EQ(other, normal);
+    EXPECT_EQ(many.squared_norm(t), one.squared_norm(t));
+  }
+}
+
 // Dwell in proportion to length is one feed throughout: nothing to smooth.
 TEST(PathSmoothness, VanishesAtConstantFeed) {
   const PathSmoothness d({0.5, 1.0, 2.0, 0.25}, {0, 1, 1, 1});
