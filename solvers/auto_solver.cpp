@@ -94,10 +94,10 @@ class Run {
   }
 
   void run(CoarseFactor factor) {
-    scale_ = objective_.gradient_scale();
-    if (!(scale_ > 0.0)) scale_ = 1.0;
     point_.x = t_;
     take_stock();
+    scale_ = objective_.gradient_scale();
+    if (!(scale_ > 0.0)) scale_ = 1.0;
     const CoarseFactor fine = fine_pixels(p_.geometry->kernel, factor);
     const bool smooth = !done() && t_ == p_.lower && smooth_levels(fine);
     if (smooth) most_products_ = kFirstOnPoints;
@@ -115,12 +115,10 @@ class Run {
     return limits_.stopped() || limits_.converged(gradient_norm(point_), scale_) || !limits_.allow(point_.value);
   }
 
-  /// Residual, gradient and objective at point_.x, from nothing. One operator pair.
+  /// Residual, gradient and objective at point_.x, from nothing. At most one operator pair.
   void take_stock() {
     clip_to_bounds(p_, point_.x);
-    objective_.residual(point_.x, r_);
-    objective_.gradient(r_, point_.x, point_.gradient);
-    point_.value = objective_.value(r_, point_.x);
+    point_.value = objective_.evaluate(point_.x, r_, point_.gradient);
     work_ += 1.0;
   }
 

@@ -114,11 +114,29 @@ void DwellObjective::weigh_and_project(Vector& v) const {
 }
 
 void DwellObjective::residual(const Vector& t, Vector& r) {
-  problem_.removal->apply(t, r);
+  const bool removes = (t.array() != 0.0).any();
+  if (removes) {
+    problem_.removal->apply(t, r);
+  } else {
+    r.resize(problem_.pixels());
+  }
   for_blocks(r.size(), threads(), [&](Index, Index begin, Index length) {
-    r.segment(begin, length) -= problem_.target.segment(begin, length);
+    const auto z = problem_.target.segment(begin, length);
+    if (removes) {
+      r.segment(begin, length) -= z;
+    } else {
+      r.segment(begin, length) = -z;
+    }
   });
   weigh_and_project(r);
+}
+
+double DwellObjective::evaluate(const Vector& t, Vector& r, Vector& g) {
+  residual(t, r);
+  adjoint_of_weighted(r, g);
+  if (!(t.array() != 0.0).any()) gradient_scale_ = g.norm();
+  add_penalty_gradient(problem_, t, g);
+  return value(r, t);
 }
 
 void DwellObjective::image(const Vector& d, Vector& image) {

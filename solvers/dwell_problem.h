@@ -59,8 +59,11 @@ class DwellObjective {
  public:
   explicit DwellObjective(const DwellProblem& problem);
 
-  /// r = W P (A t - z). One application.
+  /// r = W P (A t - z). One application; none at t = 0.
   void residual(const Vector& t, Vector& r);
+  /// Residual and gradient at t; returns the objective. Two applications; at t = 0 one, which also gives the scale of
+  /// the gradient: ask for that later.
+  double evaluate(const Vector& t, Vector& r, Vector& g);
   /// image = W P A d. One application.
   void image(const Vector& d, Vector& image);
   /// g = A' P' W' r + alpha D'D t + beta (t - t0) + gamma 1, for r a residual. One application.

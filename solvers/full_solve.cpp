@@ -73,17 +73,12 @@ void solve_in_full(const DwellProblem& problem, const SolverOptions& options, Bo
   SolveLimits limits(problem, options, summary);
   DwellObjective objective(problem);
   FullHessian hessian(objective);
-  double scale = objective.gradient_scale();
-  if (!(scale > 0.0)) scale = 1.0;
   Vector r;
   QuadraticPoint point;
-  const auto evaluate = [&] {
-    objective.residual(t, r);
-    objective.gradient(r, t, point.gradient);
-    point.x = t;
-    point.value = objective.value(r, t);
-  };
-  evaluate();
+  point.x = t;
+  point.value = objective.evaluate(t, r, point.gradient);
+  double scale = objective.gradient_scale();
+  if (!(scale > 0.0)) scale = 1.0;
   Watch watch(problem, options, limits, summary, scale);
   watch.start(point.value);
   const BoxMinimiser::Monitor monitor = [&watch](const QuadraticPoint& p) { return watch(p); };
@@ -92,7 +87,8 @@ void solve_in_full(const DwellProblem& problem, const SolverOptions& options, Bo
     const double before = point.value;
     minimiser.minimise(hessian, 0.9 * options.gradient_tolerance * scale, point, monitor);
     t = point.x;
-    evaluate();  // the gradient carried along gathers rounding; what is reported does not
+    // The gradient carried along gathers rounding; what is reported does not.
+    point.value = objective.evaluate(t, r, point.gradient);
     if (!limits.stopped() && !(point.value < before) &&
         !limits.converged(projected_gradient_norm(problem.lower, problem.upper, point), scale)) {
       end_at_rest(problem, hessian, point, scale, limits, summary);

@@ -22,14 +22,12 @@ void SpectralProjectedGradient::do_solve(const DwellProblem& problem, Vector& t,
   SolveLimits limits(problem, options_, summary);
   DwellObjective objective(problem);
   FullHessian hessian(objective);
-  double scale = objective.gradient_scale();
-  if (!(scale > 0.0)) scale = 1.0;
   QuadraticPoint p;
   Vector r, direction, product;
   p.x = t;
-  objective.residual(t, r);
-  objective.gradient(r, t, p.gradient);
-  p.value = objective.value(r, t);
+  p.value = objective.evaluate(t, r, p.gradient);
+  double scale = objective.gradient_scale();
+  if (!(scale > 0.0)) scale = 1.0;
   std::array<double, kMemory> recent;
   recent.fill(p.value);
   std::size_t oldest = 0;
