@@ -214,6 +214,11 @@ void DenseNnls::do_solve(const DwellProblem& problem, Vector& t, SolverSummary& 
   DwellObjective objective(problem);
   const double scale = objective.gradient_scale() > 0.0 ? objective.gradient_scale() : 1.0;
   const DenseProblem dense = dense_problem(problem);
+  if (!dense.h.allFinite() || !dense.c.allFinite()) {
+    summary.status = SolverStatus::Failed;
+    summary.message = "failed: the operator gave a value that is not finite";
+    return;
+  }
   ActiveSet(problem, dense, options_, scale, objective, t).run(summary);
   clip_to_bounds(problem, t);
   Vector r;
