@@ -94,15 +94,15 @@ class Run {
   }
 
   void run(CoarseFactor factor) {
-    point_.x = t_;
+    point_.x.swap(t_);  // a vector less while solving
     take_stock();
     scale_ = objective_.gradient_scale();
     if (!(scale_ > 0.0)) scale_ = 1.0;
     const CoarseFactor fine = fine_pixels(p_.geometry->kernel, factor);
-    const bool smooth = !done() && t_ == p_.lower && smooth_levels(fine);
+    const bool smooth = !done() && point_.x == p_.lower && smooth_levels(fine);
     if (smooth) most_products_ = kFirstOnPoints;
     if (!done()) points_levels(smooth ? fine : factor);
-    t_ = point_.x;
+    point_.x.swap(t_);
     summary_.objective = point_.value;
   }
 
@@ -158,8 +158,8 @@ class Run {
       SmoothDwell next(*p_.geometry, factor);
       if (next.size() * points_per_variable > p_.points()) break;
       s = dwell ? next.refined(*dwell, s) : Vector::Zero(next.size());
-      smooth_level(next, factor, s);
       dwell = std::move(next);
+      smooth_level(*dwell, factor, s);
       if (factor.x % 2 != 0 || factor.y % 2 != 0) break;
       points_per_variable = kPointsPerFinerVariable;
     }

@@ -88,7 +88,7 @@ void clip_to_bounds(const DwellProblem& p, Vector& t) {
   if (p.upper.size() != 0) t = t.cwiseMin(p.upper);
 }
 
-DwellObjective::DwellObjective(const DwellProblem& problem) : problem_(problem), weighted_(problem.pixels()) {}
+DwellObjective::DwellObjective(const DwellProblem& problem) : problem_(problem), weighted_(problem.weights.size()) {}
 
 void DwellObjective::weigh_and_project(Vector& v) const {
   if (problem_.weights.size() != 0) v.array() *= problem_.weights.array();

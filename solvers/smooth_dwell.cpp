@@ -21,6 +21,7 @@ Grid cover_of(const Grid& map, const DwellLattice& at, CoarseFactor factor) {
 void add_sums(const Vector& by_pixel, SplineGram::Take take, double scale, SplineGram& gram) {
   if (!(scale > 0.0)) return;
   std::vector<Index> pixels;
+  pixels.reserve(static_cast<std::size_t>((by_pixel.array() != 0.0).count()));
   for (Index i = 0; i < by_pixel.size(); ++i) {
     if (by_pixel[i] != 0.0) pixels.push_back(i);
   }
