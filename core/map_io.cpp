@@ -13,6 +13,7 @@
 #include "core/npy.h"
 #include "core/number_text.h"
 #include "core/point_grid.h"
+#include "core/sdf_text.h"
 #include "core/value_units.h"
 #include "core/whole_file.h"
 #include "core/xyz_text.h"
@@ -173,10 +174,12 @@ void write_map(const std::filesystem::path& file, const HeightMap& map) {
     write_whole_file(file, xyz_text(map));
   } else if (extension == ".npy") {
     write_whole_file(file, npy_bytes(map));
+  } else if (extension == ".sdf") {
+    write_whole_file(file, sdf_text(map));
   } else {
     throw InputError(
-        fmt::format("cannot write '{}': extension '{}' is not of a map format; .csv, .txt, .xyz and .npy are "
-                    "accepted",
+        fmt::format("cannot write '{}': extension '{}' is not of a map format; .csv, .txt, .xyz, .npy and "
+                    ".sdf are accepted",
                     file.string(), extension));
   }
 }
