@@ -17,11 +17,12 @@ struct MapReadOptions {
 };
 
 /// Reads a map by the file's content and extension (docs/formats.md): matrix CSV/TXT, XYZ, and the formats of
-/// core/map_formats.h.
+/// core/map_formats.h; what an NPY array does not say is taken from its sidecar (core/npy_sidecar.h), if it has one.
 /// Throws InputError naming file, line or field, value, and what is accepted.
 HeightMap read_map(const std::filesystem::path& file, const MapReadOptions& options = {});
 
-/// Writes a map, whole or not at all, in the format of the extension: .csv, .txt (matrix), .xyz, .npy, .sdf. Values are written in nm so that they read back equal.
+/// Writes a map, whole or not at all, in the format of the extension: .csv, .txt (matrix), .xyz, .npy
+/// (with its sidecar), .sdf. Values are written in nm so that they read back equal.
 void write_map(const std::filesystem::path& file, const HeightMap& map);
 
 }  // namespace dwell
