@@ -97,6 +97,14 @@ TEST(PointGrid, RefusesPointsThatAreAbsurdlyFarApart) {
   refused_on("0 0 1\n1 1 2\n", {5e-324, 1}, {1e308, 0});
 }
 
+TEST(PointGrid, RefusesCoordinatesThatAreOneOnlyForACoarserPitch) {
+  // x differs by 1e-7 of itself, which rounding explains; but it is 50 times the pitch that the points have in y.
+  expect_refused("1000000 0 1\n1000000.05 0.001 2\n", {"line 2", "x = 1000000.05 mm", "regular grid"});
+  expect_refused("0 1000000 1\n0.001 1000000.05 2\n", {"line 2", "y = 1000000.05 mm", "regular grid"});
+  test::expect_input_error([] { grid_of("1000000 0 1\n1000000.05 0 2\n", Point{0.001, 0.001}); }, {"line 2", "grid"});
+  EXPECT_EQ(grid_of("1000000 0 1\n1000000.0000001 0.001 2\n").grid.cols, 1);
+}
+
 TEST(PointGrid, AKnownPitchMustAgree) {
   const std::string text = "0 0 1\n0.5 0 2\n0 0.5 3\n";
   EXPECT_EQ(grid_of(text, Point{0.5, 0.5}).grid.pitch_x, 0.5);
