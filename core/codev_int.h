@@ -22,7 +22,8 @@ bool is_codev_int(std::string_view text);
 /// value equal to NDA (32767 if not given) is no data. The file says no pitch. `where` begins error messages. Throws
 /// InputError for anything but a surface on square pixels (a wavefront is not a surface without the geometry of its
 /// test), and naming the field, value or line that is wrong.
-/// Source: CODE V Reference Manual, interferogram (INT) files; the order of rows as in prysm 0.21, io.py.
+/// Source: the manual of CODE V is not public; fields and scale are as the readers of prysm (io.read_codev_gridint) and
+/// Gwyddion (codevfile.c) agree on, the order of the rows as prysm has it (Gwyddion's is the other way up).
 MapSource parse_codev_int(std::string_view text, const std::string& where);
 
 }  // namespace dwell

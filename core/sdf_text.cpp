@@ -161,7 +161,8 @@ MapSource parse_sdf_text(std::string_view text, const std::string& where) {
   source.values = read_text_grid(
       words, grid, text.size(),
       [nm](std::string_view word) {
-        if (lower_case(word) == "bad") return std::optional(std::numeric_limits<double>::quiet_NaN());
+        if (word.size() == 3 && lower_case(word) == "bad")
+          return std::optional(std::numeric_limits<double>::quiet_NaN());
         std::optional<double> value = finite_number(word);
         if (value) *value *= nm;
         return value;
