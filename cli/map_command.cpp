@@ -9,6 +9,7 @@
 #include "core/map_io.h"
 #include "core/map_statistics.h"
 #include "core/whole_file.h"
+#include "runs/height_image.h"
 #include "runs/input_files.h"
 #include "runs/picture.h"
 
@@ -17,7 +18,7 @@ namespace {
 
 struct MapArguments {
   std::unique_ptr<JobArguments> job;
-  std::string file, write, png;
+  std::string file, write, write_image, png;
 };
 
 int run_map(const MapArguments& arguments) {
@@ -37,6 +38,7 @@ int run_map(const MapArguments& arguments) {
   fmt::print("PV        {:.6g} nm ({} removed)\n", statistics.pv, to_string(terms));
   fmt::print("RMS       {:.6g} nm ({} removed)\n", statistics.rms, to_string(terms));
   if (!arguments.write.empty()) write_map(arguments.write, map);
+  if (!arguments.write_image.empty()) write_whole_file(arguments.write_image, height_image_png(map));
   if (!arguments.png.empty()) {
     const std::string title = fmt::format("{}: RMS {:.4g} nm, PV {:.4g} nm ({} removed)", inputs[0].file,
                                           statistics.rms, statistics.pv, to_string(terms));
@@ -53,8 +55,10 @@ void add_map_command(CLI::App& program, int& exit_code) {
   command->add_option("file", arguments->file, "matrix CSV/TXT, XYZ or NPY")->type_name("FILE")->required();
   const std::vector<std::string> flags{"map-pixel", "map-unit", "map-origin", "remove", "aperture"};
   arguments->job = std::make_unique<JobArguments>(*command, flags, false);
-  command->add_option("--write", arguments->write, "write the map as measured [nm]: .csv, .txt, .xyz or .npy")
+  command->add_option("--write", arguments->write, "write the map as measured [nm]: .csv, .txt, .xyz, .npy or .sdf")
       ->type_name("FILE");
+  command->add_option("--write-image", arguments->write_image, "write the map as a 16-bit grey PNG, levels = heights")
+      ->type_name("FILE.png");
   command->add_option("--png", arguments->png, "draw the map, form terms removed")->type_name("FILE");
   command->footer("Example:\n  dwell map mirror.csv --map-pixel 0.0938 --remove piston,tilt --png mirror.png");
   command->callback([arguments, &exit_code] { exit_code = run_map(*arguments); });

@@ -57,7 +57,7 @@ void add_simulate_command(CLI::App& program, int& exit_code) {
       ->add_option("--gcode", arguments->gcode,
                    "what F means in a G93 program that does not say so: g93-per-minute or g93-seconds")
       ->type_name("DIALECT");
-  command->add_option("--residual", arguments->residual, "write the residual map [nm]: .csv, .txt, .xyz or .npy")
+  command->add_option("--residual", arguments->residual, "write the residual map [nm]: .csv, .txt, .xyz, .npy or .sdf")
       ->type_name("FILE");
   command->add_option("--png", arguments->png, "draw the residual map")->type_name("FILE");
   command->add_flag("--json", arguments->json, "print the result as JSON");

@@ -75,7 +75,10 @@ LatticeFit fit_with(const std::vector<double>& v, double pitch) {
 }  // namespace
 
 Index Lattice::nearest(double v) const {
-  return pitch > 0.0 ? static_cast<Index>(std::llround((v - origin) / pitch)) : 0;
+  if (!(pitch > 0.0)) return 0;
+  const double k = std::round((v - origin) / pitch);
+  if (!(std::abs(k) <= kMostSteps)) return static_cast<Index>(k < 0.0 ? -kMostSteps : kMostSteps);
+  return static_cast<Index>(k);
 }
 
 double Lattice::deviation(double v) const {

@@ -13,6 +13,7 @@ struct Lattice {
   double pitch = 0.0;  // 0: all coordinates are the same, none can be inferred
   Index count = 0;
 
+  /// Number of the nearest lattice point, bounded to +-1e15 where v is absurdly far.
   Index nearest(double v) const;
   /// Distance from the nearest lattice point, as a fraction of the pitch; 0 if that is 0.
   double deviation(double v) const;

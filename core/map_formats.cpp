@@ -2,13 +2,22 @@
 
 #include <array>
 
+#include "core/codev_int.h"
 #include "core/npy.h"
+#include "core/sdf_text.h"
 
 namespace dwell {
 namespace {
 
 constexpr std::array kFormats{
     MapFormat{"an NPY array (.npy)", [](std::string_view bytes, std::string_view) { return is_npy(bytes); }, parse_npy},
+    MapFormat{"a surface data file as text (.sdf)",
+              [](std::string_view bytes, std::string_view extension) { return is_sdf(bytes) || extension == ".sdf"; },
+              parse_sdf_text},
+    MapFormat{
+        "a Code V interferogram (.int)",
+        [](std::string_view bytes, std::string_view extension) { return is_codev_int(bytes) || extension == ".int"; },
+        parse_codev_int},
 };
 
 }  // namespace

@@ -11,8 +11,10 @@
 #include "core/map_formats.h"
 #include "core/matrix_text.h"
 #include "core/npy.h"
+#include "core/npy_sidecar.h"
 #include "core/number_text.h"
 #include "core/point_grid.h"
+#include "core/sdf_text.h"
 #include "core/value_units.h"
 #include "core/whole_file.h"
 #include "core/xyz_text.h"
@@ -116,7 +118,12 @@ HeightMap parse_map(const std::filesystem::path& file, std::string_view bytes, c
   }
   const std::string extension = extension_of(file);
   if (const MapFormat* format = map_format_of(bytes, extension)) {
-    return map_of_source(format->read(bytes, where), options, where);
+    MapSource source = format->read(bytes, where);
+    if (is_npy(bytes)) {
+      source.header = read_npy_sidecar(file, bytes);
+      source.pitch_hint = fmt::format(", or put its sidecar {} beside it", npy_sidecar_name(file.filename()).string());
+    }
+    return map_of_source(std::move(source), options, where);
   }
   const std::string binary = kind_of_binary(bytes);
   if (!binary.empty()) {
@@ -172,11 +179,13 @@ void write_map(const std::filesystem::path& file, const HeightMap& map) {
   } else if (extension == ".xyz") {
     write_whole_file(file, xyz_text(map));
   } else if (extension == ".npy") {
-    write_whole_file(file, npy_bytes(map));
+    write_npy_with_sidecar(file, map);
+  } else if (extension == ".sdf") {
+    write_whole_file(file, sdf_text(map));
   } else {
     throw InputError(
-        fmt::format("cannot write '{}': extension '{}' is not of a map format; .csv, .txt, .xyz and .npy are "
-                    "accepted",
+        fmt::format("cannot write '{}': extension '{}' is not of a map format; .csv, .txt, .xyz, .npy and "
+                    ".sdf are accepted",
                     file.string(), extension));
   }
 }

@@ -16,12 +16,13 @@ struct MapReadOptions {
   std::string name = "map";     // what error messages call it: "map" or "tif"
 };
 
-/// Reads a map by the file's content and extension (docs/formats.md): matrix CSV/TXT, XYZ, NPY.
+/// Reads a map by the file's content and extension (docs/formats.md): matrix CSV/TXT, XYZ, and the formats of
+/// core/map_formats.h; what an NPY array does not say is taken from its sidecar (core/npy_sidecar.h), if it has one.
 /// Throws InputError naming file, line or field, value, and what is accepted.
 HeightMap read_map(const std::filesystem::path& file, const MapReadOptions& options = {});
 
-/// Writes a map, whole or not at all, in the format of the extension: .csv, .txt (matrix), .xyz, .npy. Values are
-/// written in nm so that they read back equal.
+/// Writes a map, whole or not at all, in the format of the extension: .csv, .txt (matrix), .xyz, .npy
+/// (with its sidecar), .sdf. Values are written in nm so that they read back equal.
 void write_map(const std::filesystem::path& file, const HeightMap& map);
 
 }  // namespace dwell

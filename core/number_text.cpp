@@ -27,15 +27,14 @@ Parsed parse(std::string_view text) {
   return parsed;
 }
 
-constexpr std::size_t kQuoted = 40;  // characters of a refused field that a message repeats
-
-std::string quote(std::string_view text) {
-  std::string shown;
-  for (const char c : text.substr(0, kQuoted)) shown += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-  return fmt::format("'{}{}'", shown, text.size() > kQuoted ? "..." : "");
-}
-
 }  // namespace
+
+std::string in_quotes(std::string_view text) {
+  constexpr std::size_t kLongest = 40;
+  std::string shown;
+  for (const char c : text.substr(0, kLongest)) shown += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+  return fmt::format("'{}{}'", shown, text.size() > kLongest ? "..." : "");
+}
 
 std::string_view trim(std::string_view text) {
   constexpr std::string_view kBlanks = " \t\r";
@@ -84,9 +83,10 @@ std::optional<double> height_number(std::string_view text) {
 std::string why_no_height(std::string_view text) {
   text = trim(text);
   const Parsed parsed = parse(text);
-  if (parsed.whole) return fmt::format("{} is infinite; a finite number, or nan for no data, is required", quote(text));
-  if (parsed.out_of_range) return fmt::format("{} is outside the range of a double", quote(text));
-  std::string reason = fmt::format("{} is not a number", quote(text));
+  if (parsed.whole)
+    return fmt::format("{} is infinite; a finite number, or nan for no data, is required", in_quotes(text));
+  if (parsed.out_of_range) return fmt::format("{} is outside the range of a double", in_quotes(text));
+  std::string reason = fmt::format("{} is not a number", in_quotes(text));
   std::string pointed(text);
   std::replace(pointed.begin(), pointed.end(), ',', '.');
   if (pointed != text && parse(pointed).whole) return reason + "; a decimal comma is not accepted, write a point";

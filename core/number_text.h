@@ -27,6 +27,9 @@ std::optional<double> finite_number(std::string_view text);
 /// if it is neither.
 std::optional<double> height_number(std::string_view text);
 
+/// The text in quotes for an error message: its first 40 characters, control characters as blanks.
+std::string in_quotes(std::string_view text);
+
 /// Why height_number refused `text`, with the text quoted, for an error message.
 std::string why_no_height(std::string_view text);
 

@@ -38,7 +38,8 @@ void check_on_lattice(const std::vector<XyzPoint>& points, Axis axis, const Latt
   double worst_deviation = -1.0;
   for (const XyzPoint& point : points) {
     const double v = point.position.*axis.coordinate;
-    const double deviation = lattice.nearest(v) < 0 ? 1.0 : lattice.deviation(v);
+    const Index k = lattice.nearest(v);
+    const double deviation = k < 0 || k >= lattice.count ? 1.0 : lattice.deviation(v);
     // Also true for NaN, so that an absurd coordinate cannot hide.
     if (!(deviation <= worst_deviation)) worst = &point, worst_deviation = deviation;
   }
@@ -83,15 +84,17 @@ void check_size(const Lattice& x, const Lattice& y, std::size_t points, const st
 HeightMap grid_points(const std::vector<XyzPoint>& points, std::optional<Point> pitch, std::optional<Point> origin,
                       const std::string& where, const std::string& name) {
   Lattice x = lattice_of(points, kX, pitch, origin), y = lattice_of(points, kY, pitch, origin);
-  check_on_lattice(points, kX, x, where);
-  check_on_lattice(points, kY, y, where);
-  check_size(x, y, points.size(), where);
   if (!(x.pitch > 0.0)) x.pitch = pitch ? pitch->x : y.pitch;
   if (!(y.pitch > 0.0)) y.pitch = pitch ? pitch->y : x.pitch;
   if (!(x.pitch > 0.0)) {
     throw InputError(fmt::format(
         "{}: all its points are at one place, which says no pixel pitch; give --{}-pixel [mm] > 0", where, name));
   }
+  // With the pitches of the map: coordinates that were taken as one, being the same but for rounding, must also be so
+  // on a borrowed pitch.
+  check_on_lattice(points, kX, x, where);
+  check_on_lattice(points, kY, y, where);
+  check_size(x, y, points.size(), where);
   check_agreement(x, kX, pitch, origin, where, name);
   check_agreement(y, kY, pitch, origin, where, name);
 

@@ -86,6 +86,29 @@ struct Temporary {
   }
 };
 
+class Sha256 {
+ public:
+  Sha256() : context_(EVP_MD_CTX_new(), &EVP_MD_CTX_free) {
+    require(context_ != nullptr && EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr) == 1);
+  }
+  void take(std::string_view bytes) { require(EVP_DigestUpdate(context_.get(), bytes.data(), bytes.size()) == 1); }
+  std::string hexadecimal() {
+    std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
+    unsigned size = 0;
+    require(EVP_DigestFinal_ex(context_.get(), digest.data(), &size) == 1);
+    std::string text;
+    for (unsigned i = 0; i < size; ++i) text += fmt::format("{:02x}", digest[i]);
+    return text;
+  }
+
+ private:
+  static void require(bool done) {
+    if (!done) throw std::runtime_error("SHA-256 failed in the cryptographic library");
+  }
+
+  std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context_;
+};
+
 fs::path temporary_beside(const fs::path& file) {
   static std::atomic<unsigned> count{0};  // threads of one process share the pid
   return file.parent_path() / fmt::format(".{}.{}-{}.tmp", file.filename().string(), ::getpid(), count++);
@@ -115,20 +138,16 @@ void write_whole_file(const fs::path& file, std::string_view bytes) {
   temporary.renamed = true;
 }
 
+std::string sha256_of(std::string_view bytes) {
+  Sha256 digest;
+  digest.take(bytes);
+  return digest.hexadecimal();
+}
+
 std::string sha256_of_file(const fs::path& file) {
-  const std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context(EVP_MD_CTX_new(), &EVP_MD_CTX_free);
-  const auto require = [](bool done) {
-    if (!done) throw std::runtime_error("SHA-256 failed in the cryptographic library");
-  };
-  require(context != nullptr && EVP_DigestInit_ex(context.get(), EVP_sha256(), nullptr) == 1);
-  for_each_block(
-      file, [&](std::string_view block) { require(EVP_DigestUpdate(context.get(), block.data(), block.size()) == 1); });
-  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
-  unsigned size = 0;
-  require(EVP_DigestFinal_ex(context.get(), digest.data(), &size) == 1);
-  std::string text;
-  for (unsigned i = 0; i < size; ++i) text += fmt::format("{:02x}", digest[i]);
-  return text;
+  Sha256 digest;
+  for_each_block(file, [&](std::string_view block) { digest.take(block); });
+  return digest.hexadecimal();
 }
 
 }  // namespace dwell

@@ -13,6 +13,9 @@ std::string read_whole_file(const std::filesystem::path& file);
 /// Throws InputError naming the file and the system's reason.
 void write_whole_file(const std::filesystem::path& file, std::string_view bytes);
 
+/// SHA-256 of bytes, 64 lower-case hexadecimal digits.
+std::string sha256_of(std::string_view bytes);
+
 /// SHA-256 of a file's bytes, 64 lower-case hexadecimal digits.
 std::string sha256_of_file(const std::filesystem::path& file);
 

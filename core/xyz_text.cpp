@@ -15,6 +15,8 @@
 namespace dwell {
 namespace {
 
+constexpr double kFarthest = 1e12;  // [mm]; nothing of a part lies there, and differences of coordinates stay finite
+
 bool is_separator(char c) { return c == ' ' || c == '\t' || c == ',' || c == ';'; }
 
 /// The unit suffix of a column name: "z_um" -> "um", "z" -> "". Nothing if the name is another one.
@@ -59,12 +61,13 @@ void take_column_units(const std::array<std::string, 3>& units, const std::strin
   header.unit = units[2];
 }
 
-/// Cuts a finite number and the separator after it (blanks around at most one comma or semicolon) off the line.
+/// Cuts a number of at most kFarthest and the separator after it (blanks around at most one comma or semicolon) off the
+/// line.
 bool take_coordinate(std::string_view& rest, double& value) {
   if (rest.size() > 1 && rest[0] == '+' && rest[1] != '-') rest.remove_prefix(1);
   const char* const end = rest.data() + rest.size();
   const auto [stop, error] = std::from_chars(rest.data(), end, value);
-  if (error != std::errc() || !std::isfinite(value) || stop == end || !is_separator(*stop)) return false;
+  if (error != std::errc() || !(std::abs(value) <= kFarthest) || stop == end || !is_separator(*stop)) return false;
   rest = trim(std::string_view(stop, static_cast<std::size_t>(end - stop)));
   if (!rest.empty() && (rest.front() == ',' || rest.front() == ';')) rest = trim(rest.substr(1));
   return true;
@@ -77,8 +80,8 @@ XyzPoint read_point(std::string_view line, const std::string& where, long number
   if (!take_coordinate(rest, point.position.x) || !take_coordinate(rest, point.position.y)) {
     throw InputError(
         fmt::format("{}, line {}: '{}' is not a point; x y z separated by blanks, commas, semicolons or "
-                    "tabs is required, x and y finite and in mm",
-                    where, number, line.substr(0, 60)));
+                    "tabs is required, x and y in mm, at most {} mm from 0",
+                    where, number, line.substr(0, 60), kFarthest));
   }
   const std::optional<double> height = height_number(rest);
   if (!height) throw InputError(fmt::format("{}, line {}, column 3: {}", where, number, why_no_height(rest)));

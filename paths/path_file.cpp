@@ -127,9 +127,10 @@ class PathFileReader {
 
 }  // namespace
 
+ToolPath parse_path_text(std::string_view text, const std::string& name) { return PathFileReader(name).read(text); }
+
 ToolPath read_path_file(const std::filesystem::path& file) {
-  const std::string text = read_whole_file(file);
-  return PathFileReader(file.string()).read(text);
+  return parse_path_text(read_whole_file(file), file.string());
 }
 
 }  // namespace dwell

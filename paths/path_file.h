@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <string_view>
 
 #include "core/tool_path.h"
 
@@ -14,5 +16,8 @@ namespace dwell {
 /// Points that repeat the one before are accepted: a stroke has no length where its neighbours on both sides coincide
 /// with it, and is then a halt. Throws InputError naming file, line, column, value and what is accepted. Cost O(bytes).
 ToolPath read_path_file(const std::filesystem::path& file);
+
+/// The same from the text of such a file; `name` begins error messages.
+ToolPath parse_path_text(std::string_view text, const std::string& name);
 
 }  // namespace dwell

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -37,6 +38,9 @@ std::string feed_table_text(const FeedTable& table);
 /// number of rows or another total than the header says, a gap in the sequence, a number that is not finite, a negative
 /// dwell, a feed above the maximum or one that is not stroke length / dwell (within 1e-6 relative and 4e-6 mm).
 FeedTable read_feed_table(const std::filesystem::path& file);
+
+/// The same from the text of a table; `file` is the name for messages.
+FeedTable parse_feed_table(std::string_view text, const std::string& file);
 
 /// The steps of a table, as program_of(path, dwell_s, motion, max_feed).
 Program program_of(const FeedTable& table);

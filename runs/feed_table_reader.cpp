@@ -215,9 +215,12 @@ class FeedTableReader {
 
 }  // namespace
 
+FeedTable parse_feed_table(std::string_view text, const std::string& file) {
+  return FeedTableReader(file, text).read();
+}
+
 FeedTable read_feed_table(const std::filesystem::path& file) {
-  const std::string text = read_whole_file(file);
-  return FeedTableReader(file.string(), text).read();
+  return parse_feed_table(read_whole_file(file), file.string());
 }
 
 }  // namespace dwell

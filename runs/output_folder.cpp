@@ -65,10 +65,10 @@ bool ResultFiles::has(std::string_view name) const {
 }
 
 const ResultFiles& plan_files() {
-  static const ResultFiles kFiles{
-      "plan",
-      "summary.json",
-      {"feed.csv", "program.nc", "before.png", "after.png", "dwell.png", "residual.npy", "dwell.npy", "search.csv"}};
+  static const ResultFiles kFiles{"plan",
+                                  "summary.json",
+                                  {"feed.csv", "program.nc", "before.png", "after.png", "dwell.png", "residual.npy",
+                                   "residual.npy.json", "dwell.npy", "search.csv"}};
   return kFiles;
 }
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/map_io.h"
 #include "core/npy.h"
 #include "core/units.h"
 #include "core/version.h"
@@ -95,7 +96,7 @@ WrittenPlan write_plan(Plan& plan, const OutputFolder& folder, const RunHooks& h
 
   hooks.report("write: pictures and arrays");
   write_pictures(plan, residual, written.simulated, folder);
-  folder.write("residual.npy", npy_bytes(residual));
+  write_map(folder.path("residual.npy"), residual);
   folder.write("dwell.npy", npy_bytes(std::span<const double>(plan.table.dwell_s)));
   if (plan.search) folder.write("search.csv", search_table_text(*plan.search));
   written.summary = plan_summary_text(plan, written);

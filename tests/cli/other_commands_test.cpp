@@ -55,21 +55,24 @@ TEST(MapCommand, PrintsSizePitchPvAndRms) {
 
 TEST(MapCommand, ConvertsBetweenAllFormatsWithoutLoss) {
   const SmallInputs inputs;
-  HeightMap map(Grid{3, 4, 0.25, 0.25, {-1.5, 2.0}});
+  HeightMap map(Grid{3, 4, 0.25, 0.3, {-1.5, 2.0}});
   for (std::size_t i = 0; i < 12; ++i) map.values[i] = i == 5 ? std::nan("") : std::sin(static_cast<double>(i)) / 3.0;
   write_map(inputs / "a.csv", map);
   for (const auto& [from, to] : std::initializer_list<std::pair<const char*, const char*>>{
-           {"a.csv", "b.xyz"}, {"b.xyz", "c.npy"}, {"c.npy", "d.txt"}, {"d.txt", "e.csv"}}) {
-    std::vector<std::string> words{"map", from, "--write", to, "--map-origin", "-1.5,2"};
-    if (std::string(from) == "c.npy") words.insert(words.end(), {"--map-pixel", "0.25"});
-    const ProgramResult result = inputs.run(words);
+           {"a.csv", "b.xyz"}, {"b.xyz", "c.npy"}, {"c.npy", "d.sdf"}, {"d.sdf", "e.txt"}, {"e.txt", "f.csv"}}) {
+    const ProgramResult result = inputs.run({"map", from, "--write", to});
     ASSERT_EQ(result.exit_code, 0) << from << ": " << result.err;
   }
-  test::expect_same_map(read_map(inputs / "e.csv"), map);
-  MapReadOptions npy;
-  npy.pitch = 0.25;
-  npy.origin = Point{-1.5, 2.0};
-  test::expect_same_map(read_map(inputs / "c.npy", npy), map);
+  test::expect_same_map(read_map(inputs / "f.csv"), map);
+  test::expect_same_map(read_map(inputs / "c.npy"), map);
+}
+
+TEST(MapCommand, WritesAHeightImage) {
+  const SmallInputs inputs;
+  ASSERT_EQ(inputs.run({"map", "map.csv", "--map-pixel", "0.5", "--write-image", "map.png"}).exit_code, 0);
+  const std::string png = read_whole_file(inputs / "map.png");
+  EXPECT_EQ(png.substr(1, 3), "PNG");
+  expect_has(png, "nm_per_level");
 }
 
 TEST(MapCommand, DrawsAPicture) {
@@ -94,8 +97,8 @@ TEST(SimulateCommand, AgreesWithThePlanForTheTableAndForTheProgram) {
       EXPECT_NEAR(s["map"]["rms_nm"].get<double>(), before, 1e-12 * before);
       EXPECT_EQ(s["inputs"].size(), 3u);
     }
-    const MapReadOptions npy{0.5, std::nullopt, 1.0, "map"};
-    const HeightMap left = read_map(inputs / "left.npy", npy), planned = read_map(inputs / "plan/residual.npy", npy);
+    const HeightMap left = read_map(inputs / "left.npy"), planned = read_map(inputs / "plan/residual.npy");
+    EXPECT_EQ(left.grid, planned.grid);
     for (std::size_t i = 0; i < left.values.size(); ++i) EXPECT_NEAR(left.values[i], planned.values[i], 1e-3);
   }
 }

@@ -28,7 +28,7 @@ TEST(PlanCommand, WritesEveryFileAndPrintsWhatItDid) {
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(names_in(inputs / "plan"),
             (std::set<std::string>{"after.png", "before.png", "dwell.npy", "dwell.png", "feed.csv", "program.nc",
-                                   "residual.npy", "summary.json"}));
+                                   "residual.npy", "residual.npy.json", "summary.json"}));
   EXPECT_EQ(names_in(inputs.folder.path()), (std::set<std::string>{"map.csv", "tif.csv", "plan"}));
   for (const char* line : {"map ", "before ", "tool ", "path ", "solver ", "dwell ", "feed ", "predicted ", "program ",
                            "written   plan\n"}) {
@@ -180,7 +180,7 @@ TEST(PlanCommand, InterruptedLeavesTheEarlierResultAndNothingElse) {
   expect_has(result.err, "interrupted");
   EXPECT_EQ(result.out, "");
   EXPECT_EQ(read_whole_file(inputs / "plan/summary.json"), earlier);
-  std::filesystem::remove(inputs / "plan-rough.npy");
+  for (const char* name : {"plan-rough.npy", "plan-rough.npy.json"}) std::filesystem::remove(inputs / name);
   EXPECT_EQ(names_in(inputs.folder.path()), before);
 }
 

@@ -80,6 +80,9 @@ TEST(LatticeFit, SurvivesAbsurdCoordinates) {
   const LatticeFit far = fit_lattice({0.0, 1.0, 2.0, 3.0, 1e12});
   EXPECT_EQ(far.lattice.pitch, 1.0);
   EXPECT_EQ(far.lattice.count, 1'000'000'000'001);
+  const Lattice fine{0.0, 1e-300, 1};
+  EXPECT_EQ(fine.nearest(-1.0), -1'000'000'000'000'000);
+  EXPECT_EQ(fine.nearest(1e10), 1'000'000'000'000'000);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/npy.h"
 #include "core/whole_file.h"
 #include "tests/core/expect_error.h"
 #include "tests/core/same_map.h"
@@ -133,8 +134,9 @@ TEST(MapIo, NamesTheMissingOrBadPitchByTheOptionsName) {
   const auto file = folder.file("spot.csv", "1,2\n3,4\n");
   test::expect_input_error([&] { read_map(file, tif); }, {"tif", "spot.csv", "--tif-pixel"});
   test::expect_input_error([&] { read_map(file); }, {"map", "spot.csv", "--map-pixel", "# pitch_mm"});
-  write_map(folder.path() / "spot.npy", asymmetric());
-  test::expect_input_error([&] { read_map(folder.path() / "spot.npy", tif); }, {"spot.npy", "--tif-pixel"});
+  write_whole_file(folder.path() / "spot.npy", npy_bytes(asymmetric()));
+  test::expect_input_error([&] { read_map(folder.path() / "spot.npy", tif); },
+                           {"spot.npy", "--tif-pixel", "sidecar spot.npy.json"});
   for (const double pitch : {0.0, -0.1, std::nan(""), HUGE_VAL}) {
     test::expect_input_error([&] { read_map(file, with_pitch(pitch)); }, {"--map-pixel = ", "spot.csv", "> 0"});
   }

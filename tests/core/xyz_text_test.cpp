@@ -61,8 +61,8 @@ TEST(XyzText, RecognisesALineThatNamesItsColumns) {
 TEST(XyzText, NamesTheLineItRefuses) {
   expect_refused("0 0 1\n1 0\n", {"map a.xyz, line 2", "'1 0'", "x y z"});
   expect_refused("0 0 1\n1 a 3\n", {"line 2", "'1 a 3'"});
-  expect_refused("0 0 1\nnan 0 3\n", {"line 2", "x and y finite"});
-  expect_refused("0 0 1\n1 inf 3\n", {"line 2", "x and y finite"});
+  expect_refused("0 0 1\nnan 0 3\n", {"line 2", "x and y in mm, at most"});
+  expect_refused("0 0 1\n1 inf 3\n", {"line 2", "x and y in mm, at most"});
   expect_refused("0 0 1\n1 0 inf\n", {"line 2, column 3", "infinite"});
   expect_refused("0 0 1\n1 0 3 4\n", {"line 2, column 3", "'3 4'"});
   expect_refused("0 0 1\n1,5 2,5 3,5\n", {"line 2"});
@@ -82,6 +82,27 @@ TEST(PointGrid, NamesPointsOffTheGridAndPointsGivenTwice) {
   expect_refused(text + "3 2 1\n", {"line 21", "(3, 2)", "line 14"});
   expect_refused(text + "3 900000 1\n", {"21 points", "900001 x 5", "stray"});
   expect_refused("1 1 5\n", {"one place", "--map-pixel"});
+}
+
+TEST(PointGrid, RefusesPointsThatAreAbsurdlyFarApart) {
+  // Two rows of two columns; as the difference overflows, x was once taken for one column.
+  expect_refused("-1.5e308 0 1\n1.5e308 1 2\n", {"line 1", "at most 1000000000000 mm from 0"});
+  expect_refused("0 0 1\n1 0 2\n0 1e300 3\n", {"line 3", "from 0"});
+  expect_refused("0 0 1\n1 1 2\n2 2 3\n1e12 1e12 4\n", {"1000000000001 x 1000000000001", "stray"});
+  const auto refused_on = [](const std::string& text, Point pitch, Point origin) {
+    test::expect_input_error([&] { grid_of(text, pitch, origin); }, {"map a.xyz"});
+  };
+  refused_on("0 0 1\n1 1 2\n", {1e-300, 1e-300}, {0, 0});
+  refused_on("0 0 1\n1 1 2\n", {5e-324, 1}, {-1e308, 0});
+  refused_on("0 0 1\n1 1 2\n", {5e-324, 1}, {1e308, 0});
+}
+
+TEST(PointGrid, RefusesCoordinatesThatAreOneOnlyForACoarserPitch) {
+  // x differs by 1e-7 of itself, which rounding explains; but it is 50 times the pitch that the points have in y.
+  expect_refused("1000000 0 1\n1000000.05 0.001 2\n", {"line 2", "x = 1000000.05 mm", "regular grid"});
+  expect_refused("0 1000000 1\n0.001 1000000.05 2\n", {"line 2", "y = 1000000.05 mm", "regular grid"});
+  test::expect_input_error([] { grid_of("1000000 0 1\n1000000.05 0 2\n", Point{0.001, 0.001}); }, {"line 2", "grid"});
+  EXPECT_EQ(grid_of("1000000 0 1\n1000000.0000001 0.001 2\n").grid.cols, 1);
 }
 
 TEST(PointGrid, AKnownPitchMustAgree) {

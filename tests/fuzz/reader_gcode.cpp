@@ -1,0 +1,10 @@
+#include "runs/gcode_reader.h"
+#include "tests/fuzz/fuzz_reader.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  return dwell::fuzz::read(data, size, [](std::string_view bytes) {
+    for (const auto dialect : {std::optional<dwell::GcodeDialect>(), std::optional(dwell::GcodeDialect::G93Seconds)}) {
+      dwell::read_gcode(bytes, "program.nc", dialect);
+    }
+  });
+}
