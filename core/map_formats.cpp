@@ -2,15 +2,31 @@
 
 #include <array>
 
+#include "core/fits.h"
+#include "core/hdf5_map.h"
 #include "core/matrix_text.h"
 #include "core/npy.h"
 #include "core/xyz_text.h"
+#include "core/zygo_dat.h"
 
 namespace dwell {
 namespace {
 
+/// Files that begin as one, and those that are named as one: these are then refused as no such file.
+bool claims_hdf5(std::string_view bytes, std::string_view extension) {
+  return is_hdf5(bytes) || extension == ".datx" || extension == ".h5" || extension == ".hdf5";
+}
+
+bool claims_fits(std::string_view bytes, std::string_view extension) {
+  return is_fits(bytes) || extension == ".fits" || extension == ".fit";
+}
+
 constexpr std::array kFormats{
     MapFormat{"an NPY array (.npy)", [](std::string_view bytes, std::string_view) { return is_npy(bytes); }, parse_npy},
+    MapFormat{"a Zygo MetroPro file (.dat)",
+              [](std::string_view bytes, std::string_view) { return is_zygo_dat(bytes); }, parse_zygo_dat},
+    MapFormat{"a Zygo .datx or other HDF5 file (.h5, .hdf5)", claims_hdf5, parse_hdf5, parse_hdf5_at},
+    MapFormat{"a FITS image (.fits)", claims_fits, parse_fits},
 };
 
 constexpr std::array kWriters{
@@ -18,6 +34,9 @@ constexpr std::array kWriters{
     MapWriter{".txt", [](const HeightMap& map) { return matrix_text(map, ' '); }},
     MapWriter{".xyz", xyz_text},
     MapWriter{".npy", [](const HeightMap& map) { return npy_bytes(map); }},
+    MapWriter{".h5", hdf5_map_bytes},
+    MapWriter{".hdf5", hdf5_map_bytes},
+    MapWriter{".fits", fits_bytes},
 };
 
 /// "a, b and c" with the last word before c.

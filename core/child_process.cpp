@@ -1,0 +1,97 @@
+#include "core/child_process.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cmath>
+#include <csignal>
+#include <cstring>
+#include <stdexcept>
+#include <system_error>
+
+namespace dwell {
+namespace {
+
+[[noreturn]] void fail(const char* what) {
+  throw std::runtime_error(fmt::format("cannot {}: {}", what, std::generic_category().message(errno)));
+}
+
+struct Descriptor {
+  int number;
+  ~Descriptor() { ::close(number); }
+};
+
+bool write_all(int descriptor, const char* bytes, std::size_t size) {
+  while (size > 0) {
+    const ssize_t count = ::write(descriptor, bytes, size);
+    if (count < 0 && errno != EINTR) return false;
+    if (count < 0) continue;
+    bytes += count;
+    size -= static_cast<std::size_t>(count);
+  }
+  return true;
+}
+
+void limit(decltype(RLIMIT_CPU) resource, rlim_t most) {
+  const rlimit limits{most, most};
+  ::setrlimit(resource, &limits);
+}
+
+/// A crash is an answer here: no handler of the host program, no core file, no words on the terminal.
+void be_quiet(double cpu_seconds) {
+  for (const int signal : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGXCPU}) std::signal(signal, SIG_DFL);
+  limit(RLIMIT_CORE, 0);
+  limit(RLIMIT_CPU, static_cast<rlim_t>(std::ceil(cpu_seconds)));
+  const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
+  if (nowhere >= 0) ::dup2(nowhere, STDERR_FILENO);
+}
+
+/// Ends the copy without what a program does at its end, which is for the original to do.
+[[noreturn]] void run_child(const std::function<std::string()>& work, int answer, double cpu_seconds) {
+  be_quiet(cpu_seconds);
+  const std::string bytes = work();
+  const std::size_t size = bytes.size();
+  // The size comes last: whoever reads it knows that all before it is there.
+  const bool done =
+      write_all(answer, bytes.data(), size) && write_all(answer, reinterpret_cast<const char*>(&size), sizeof size);
+  ::_exit(done ? 0 : 1);
+}
+
+/// The answer without its size at the end; nothing unless it is whole.
+std::optional<std::string> whole_answer(int descriptor) {
+  const off_t end = ::lseek(descriptor, 0, SEEK_END);
+  std::size_t size = 0;
+  if (end < static_cast<off_t>(sizeof size)) return std::nullopt;
+  std::string bytes(static_cast<std::size_t>(end), '\0');
+  for (std::size_t have = 0; have < bytes.size();) {
+    const ssize_t count = ::pread(descriptor, bytes.data() + have, bytes.size() - have, static_cast<off_t>(have));
+    if (count == 0 || (count < 0 && errno != EINTR)) return std::nullopt;
+    if (count > 0) have += static_cast<std::size_t>(count);
+  }
+  std::memcpy(&size, bytes.data() + bytes.size() - sizeof size, sizeof size);
+  bytes.resize(bytes.size() - sizeof size);
+  if (bytes.size() != size) return std::nullopt;
+  return bytes;
+}
+
+}  // namespace
+
+std::optional<std::string> output_of_child(const std::function<std::string()>& work, double cpu_seconds) {
+  // A file in memory rather than a pipe: the copy never waits for a reader, and the reader only for its end.
+  const Descriptor answer{::memfd_create("dwell", MFD_CLOEXEC)};
+  if (answer.number < 0) fail("make a file in memory");
+  const pid_t child = ::fork();
+  if (child < 0) fail("start a process");
+  if (child == 0) run_child(work, answer.number, cpu_seconds);
+  int status = 0;
+  // Nobody to wait for is no fault: the host program may have asked for its children to vanish. The answer tells.
+  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
+  return whole_answer(answer.number);
+}
+
+}  // namespace dwell
