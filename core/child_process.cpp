@@ -7,10 +7,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <csignal>
 #include <cstring>
+#include <fstream>
 #include <stdexcept>
 #include <system_error>
 
@@ -42,18 +44,32 @@ void limit(decltype(RLIMIT_CPU) resource, rlim_t most) {
   ::setrlimit(resource, &limits);
 }
 
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kSanitized = true;
+#else
+constexpr bool kSanitized = false;
+#endif
+
+/// Address space of this process; 0 if the system does not tell.
+std::size_t address_space() {
+  std::size_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  return pages * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+}
+
 /// A crash is an answer here: no handler of the host program, no core file, no words on the terminal.
-void be_quiet(double cpu_seconds) {
+void be_quiet(const ChildLimits& limits) {
   for (const int signal : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGXCPU}) std::signal(signal, SIG_DFL);
   limit(RLIMIT_CORE, 0);
-  limit(RLIMIT_CPU, static_cast<rlim_t>(std::ceil(cpu_seconds)));
+  limit(RLIMIT_CPU, static_cast<rlim_t>(std::max(1.0, std::round(limits.cpu_seconds))));
+  if (!kSanitized) limit(RLIMIT_AS, address_space() + limits.bytes);
   const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
   if (nowhere >= 0) ::dup2(nowhere, STDERR_FILENO);
 }
 
 /// Ends the copy without what a program does at its end, which is for the original to do.
-[[noreturn]] void run_child(const std::function<std::string()>& work, int answer, double cpu_seconds) {
-  be_quiet(cpu_seconds);
+[[noreturn]] void run_child(const std::function<std::string()>& work, int answer, const ChildLimits& limits) {
+  be_quiet(limits);
   const std::string bytes = work();
   const std::size_t size = bytes.size();
   // The size comes last: whoever reads it knows that all before it is there.
@@ -81,13 +97,13 @@ std::optional<std::string> whole_answer(int descriptor) {
 
 }  // namespace
 
-std::optional<std::string> output_of_child(const std::function<std::string()>& work, double cpu_seconds) {
+std::optional<std::string> output_of_child(const std::function<std::string()>& work, const ChildLimits& limits) {
   // A file in memory rather than a pipe: the copy never waits for a reader, and the reader only for its end.
   const Descriptor answer{::memfd_create("dwell", MFD_CLOEXEC)};
   if (answer.number < 0) fail("make a file in memory");
   const pid_t child = ::fork();
   if (child < 0) fail("start a process");
-  if (child == 0) run_child(work, answer.number, cpu_seconds);
+  if (child == 0) run_child(work, answer.number, limits);
   int status = 0;
   // Nobody to wait for is no fault: the host program may have asked for its children to vanish. The answer tells.
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) continue;

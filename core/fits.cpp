@@ -179,9 +179,10 @@ MapSource read_fits(std::string_view bytes, const std::string& where) {
   source.values.resize(rows * cols);
   // For integers, what stands for BLANK. Floating-point numbers are taken as they are: asked for, CFITSIO would turn
   // infinity, which a map must not have, into no data.
+  int any_blank = 0;  // CFITSIO wants a place for it
   double blank = found.bitpix > 0 ? std::numeric_limits<double>::quiet_NaN() : 0.0;
   if (fits_read_img(file.get(), TDOUBLE, 1, static_cast<LONGLONG>(source.values.size()), &blank, source.values.data(),
-                    nullptr, &status) != 0) {
+                    &any_blank, &status) != 0) {
     throw InputError(fmt::format("{}: the {} x {} numbers of the FITS image cannot be read: {}", where, cols, rows,
                                  fits_message(status)));
   }

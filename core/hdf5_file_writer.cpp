@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <atomic>
 #include <stdexcept>
 
 #include "core/hdf5_file.h"
@@ -65,9 +66,10 @@ void write_matrix(hid_t file, const Hdf5Content& content) {
 std::string hdf5_bytes(const Hdf5Content& content) {
   constexpr std::size_t kIncrement = std::size_t{1} << 20;
   const Properties access(H5Pcreate(H5P_FILE_ACCESS));
-  // In memory only: nothing is kept on disk under the name.
+  // In memory only: nothing is kept on disk under the name. Two files open at a time must not share one.
+  static std::atomic<unsigned> count{0};
   require(access && H5Pset_fapl_core(access.id(), kIncrement, false) >= 0, "work in memory");
-  const File file(H5Fcreate("dwell", H5F_ACC_TRUNC, H5P_DEFAULT, access.id()));
+  const File file(H5Fcreate(fmt::format("dwell-{}", count++).c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id()));
   require(static_cast<bool>(file), "make a file");
   write_matrix(file.id(), content);
   require(H5Fflush(file.id(), H5F_SCOPE_GLOBAL) >= 0, "finish a file");

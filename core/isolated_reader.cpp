@@ -132,15 +132,17 @@ std::string attempt(const std::function<MapSource()>& read) {
 
 MapSource read_isolated(const std::function<MapSource()>& read, std::size_t bytes, const std::string& format,
                         const std::string& where) {
-  constexpr double kSeconds = 10.0, kBytesPerSecond = 4e6;
-  const double seconds = kSeconds + static_cast<double>(bytes) / kBytesPerSecond;
-  const std::optional<std::string> record = output_of_child([&] { return attempt(read); }, seconds);
-  if (!record || record->empty()) {
-    throw InputError(
-        fmt::format("{}: {} of {} bytes is corrupt: its library came to harm reading it, or took more than "
-                    "{:.0f} s",
-                    where, format, bytes, seconds));
-  }
+  constexpr double kSeconds = 2.0, kBytesPerSecond = 4e6;
+  constexpr std::size_t kMemory = std::size_t{4} << 30, kMemoryPerByte = 16;
+  const ChildLimits limits{kSeconds + static_cast<double>(bytes) / kBytesPerSecond, kMemory + kMemoryPerByte * bytes};
+  const auto corrupt = [&] {
+    return InputError(
+        fmt::format("{}: {} of {} bytes is corrupt: its library came to harm reading it, or wanted more than {:.0f} s "
+                    "or {:.1f} GiB",
+                    where, format, bytes, limits.cpu_seconds, static_cast<double>(limits.bytes) / 0x1p30));
+  };
+  const std::optional<std::string> record = output_of_child([&] { return attempt(read); }, limits);
+  if (!record || record->empty()) throw corrupt();
   Reader in(*record);
   switch (in.get<Outcome>()) {
     case Outcome::Map:
@@ -148,7 +150,7 @@ MapSource read_isolated(const std::function<MapSource()>& read, std::size_t byte
     case Outcome::InputError:
       throw InputError(in.text());
     case Outcome::NoMemory:
-      throw std::bad_alloc();
+      throw corrupt();
     case Outcome::Fault:
       break;
   }
