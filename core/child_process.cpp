@@ -11,10 +11,10 @@
 #include <cerrno>
 #include <cmath>
 #include <csignal>
-#include <cstring>
 #include <fstream>
 #include <stdexcept>
 #include <system_error>
+#include <utility>
 
 namespace dwell {
 namespace {
@@ -68,36 +68,42 @@ void be_quiet(const ChildLimits& limits) {
 }
 
 /// Ends the copy without what a program does at its end, which is for the original to do.
-[[noreturn]] void run_child(const std::function<std::string()>& work, int answer, const ChildLimits& limits) {
+[[noreturn]] void run_child(const std::function<void(const AnswerSink&)>& work, int answer, const ChildLimits& limits) {
   be_quiet(limits);
-  const std::string bytes = work();
-  const std::size_t size = bytes.size();
+  std::size_t size = 0;
+  work([&](std::string_view bytes) {
+    if (!write_all(answer, bytes.data(), bytes.size())) ::_exit(1);
+    size += bytes.size();
+  });
   // The size comes last: whoever reads it knows that all before it is there.
-  const bool done =
-      write_all(answer, bytes.data(), size) && write_all(answer, reinterpret_cast<const char*>(&size), sizeof size);
-  ::_exit(done ? 0 : 1);
+  ::_exit(write_all(answer, reinterpret_cast<const char*>(&size), sizeof size) ? 0 : 1);
 }
 
 /// The answer without its size at the end; nothing unless it is whole.
-std::optional<std::string> whole_answer(int descriptor) {
+std::optional<ChildAnswer> whole_answer(int descriptor) {
   const off_t end = ::lseek(descriptor, 0, SEEK_END);
   std::size_t size = 0;
   if (end < static_cast<off_t>(sizeof size)) return std::nullopt;
-  std::string bytes(static_cast<std::size_t>(end), '\0');
-  for (std::size_t have = 0; have < bytes.size();) {
-    const ssize_t count = ::pread(descriptor, bytes.data() + have, bytes.size() - have, static_cast<off_t>(have));
-    if (count == 0 || (count < 0 && errno != EINTR)) return std::nullopt;
-    if (count > 0) have += static_cast<std::size_t>(count);
-  }
-  std::memcpy(&size, bytes.data() + bytes.size() - sizeof size, sizeof size);
-  bytes.resize(bytes.size() - sizeof size);
-  if (bytes.size() != size) return std::nullopt;
-  return bytes;
+  const off_t before = end - static_cast<off_t>(sizeof size);
+  if (::pread(descriptor, &size, sizeof size, before) != static_cast<ssize_t>(sizeof size)) return std::nullopt;
+  if (size != static_cast<std::size_t>(before)) return std::nullopt;
+  if (size == 0) return ChildAnswer(nullptr, 0);
+  void* bytes = ::mmap(nullptr, size, PROT_READ, MAP_SHARED | MAP_POPULATE, descriptor, 0);
+  if (bytes == MAP_FAILED) fail("map the answer of a process");
+  return ChildAnswer(bytes, size);
 }
 
 }  // namespace
 
-std::optional<std::string> output_of_child(const std::function<std::string()>& work, const ChildLimits& limits) {
+ChildAnswer::ChildAnswer(ChildAnswer&& other) noexcept
+    : bytes_(std::exchange(other.bytes_, nullptr)), size_(std::exchange(other.size_, 0)) {}
+
+ChildAnswer::~ChildAnswer() {
+  if (bytes_) ::munmap(bytes_, size_);
+}
+
+std::optional<ChildAnswer> output_of_child(const std::function<void(const AnswerSink&)>& work,
+                                           const ChildLimits& limits) {
   // A file in memory rather than a pipe: the copy never waits for a reader, and the reader only for its end.
   const Descriptor answer{::memfd_create("dwell", MFD_CLOEXEC)};
   if (answer.number < 0) fail("make a file in memory");

@@ -67,7 +67,7 @@ class Hdf5File {
 
 /// What to write: one matrix with its attributes.
 struct Hdf5Content {
-  std::string path;  // of the data set, without '/': "map"
+  std::string path;  // of the data set; groups on the way are made
   std::size_t rows = 0, cols = 0;
   std::span<const double> values;
   std::vector<std::pair<std::string, std::vector<double>>> numbers;

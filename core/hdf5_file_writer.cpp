@@ -52,10 +52,12 @@ void write_attributes(hid_t set, const Hdf5Content& content) {
 void write_matrix(hid_t file, const Hdf5Content& content) {
   const hsize_t sizes[2] = {content.rows, content.cols};
   const Space space(H5Screate_simple(2, sizes, nullptr));
-  const Properties creation(H5Pcreate(H5P_DATASET_CREATE));
-  require(space && creation && H5Pset_obj_track_times(creation.id(), false) >= 0, "describe a data set");
+  const Properties creation(H5Pcreate(H5P_DATASET_CREATE)), links(H5Pcreate(H5P_LINK_CREATE));
+  require(space && creation && links && H5Pset_create_intermediate_group(links.id(), 1) >= 0 &&
+              H5Pset_obj_track_times(creation.id(), false) >= 0,
+          "describe a data set");
   const DataSet set(
-      H5Dcreate2(file, content.path.c_str(), H5T_IEEE_F64LE, space.id(), H5P_DEFAULT, creation.id(), H5P_DEFAULT));
+      H5Dcreate2(file, content.path.c_str(), H5T_IEEE_F64LE, space.id(), links.id(), creation.id(), H5P_DEFAULT));
   require(set && H5Dwrite(set.id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, content.values.data()) >= 0,
           "write a data set");
   write_attributes(set.id(), content);

@@ -9,6 +9,7 @@
 #include <type_traits>
 
 #include "core/child_process.h"
+#include "core/doubles_of_bytes.h"
 #include "core/errors.h"
 
 namespace dwell {
@@ -19,22 +20,22 @@ enum class Outcome : char { Map, InputError, NoMemory, Fault };
 /// A record of plain values and strings, written and read in the same order by the same program.
 class Writer {
  public:
+  explicit Writer(const AnswerSink& sink) : sink_(sink) {}
   template <class T>
   void put(const T& value) {
     static_assert(std::is_trivially_copyable_v<T>);
-    bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
+    sink_({reinterpret_cast<const char*>(&value), sizeof value});
   }
   void put_text(std::string_view text) {
     put(text.size());
-    bytes_ += text;
+    sink_(text);
   }
   void put_values(const std::vector<double>& values) {
-    bytes_.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(double));
+    sink_({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(double)});
   }
-  std::string take() { return std::move(bytes_); }
 
  private:
-  std::string bytes_;
+  const AnswerSink& sink_;
 };
 
 /// Takes nothing on trust: the process that wrote the record may have run wild.
@@ -50,11 +51,8 @@ class Reader {
     return value;
   }
   std::string text() { return std::string(next(get<std::size_t>())); }
-  std::vector<double> values() {
-    std::vector<double> values(rest_.size() / sizeof(double));
-    if (!values.empty()) std::memcpy(values.data(), rest_.data(), values.size() * sizeof(double));
-    return values;
-  }
+  /// All the rest.
+  std::vector<double> values() { return doubles_of(rest_); }
 
  private:
   std::string_view next(std::size_t size) {
@@ -66,8 +64,7 @@ class Reader {
   std::string_view rest_;
 };
 
-std::string record_of(const MapSource& source) {
-  Writer out;
+void put_map(const MapSource& source, Writer& out) {
   out.put(Outcome::Map);
   out.put(source.rows);
   out.put(source.cols);
@@ -82,7 +79,6 @@ std::string record_of(const MapSource& source) {
   out.put_text(source.pitch_hint);
   out.put(source.camera_pixel);
   out.put_values(source.values);
-  return out.take();
 }
 
 MapSource source_of(Reader& in) {
@@ -109,22 +105,20 @@ MapSource source_of(Reader& in) {
   return source;
 }
 
-std::string message_record(Outcome outcome, std::string_view message) {
-  Writer out;
+void put_message(Outcome outcome, std::string_view message, Writer& out) {
   out.put(outcome);
   out.put_text(message);
-  return out.take();
 }
 
-std::string attempt(const std::function<MapSource()>& read) {
+void attempt(const std::function<MapSource()>& read, Writer out) {
   try {
-    return record_of(read());
+    put_map(read(), out);
   } catch (const InputError& error) {
-    return message_record(Outcome::InputError, error.what());
+    put_message(Outcome::InputError, error.what(), out);
   } catch (const std::bad_alloc&) {
-    return message_record(Outcome::NoMemory, "");
+    put_message(Outcome::NoMemory, "", out);
   } catch (const std::exception& error) {
-    return message_record(Outcome::Fault, error.what());
+    put_message(Outcome::Fault, error.what(), out);
   }
 }
 
@@ -141,9 +135,9 @@ MapSource read_isolated(const std::function<MapSource()>& read, std::size_t byte
                     "or {:.1f} GiB",
                     where, format, bytes, limits.cpu_seconds, static_cast<double>(limits.bytes) / 0x1p30));
   };
-  const std::optional<std::string> record = output_of_child([&] { return attempt(read); }, limits);
-  if (!record || record->empty()) throw corrupt();
-  Reader in(*record);
+  const auto answer = output_of_child([&](const AnswerSink& sink) { attempt(read, Writer(sink)); }, limits);
+  if (!answer || answer->bytes().empty()) throw corrupt();
+  Reader in(answer->bytes());
   switch (in.get<Outcome>()) {
     case Outcome::Map:
       return source_of(in);

@@ -8,6 +8,7 @@
 #include <limits>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include "core/errors.h"
 #include "core/number_text.h"
@@ -156,19 +157,19 @@ MapSource read_datx_surface(const Hdf5File& file, const std::string& path, const
   if (x && y) source.header.pitch = Point{*x, *y};
   source.pitch_hint = "; its 'X Converter' and 'Y Converter' say 0, unknown, or are not there";
   source.header.unit = "nm";
-  const Hdf5Matrix matrix = file.matrix(path);
+  Hdf5Matrix matrix = file.matrix(path);
+  const auto cols = static_cast<std::ptrdiff_t>(matrix.cols);
+  for (auto top = matrix.values.begin(), end = matrix.values.end(); end - top > cols; top += cols, end -= cols) {
+    std::swap_ranges(top, top + cols, end - cols);
+  }
+  for (double& v : matrix.values) {
+    const bool seen = !(no_data && v == *no_data) && std::abs(v) < kNever;
+    v = seen ? factor * v : std::numeric_limits<double>::quiet_NaN();
+  }
   source.rows = static_cast<Index>(matrix.rows);
   source.cols = static_cast<Index>(matrix.cols);
   source.camera_pixel = camera_pixel(surface, matrix.rows);
-  source.values.resize(matrix.values.size());
-  for (std::size_t row = 0; row < matrix.rows; ++row) {
-    const double* from = matrix.values.data() + row * matrix.cols;
-    double* to = source.values.data() + (matrix.rows - 1 - row) * matrix.cols;
-    for (std::size_t col = 0; col < matrix.cols; ++col) {
-      const bool seen = !(no_data && from[col] == *no_data) && std::abs(from[col]) < kNever;
-      to[col] = seen ? factor * from[col] : std::numeric_limits<double>::quiet_NaN();
-    }
-  }
+  source.values = std::move(matrix.values);
   return source;
 }
 

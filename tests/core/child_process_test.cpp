@@ -18,31 +18,35 @@ TEST(ChildProcess, HandsBackTheAnswerAndNothingElse) {
   const std::string bytes = std::string("a\0b", 3) + std::string(3 << 20, 'x');
   int changed = 0;
   const auto answer = output_of_child(
-      [&] {
+      [&](const AnswerSink& sink) {
         changed = 1;
-        return bytes;
+        sink(bytes);
+        sink("end");
       },
       kLimits);
-  EXPECT_EQ(answer, bytes);
+  ASSERT_TRUE(answer.has_value());
+  EXPECT_EQ(answer->bytes(), bytes + "end");
   EXPECT_EQ(changed, 0);
-  EXPECT_EQ(output_of_child([] { return std::string(); }, kLimits), "");
+  const auto nothing = output_of_child([](const AnswerSink&) {}, kLimits);
+  ASSERT_TRUE(nothing.has_value());
+  EXPECT_EQ(nothing->bytes(), "");
 }
 
 TEST(ChildProcess, OutlivesACrashAndAnEndlessLoop) {
-  EXPECT_FALSE(output_of_child([]() -> std::string { std::abort(); }, kLimits));
+  EXPECT_FALSE(output_of_child([](const AnswerSink&) { std::abort(); }, kLimits));
+  EXPECT_FALSE(output_of_child([](const AnswerSink&) { std::raise(SIGSEGV); }, kLimits));
   EXPECT_FALSE(output_of_child(
-      []() -> std::string {
-        std::raise(SIGSEGV);
-        return "";
+      [](const AnswerSink& sink) {
+        sink("half");
+        std::_Exit(0);
       },
-      kLimits));
-  EXPECT_FALSE(output_of_child([]() -> std::string { std::_Exit(0); }, kLimits)) << "an end without an answer";
+      kLimits))
+      << "an end in the middle of an answer";
   volatile bool on = true;
   EXPECT_FALSE(output_of_child(
-      [&]() -> std::string {
+      [&](const AnswerSink&) {
         while (on) {
         }
-        return "";
       },
       {1.0, std::size_t{1} << 30}));
 }
