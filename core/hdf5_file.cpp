@@ -81,12 +81,12 @@ bool append(hid_t native, const unsigned char* bytes, Hdf5Value& value) {
         if (!name) return false;
         const std::string key = name;
         H5free_memory(name);
-        if (!value.member(key)) value.members.emplace_back(key, Hdf5Value{});
+        if (!value.member(key)) value.members.push_back({key, {}});
         const auto known = std::find_if(value.members.begin(), value.members.end(),
-                                        [&](const auto& member) { return member.first == key; });
+                                        [&](const auto& member) { return member.name == key; });
         const Type type(H5Tget_member_type(native, index));
         if (!type) return false;
-        append(type.id(), bytes + H5Tget_member_offset(native, index), known->second);
+        append(type.id(), bytes + H5Tget_member_offset(native, index), known->value);
       }
       return true;
     }
@@ -147,8 +147,8 @@ void make_library_safe() {
 }  // namespace
 
 const Hdf5Value* Hdf5Value::member(std::string_view name) const {
-  for (const auto& [key, value] : members) {
-    if (key == name) return &value;
+  for (const Hdf5Member& known : members) {
+    if (known.name == name) return &known.value;
   }
   return nullptr;
 }
@@ -214,7 +214,7 @@ std::vector<std::string> Hdf5File::data_sets_in(const std::string& group) const 
   if (!opened) return {};
   Visit visit;
   H5Literate(opened.id(), H5_INDEX_NAME, H5_ITER_INC, nullptr, visit_link, &visit);
-  for (std::string& path : visit.paths) path = group + "/" + path;
+  for (std::string& path : visit.paths) path.insert(0, group + "/");
   return visit.paths;
 }
 

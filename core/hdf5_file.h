@@ -12,15 +12,22 @@
 
 namespace dwell {
 
+struct Hdf5Member;
+
 /// A small value in an HDF5 file: an attribute or a table. Numbers of any type as doubles, strings without padding; of
 /// several elements (or numbers of variable length) all, one after the other. Members of a compound by name.
 struct Hdf5Value {
   std::vector<double> numbers;
   std::vector<std::string> texts;
-  std::vector<std::pair<std::string, Hdf5Value>> members;
+  std::vector<Hdf5Member> members;
 
   /// The member of this name, or null.
   const Hdf5Value* member(std::string_view name) const;
+};
+
+struct Hdf5Member {
+  std::string name;
+  Hdf5Value value;
 };
 
 /// A two-dimensional array of numbers, row-major.

@@ -134,7 +134,7 @@ std::string datx_surface_path(const Hdf5File& file, const std::string& where) {
   if (surfaces.empty()) return "";
   if (const auto table = file.table("/MetaData")) {
     const std::string surface = linked(*table, linked(*table, "Root", "Measurement"), "Surface");
-    const std::string path = linked(*table, surface, "Path");
+    std::string path = linked(*table, surface, "Path");
     if (std::find(surfaces.begin(), surfaces.end(), path) != surfaces.end()) return path;
   }
   if (surfaces.size() == 1) return surfaces.front();
