@@ -9,6 +9,7 @@
 #include <memory>
 #include <utility>
 
+#include "bench/map_file.h"
 #include "bench/single_fft.h"
 #include "core/fft.h"
 #include "core/lattice_removal.h"
@@ -111,6 +112,17 @@ void time_nearest_path(benchmark::State& state, long edge) {
   for (auto _ : state) benchmark::DoNotOptimize(nearest_path(map, options).path.points.data());
 }
 
+void time_reading(benchmark::State& state, const std::string& format, long size, bool only_bytes) {
+  const MapFile file(format, size);
+  for (auto _ : state) {
+    if (only_bytes) {
+      file.read_bytes();
+    } else {
+      file.read_map();
+    }
+  }
+}
+
 struct Case {
   std::string name;
   long size;
@@ -118,6 +130,15 @@ struct Case {
   std::string pair;  // name of the bare transform pair to compare with; empty = none
   std::function<void(benchmark::State&)> time;
 };
+
+/// Readers of map files, and beside NPY the plain read of its bytes.
+void append_reading(std::vector<Case>& cases, const std::string& format, long size) {
+  cases.push_back(
+      {"read-" + format, size, 1, "", [=](benchmark::State& state) { time_reading(state, format, size, false); }});
+  if (format != "npy") return;
+  cases.push_back(
+      {"read-bytes", size, 1, "", [=](benchmark::State& state) { time_reading(state, "npy", size, true); }});
+}
 
 void append_size(std::vector<Case>& cases, long size, int threads) {
   std::vector<std::string> kinds{"lattice", "scattered"};
@@ -150,6 +171,8 @@ std::vector<Case> cases_of(const MicroOptions& options) {
   const long edge = options.quick ? 300 : 1000;
   cases.push_back(
       {"nearest-path", edge * edge, 1, "", [=](benchmark::State& state) { time_nearest_path(state, edge); }});
+  for (const char* format : {"dat", "datx"}) append_reading(cases, format, 1024);
+  append_reading(cases, "npy", options.quick ? 1024 : 4096);
   return cases;
 }
 

@@ -76,7 +76,7 @@ std::string markdown_report(const Json& all, const std::string& picture) {
     text +=
         "\n## Operators against the bare transform pair\n\nThe operators work in double precision. `-single`: the bare "
         "pair in single precision, which an operator in single could come to at best. `nearest-path`: the planner, by "
-        "points.\n\n" +
+        "points. `read-...`: a map file into a checked map; `read-bytes`: the bytes of the NPY file and no more.\n\n" +
         micro_table(all.at("micro"));
   }
   if (all.contains("results")) {

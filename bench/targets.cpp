@@ -20,6 +20,8 @@ constexpr double kPeerPoints = 1e4;  // from so many dwell points on
 constexpr double kUdoSeconds = 0.5, kUdoPlanSeconds = 2.0;
 constexpr double kUdoStep = 0.0040, kUdoResidual = 0.155, kUdoTotal = 425.0;  // [s], [nm], [s]
 constexpr double kPlanSeconds = 20.0, kPlanGib = 6.0;
+constexpr double kReadSeconds = 0.1;
+constexpr double kReadRatio = 2.0;  // NPY, over its bytes: the map and its check are one more pass each
 constexpr double kVectors = 16.0;
 constexpr double kLargeVector = 0x1p17;  // below so many numbers, 1 MiB, fixed memory counts for more than vectors
 
@@ -196,6 +198,30 @@ TargetLine plan_line(const Json& all, const std::string& name, double seconds_li
   return line;
 }
 
+/// Fastest repetition of a micro benchmark [s].
+std::optional<double> fastest(const Json& all, const std::string& name, long size) {
+  for (const Json& r : list_of(all, "micro")) {
+    if (text_of(r, "name") == name && r.at("size").get<long>() == size) return number(r, "fastest");
+  }
+  return std::nullopt;
+}
+
+TargetLine reading_line(const Json& all, const std::string& format) {
+  constexpr long kSize = 1024;
+  const std::optional<double> seconds = fastest(all, "read-" + format, kSize);
+  return {fmt::format("read a .{} of {}^2", format, kSize), fmt::format("<= {:g} s", kReadSeconds),
+          seconds ? fmt::format("{:.3f} s", *seconds) : "", at_most(seconds, kReadSeconds)};
+}
+
+TargetLine npy_line(const Json& all) {
+  constexpr long kSize = 4096;
+  const std::optional<double> map = fastest(all, "read-npy", kSize), bytes = fastest(all, "read-bytes", kSize);
+  std::optional<double> ratio;
+  if (map && bytes) ratio = *map / *bytes;
+  return {fmt::format("read an .npy of {}^2, over its bytes alone", kSize), fmt::format("<= {:g}", kReadRatio),
+          ratio ? fmt::format("{:.2f} ({:.3f} s)", *ratio, *map) : "", at_most(ratio, kReadRatio)};
+}
+
 TargetLine memory_line(const Json& all) {
   Worst worst;
   for (const Json& run : list_of(all, "results")) {
@@ -245,7 +271,10 @@ std::vector<TargetLine> target_lines(const Json& all) {
           plan_line(all, "udo-raster", kUdoPlanSeconds, kAny),
           plan_line(all, "4096-every-4-stop", kPlanSeconds, kPlanGib),
           plan_line(all, "4096-every-4-moving", kPlanSeconds, kPlanGib),
-          memory_line(all)};
+          memory_line(all),
+          reading_line(all, "dat"),
+          reading_line(all, "datx"),
+          npy_line(all)};
 }
 
 std::string target_table(const Json& all) {

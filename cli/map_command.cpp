@@ -6,6 +6,7 @@
 #include "cli/job_arguments.h"
 #include "cli/terminal.h"
 #include "core/aperture.h"
+#include "core/map_formats.h"
 #include "core/map_io.h"
 #include "core/map_statistics.h"
 #include "core/whole_file.h"
@@ -52,10 +53,12 @@ int run_map(const MapArguments& arguments) {
 void add_map_command(CLI::App& program, int& exit_code) {
   CLI::App* command = program.add_subcommand("map", "print size, pitch, PV and RMS of a map; convert or draw it");
   auto arguments = std::make_shared<MapArguments>();
-  command->add_option("file", arguments->file, "matrix CSV/TXT, XYZ or NPY")->type_name("FILE")->required();
+  command->add_option("file", arguments->file, "a file in any map format, or run.h5:/path/in/it")
+      ->type_name("FILE")
+      ->required();
   const std::vector<std::string> flags{"map-pixel", "map-unit", "map-origin", "remove", "aperture"};
   arguments->job = std::make_unique<JobArguments>(*command, flags, false);
-  command->add_option("--write", arguments->write, "write the map as measured [nm]: .csv, .txt, .xyz, .npy or .sdf")
+  command->add_option("--write", arguments->write, "write the map as measured [nm]: " + written_map_extensions())
       ->type_name("FILE");
   command->add_option("--write-image", arguments->write_image, "write the map as a 16-bit grey PNG, levels = heights")
       ->type_name("FILE.png");

@@ -5,6 +5,7 @@
 #include "cli/commands.h"
 #include "cli/job_arguments.h"
 #include "cli/terminal.h"
+#include "core/map_formats.h"
 #include "core/map_io.h"
 #include "core/whole_file.h"
 #include "runs/picture.h"
@@ -57,7 +58,7 @@ void add_simulate_command(CLI::App& program, int& exit_code) {
       ->add_option("--gcode", arguments->gcode,
                    "what F means in a G93 program that does not say so: g93-per-minute or g93-seconds")
       ->type_name("DIALECT");
-  command->add_option("--residual", arguments->residual, "write the residual map [nm]: .csv, .txt, .xyz, .npy or .sdf")
+  command->add_option("--residual", arguments->residual, "write the residual map [nm]: " + written_map_extensions())
       ->type_name("FILE");
   command->add_option("--png", arguments->png, "draw the residual map")->type_name("FILE");
   command->add_flag("--json", arguments->json, "print the result as JSON");

@@ -13,19 +13,16 @@ struct Signature {
   const char* kind;
 };
 
-constexpr std::array kSignatures{Signature{"\x93NUMPY"sv, "an NPY array"},
-                                 Signature{"\x89PNG\r\n"sv, "a PNG image"},
+constexpr std::array kSignatures{Signature{"\x89PNG\r\n"sv, "a PNG image"},
                                  Signature{"PK\x03\x04"sv, "a ZIP archive (such as .npz or .xlsx)"},
                                  Signature{"PK\x05\x06"sv, "an empty ZIP archive"},
-                                 Signature{"\x89HDF\r\n"sv, "an HDF5 file (such as .datx, .h5 or a MATLAB 7.3 .mat)"},
                                  Signature{"MATLAB 5.0 MAT-file"sv, "a MATLAB .mat file"},
-                                 Signature{"\x88\x1b\x03"sv, "a Zygo MetroPro .dat file"},
-                                 Signature{"\x1f\x8b"sv, "a gzip file"},
+                                 Signature{"MATLAB 7.3 MAT-file"sv, "a MATLAB 7.3 .mat file"},
+                                 Signature{"\x1f\x8b"sv, "a gzip file (unpack it)"},
                                  Signature{"\xff\xd8\xff"sv, "a JPEG image"},
                                  Signature{"II*\0"sv, "a TIFF image"},
                                  Signature{"MM\0*"sv, "a TIFF image"},
                                  Signature{"GIF8"sv, "a GIF image"},
-                                 Signature{"SIMPLE  ="sv, "a FITS file"},
                                  Signature{"\xd0\xcf\x11\xe0"sv, "an old Microsoft Office file (such as .xls)"},
                                  Signature{"%PDF"sv, "a PDF document"},
                                  Signature{"\xff\xfe"sv, "UTF-16 text (save it as UTF-8)"},

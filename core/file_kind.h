@@ -6,7 +6,7 @@
 namespace dwell {
 
 /// What bytes that are not plain text look like, as a phrase ("a PNG image"), by their first bytes; empty for text.
-/// NPY counts as not text.
+/// Formats that maps are read from (core/map_formats.h) are not known here.
 std::string kind_of_binary(std::string_view bytes);
 
 }  // namespace dwell

@@ -3,14 +3,32 @@
 #include <array>
 
 #include "core/codev_int.h"
+#include "core/fits.h"
+#include "core/hdf5_map.h"
+#include "core/matrix_text.h"
 #include "core/npy.h"
 #include "core/sdf_text.h"
+#include "core/xyz_text.h"
+#include "core/zygo_dat.h"
 
 namespace dwell {
 namespace {
 
+/// Files that begin as one, and those that are named as one: these are then refused as no such file.
+bool claims_hdf5(std::string_view bytes, std::string_view extension) {
+  return is_hdf5(bytes) || extension == ".datx" || extension == ".h5" || extension == ".hdf5";
+}
+
+bool claims_fits(std::string_view bytes, std::string_view extension) {
+  return is_fits(bytes) || extension == ".fits" || extension == ".fit";
+}
+
 constexpr std::array kFormats{
     MapFormat{"an NPY array (.npy)", [](std::string_view bytes, std::string_view) { return is_npy(bytes); }, parse_npy},
+    MapFormat{"a Zygo MetroPro file (.dat)",
+              [](std::string_view bytes, std::string_view) { return is_zygo_dat(bytes); }, parse_zygo_dat},
+    MapFormat{"a Zygo .datx or other HDF5 file (.h5, .hdf5)", claims_hdf5, parse_hdf5, parse_hdf5_at},
+    MapFormat{"a FITS image (.fits)", claims_fits, parse_fits},
     MapFormat{"a surface data file as text (.sdf)",
               [](std::string_view bytes, std::string_view extension) { return is_sdf(bytes) || extension == ".sdf"; },
               parse_sdf_text},
@@ -19,6 +37,28 @@ constexpr std::array kFormats{
         [](std::string_view bytes, std::string_view extension) { return is_codev_int(bytes) || extension == ".int"; },
         parse_codev_int},
 };
+
+constexpr std::array kWriters{
+    MapWriter{".csv", [](const HeightMap& map) { return matrix_text(map, ','); }},
+    MapWriter{".txt", [](const HeightMap& map) { return matrix_text(map, ' '); }},
+    MapWriter{".xyz", xyz_text},
+    MapWriter{".npy", [](const HeightMap& map) { return npy_bytes(map); }},
+    MapWriter{".h5", hdf5_map_bytes},
+    MapWriter{".hdf5", hdf5_map_bytes},
+    MapWriter{".fits", fits_bytes},
+    MapWriter{".sdf", sdf_text},
+};
+
+/// "a, b and c" with the last word before c.
+template <class Table, class Name>
+std::string listed(const Table& table, Name name, const char* last_word) {
+  std::string names;
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    if (i > 0) names += i + 1 == table.size() ? last_word : ", ";
+    names += name(table[i]);
+  }
+  return names;
+}
 
 }  // namespace
 
@@ -30,12 +70,22 @@ const MapFormat* map_format_of(std::string_view bytes, std::string_view extensio
 }
 
 std::string accepted_map_formats() {
-  std::string names = "a matrix of numbers (.csv, .txt), lines x y z (.xyz)";
-  for (std::size_t i = 0; i < kFormats.size(); ++i) {
-    names += i + 1 == kFormats.size() ? " or " : ", ";
-    names += kFormats[i].name;
+  const std::string text = "a matrix of numbers (.csv, .txt), lines x y z (.xyz)";
+  const std::string others = listed(
+      kFormats, [](const MapFormat& format) { return format.name; }, " or ");
+  return text + (kFormats.size() == 1 ? " or " : ", ") + others;
+}
+
+const MapWriter* map_writer_of(std::string_view extension) {
+  for (const MapWriter& writer : kWriters) {
+    if (extension == writer.extension) return &writer;
   }
-  return names;
+  return nullptr;
+}
+
+std::string written_map_extensions() {
+  return listed(
+      kWriters, [](const MapWriter& writer) { return writer.extension; }, " and ");
 }
 
 }  // namespace dwell

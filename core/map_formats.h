@@ -3,6 +3,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/height_map.h"
 #include "core/map_source.h"
 
 namespace dwell {
@@ -14,6 +15,8 @@ struct MapFormat {
   bool (*claims)(std::string_view bytes, std::string_view extension);
   /// Reads it. `where` begins error messages ("map part.dat"). Throws InputError naming byte, line or field.
   MapSource (*read)(std::string_view bytes, const std::string& where);
+  /// Reads the array at a path in a file that may hold several (core/map_name.h); null for formats that hold one.
+  MapSource (*read_inside)(std::string_view bytes, const std::string& path, const std::string& where) = nullptr;
 };
 
 /// The format that claims the file, or null: text, lines x y z (core/xyz_text.h) or a matrix (core/matrix_text.h).
@@ -21,5 +24,17 @@ const MapFormat* map_format_of(std::string_view bytes, std::string_view extensio
 
 /// What read_map accepts, for messages: names of all formats.
 std::string accepted_map_formats();
+
+/// A format that maps are written in, by the extension of the file (lower case, with its dot).
+struct MapWriter {
+  const char* extension;
+  std::string (*bytes)(const HeightMap& map);
+};
+
+/// The writer of an extension, or null.
+const MapWriter* map_writer_of(std::string_view extension);
+
+/// What write_map accepts, for messages: ".csv, .txt, ... and .npy".
+std::string written_map_extensions();
 
 }  // namespace dwell

@@ -3,18 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "core/errors.h"
 #include "core/file_kind.h"
 #include "core/map_formats.h"
+#include "core/map_name.h"
 #include "core/matrix_text.h"
 #include "core/npy.h"
 #include "core/npy_sidecar.h"
 #include "core/number_text.h"
 #include "core/point_grid.h"
-#include "core/sdf_text.h"
 #include "core/value_units.h"
 #include "core/whole_file.h"
 #include "core/xyz_text.h"
@@ -94,7 +93,8 @@ HeightMap map_of_source(MapSource source, const MapReadOptions& options, const s
     throw InputError(fmt::format("{}: the file says no pixel pitch; give --{}-pixel [mm] > 0{}", where, options.name,
                                  source.pitch_hint));
   }
-  const Point origin = known_origin(source.header, options, where).value_or(Point{});
+  const Point on_camera{source.camera_pixel.x * pitch->x, source.camera_pixel.y * pitch->y};
+  const Point origin = known_origin(source.header, options, where).value_or(on_camera);
   HeightMap map({source.rows, source.cols, pitch->x, pitch->y, origin}, std::move(source.values));
   map.history = std::move(source.header.history);
   return map;
@@ -111,23 +111,35 @@ HeightMap read_xyz(std::string_view text, const MapReadOptions& options, const s
 
 std::string extension_of(const std::filesystem::path& file) { return lower_case(file.extension().string()); }
 
-HeightMap parse_map(const std::filesystem::path& file, std::string_view bytes, const MapReadOptions& options,
+MapSource read_array(const MapFormat& format, std::string_view bytes, const std::string& inside,
+                     const std::string& where) {
+  if (inside.empty()) return format.read(bytes, where);
+  if (format.read_inside) return format.read_inside(bytes, inside, where);
+  throw InputError(
+      fmt::format("{}: the file is {}, which holds one array; leave out ':{}'", where, format.name, inside));
+}
+
+HeightMap parse_map(const MapName& name, std::string_view bytes, const MapReadOptions& options,
                     const std::string& where) {
   if (bytes.empty()) {
     throw InputError(fmt::format("{}: the file is empty; {} is required", where, accepted_map_formats()));
   }
-  const std::string extension = extension_of(file);
+  const std::string extension = extension_of(name.file);
   if (const MapFormat* format = map_format_of(bytes, extension)) {
-    MapSource source = format->read(bytes, where);
+    MapSource source = read_array(*format, bytes, name.inside, where);
     if (is_npy(bytes)) {
-      source.header = read_npy_sidecar(file, bytes);
-      source.pitch_hint = fmt::format(", or put its sidecar {} beside it", npy_sidecar_name(file.filename()).string());
+      source.header = read_npy_sidecar(name.file, bytes);
+      source.pitch_hint =
+          fmt::format(", or put its sidecar {} beside it", npy_sidecar_name(name.file.filename()).string());
     }
     return map_of_source(std::move(source), options, where);
   }
   const std::string binary = kind_of_binary(bytes);
   if (!binary.empty()) {
     throw InputError(fmt::format("{}: the file looks like {}; {} is required", where, binary, accepted_map_formats()));
+  }
+  if (!name.inside.empty()) {
+    throw InputError(fmt::format("{}: the file is text, which holds one array; leave out ':{}'", where, name.inside));
   }
   if (extension == ".npy") throw InputError(fmt::format("{}: not an NPY array but text; name it .csv or .xyz", where));
   if (extension == ".xyz" || names_xyz_columns(bytes)) return read_xyz(bytes, options, where);
@@ -161,7 +173,8 @@ void scale_and_check(HeightMap& map, double scale, const std::string& where) {
 HeightMap read_map(const std::filesystem::path& file, const MapReadOptions& options) {
   const std::string where = fmt::format("{} {}", options.name, file.string());
   check_options(options, where);
-  HeightMap map = parse_map(file, read_whole_file(file), options, where);
+  const MapName name = split_map_name(file);
+  HeightMap map = parse_map(name, read_whole_file(name.file), options, where);
   scale_and_check(map, options.scale, where);
   return map;
 }
@@ -172,21 +185,15 @@ void write_map(const std::filesystem::path& file, const HeightMap& map) {
         fmt::format("cannot write '{}': the map holds an infinite value; finite or NaN is required", file.string()));
   }
   const std::string extension = extension_of(file);
-  if (extension == ".csv") {
-    write_whole_file(file, matrix_text(map, ','));
-  } else if (extension == ".txt") {
-    write_whole_file(file, matrix_text(map, ' '));
-  } else if (extension == ".xyz") {
-    write_whole_file(file, xyz_text(map));
-  } else if (extension == ".npy") {
+  const MapWriter* writer = map_writer_of(extension);
+  if (!writer) {
+    throw InputError(fmt::format("cannot write '{}': extension '{}' is not of a map format; {} are accepted",
+                                 file.string(), extension, written_map_extensions()));
+  }
+  if (extension == ".npy") {
     write_npy_with_sidecar(file, map);
-  } else if (extension == ".sdf") {
-    write_whole_file(file, sdf_text(map));
   } else {
-    throw InputError(
-        fmt::format("cannot write '{}': extension '{}' is not of a map format; .csv, .txt, .xyz, .npy and "
-                    ".sdf are accepted",
-                    file.string(), extension));
+    write_whole_file(file, writer->bytes(map));
   }
 }
 

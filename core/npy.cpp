@@ -10,6 +10,7 @@
 #include <cstring>
 #include <system_error>
 
+#include "core/doubles_of_bytes.h"
 #include "core/errors.h"
 #include "core/number_text.h"
 
@@ -187,11 +188,11 @@ MapSource parse_npy(std::string_view bytes, const std::string& where) {
   MapSource matrix;
   matrix.rows = shape.rows;
   matrix.cols = shape.cols;
-  matrix.values.resize(rows * cols);
   if (element.type.name == "f8" && !element.reversed && !fortran) {
-    std::memcpy(matrix.values.data(), parts.data.data(), parts.data.size());
+    matrix.values = doubles_of(parts.data);
     return matrix;
   }
+  matrix.values.resize(rows * cols);
   for (std::size_t row = 0; row < rows; ++row) {
     for (std::size_t col = 0; col < cols; ++col) {
       const std::size_t at = fortran ? col * rows + row : row * cols + col;

@@ -7,6 +7,7 @@ namespace dwell::units {
 inline constexpr double kNmPerUm = 1e3;
 inline constexpr double kNmPerMm = 1e6;
 inline constexpr double kNmPerM = 1e9;
+inline constexpr double kMmPerM = 1e3;
 inline constexpr double kSecondsPerMinute = 60.0;
 
 inline constexpr double mm_per_s(double mm_per_min) { return mm_per_min / kSecondsPerMinute; }

@@ -7,6 +7,7 @@
 
 #include "core/errors.h"
 #include "core/map_io.h"
+#include "core/map_name.h"
 #include "core/number_text.h"
 #include "core/spec_text.h"
 #include "core/value_units.h"
@@ -51,10 +52,10 @@ TifCentre parse_tif_centre(const std::string& text) {
 }
 
 HeightMap load_map(const JobOptions& options, std::vector<InputFile>& inputs) {
-  if (options.map.empty()) throw InputError("--map: required; a height-error map (matrix CSV/TXT, XYZ or NPY)");
+  if (options.map.empty()) throw InputError("--map: required; a height-error map, for instance mirror.csv");
   const MapReadOptions read{options.map_pixel_mm, options.map_origin_mm, height_unit_nm(options.map_unit), "map"};
   HeightMap map = read_map(options.map, read);
-  inputs.push_back({"map", options.map, sha256_of_file(options.map)});
+  inputs.push_back({"map", options.map, sha256_of_file(split_map_name(options.map).file)});
   return map;
 }
 
@@ -64,7 +65,7 @@ RemovalFunction load_removal_function(const JobOptions& options, std::vector<Inp
   if (kind == "gaussian" || kind == "disc") return analytic(parse_spec_text(options.tif, "tif"));
   const MapReadOptions read{options.tif_pixel_mm, std::nullopt, rate_unit_nm_per_s(options.tif_unit), "tif"};
   const HeightMap rates = read_map(options.tif, read);
-  inputs.push_back({"tif", options.tif, sha256_of_file(options.tif)});
+  inputs.push_back({"tif", options.tif, sha256_of_file(split_map_name(options.tif).file)});
   try {
     return measured_removal(rates, parse_tif_centre(options.tif_centre));
   } catch (const InputError& error) {

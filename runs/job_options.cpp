@@ -56,7 +56,7 @@ using Options = JobOptions;
 
 std::vector<JobOptionRecord> make_table() {
   return {
-      {"map", "map", "FILE", "height-error map: matrix CSV/TXT, XYZ or NPY; NaN = outside the part", true, false,
+      {"map", "map", "FILE", "height-error map: a file in any map format; NaN = outside the part", true, false,
        [](Options& o, const std::string& t) { o.map = t; }, [](const Options& o) { return o.map; }},
       {"map-pixel", "map_pixel_mm", "MM", "pixel pitch of the map, for formats that carry none", false, true,
        [](Options& o, const std::string& t) { o.map_pixel_mm = positive(t); },

@@ -87,6 +87,12 @@ std::optional<std::string> third_party_fault(const std::string& path, const Incl
   if (include.target.starts_with("nlopt") && !path.starts_with("solvers/nlopt_")) {
     return fmt::format("only solvers/nlopt_* may include NLopt: <{}>", include.target);
   }
+  if (include.target.starts_with("hdf5") && !path.starts_with("core/hdf5_")) {
+    return fmt::format("only core/hdf5_* may include HDF5: <{}>", include.target);
+  }
+  if (include.target.starts_with("fitsio") && !path.starts_with("core/fits_")) {
+    return fmt::format("only core/fits_* may include CFITSIO: <{}>", include.target);
+  }
   if (is_fftw(include) && !path.starts_with("core/")) {
     return fmt::format("only core may include FFTW: <{}>", include.target);
   }

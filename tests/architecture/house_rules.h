@@ -32,7 +32,7 @@ std::vector<SourceFile> read_house(const std::filesystem::path& root);
 
 /// Checks one file by itself:
 ///  - it includes project headers as "folder/file.h", from its own folder or one of lower rank;
-///  - Ceres, NLopt and FFTW only where they belong; no mathematics in cli/;
+///  - Ceres, NLopt, FFTW, HDF5 and CFITSIO only where they belong; no mathematics in cli/;
 ///  - it is a .h or a .cpp of at most kMaxLines lines.
 std::vector<Violation> check_file(const SourceFile& file);
 

@@ -75,6 +75,8 @@ INSTANTIATE_TEST_SUITE_P(
         Break{"CeresElsewhere", {"solvers/gradient.cpp", "#include <ceres/ceres.h>\n"}, 1, "ceres_*"},
         Break{"CeresInCore", {"core/ceres_fit.cpp", "#include <ceres/ceres.h>\n"}, 1, "ceres_*"},
         Break{"NLoptElsewhere", {"solvers/ceres_solver.cpp", "#include <nlopt.hpp>\n"}, 1, "nlopt_*"},
+        Break{"Hdf5Elsewhere", {"core/zygo_datx.cpp", "#include <hdf5.h>\n"}, 1, "core/hdf5_*"},
+        Break{"FitsElsewhere", {"runs/fits_picture.cpp", "#include <fitsio.h>\n"}, 1, "core/fits_*"},
         Break{"FftwInSolvers", {"solvers/a.cpp", "#include <fftw3.h>\n"}, 1, "only core"},
         Break{"CmathInCli", {"cli/a.cpp", "#include <cmath>\n"}, 1, "no mathematics"},
         Break{"EigenInCli", {"cli/a.cpp", "#include <vector>\n#include <Eigen/Dense>\n"}, 2, "no mathematics"},

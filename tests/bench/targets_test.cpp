@@ -102,6 +102,21 @@ TEST(Targets, AllAreNotMeasuredWithoutData) {
   for (const TargetLine& l : lines) EXPECT_EQ(l.verdict, Verdict::NotMeasured) << l.what;
 }
 
+TEST(Targets, ReadersAreJudgedByTheirFastestAtTheSizeOfTheAim) {
+  const auto read = [](const std::string& name, long size, double fastest) {
+    return Json{{"name", name}, {"size", size}, {"threads", 1}, {"fastest", fastest}, {"over_fft", 0.0}};
+  };
+  const Json all{{"micro",
+                  {read("read-dat", 1024, 0.09), read("read-datx", 1024, 0.11), read("read-npy", 1024, 9.0),
+                   read("read-npy", 4096, 0.3), read("read-bytes", 4096, 0.2), read("read-bytes", 1024, 0.001)}}};
+  EXPECT_EQ(line(all, "read a .dat of").verdict, Verdict::Met);
+  EXPECT_EQ(line(all, "read a .datx of").verdict, Verdict::Missed);
+  EXPECT_EQ(line(all, "read an .npy").verdict, Verdict::Met);
+  EXPECT_THAT(line(all, "read an .npy").seen, HasSubstr("1.50"));
+  const Json slow{{"micro", {read("read-npy", 4096, 0.41), read("read-bytes", 4096, 0.2)}}};
+  EXPECT_EQ(line(slow, "read an .npy").verdict, Verdict::Missed);
+}
+
 TEST(Targets, PairsTo1PercentCountCoarseWork) {
   Json run = solve("a-1024-every-4", "auto", 2);
   EXPECT_EQ(line(results({run}), "1 %, a-1024-every-4").verdict, Verdict::Met);  // 10 + 15

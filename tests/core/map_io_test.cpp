@@ -30,9 +30,9 @@ MapReadOptions with_pitch(double pitch) {
   return options;
 }
 
-class TextRoundTrip : public testing::TestWithParam<const char*> {};
+class RoundTrip : public testing::TestWithParam<const char*> {};
 
-TEST_P(TextRoundTrip, ReadsBackEqualWithoutAnyOption) {
+TEST_P(RoundTrip, ReadsBackEqualWithoutAnyOption) {
   const TemporaryFolder folder;
   const auto file = folder.path() / GetParam();
   write_map(file, asymmetric());
@@ -40,7 +40,7 @@ TEST_P(TextRoundTrip, ReadsBackEqualWithoutAnyOption) {
   EXPECT_EQ(folder.entries(), 1u);
 }
 
-TEST_P(TextRoundTrip, KeepsHowTheMapWasMade) {
+TEST_P(RoundTrip, KeepsHowTheMapWasMade) {
   const TemporaryFolder folder;
   const auto file = folder.path() / GetParam();
   HeightMap map = asymmetric();
@@ -49,7 +49,7 @@ TEST_P(TextRoundTrip, KeepsHowTheMapWasMade) {
   EXPECT_EQ(read_map(file).history, map.history);
 }
 
-TEST_P(TextRoundTrip, ReadsBackEmptyBordersAndSingleLines) {
+TEST_P(RoundTrip, ReadsBackEmptyBordersAndSingleLines) {
   const TemporaryFolder folder;
   const auto file = folder.path() / GetParam();
   HeightMap border(Grid{4, 5, 1.0 / 3.0, 0.1, {0.1, -0.2}});
@@ -62,7 +62,8 @@ TEST_P(TextRoundTrip, ReadsBackEmptyBordersAndSingleLines) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Formats, TextRoundTrip, testing::Values("map.csv", "map.txt", "map.xyz", "MAP.XYZ"));
+INSTANTIATE_TEST_SUITE_P(Formats, RoundTrip,
+                         testing::Values("map.csv", "map.txt", "map.xyz", "MAP.XYZ", "map.h5", "map.hdf5", "map.fits"));
 
 TEST(MapIo, XyzKeepsItsMeaningUnderAnotherName) {
   const TemporaryFolder folder;
@@ -160,8 +161,13 @@ TEST(MapIo, SaysWhatAFileLooksLike) {
   refused("a.csv", "", "empty");
   refused("a.csv", "\x89PNG\r\n\x1a\n\0\0"s, "PNG");
   refused("a.csv", "PK\x03\x04rest", "ZIP");
-  refused("a.csv", "\x89HDF\r\n\x1a\n"s, "HDF5");
-  refused("a.xyz", "\x88\x1b\x03\x6f\0\x01"s, "MetroPro");
+  refused("a.csv", "\x89HDF\r\n\x1a\n"s, "not a readable HDF5 file: its 8 bytes");
+  refused("a.xyz", "\x88\x1b\x03\x6f\0\x01"s, "truncated Zygo .dat file; 6 bytes");
+  refused("a.csv", "SIMPLE  =                    T", "not a readable FITS file");
+  refused("a.h5", "1,2\n", "not an HDF5 file");
+  refused("a.datx", "\x88\x1b\x03\x6f\0\x01"s, "truncated Zygo .dat file");
+  refused("a.fits", "1,2\n", "not a FITS file");
+  refused("a.csv", "MATLAB 7.3 MAT-file, made by", "MATLAB 7.3");
   refused("a.csv", "1,2\n3,\0\x01\n"s, "binary");
   refused("a.csv",
           "\xff\xfe"
