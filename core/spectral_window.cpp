@@ -24,8 +24,9 @@ std::vector<double> along_axis(Index count, const SpectralWindow& window) {
 }
 
 /// Squared distance along its row from every pixel to the nearest missing one; the map is surrounded by missing ones.
-void square_in_rows(const HeightMap& map, std::vector<double>& square) {
+void square_in_rows(const HeightMap& map, std::vector<double>& square, int threads) {
   const Grid& g = map.grid;
+#pragma omp parallel for num_threads(std::max(threads, 1)) schedule(static)
   for (Index row = 0; row < g.rows; ++row) {
     Index steps = 0;
     for (Index col = 0; col < g.cols; ++col) {
@@ -47,21 +48,32 @@ void square_in_rows(const HeightMap& map, std::vector<double>& square) {
 std::vector<double> edge_distances(const HeightMap& map, int threads) {
   const Grid& g = map.grid;
   std::vector<double> distance(static_cast<std::size_t>(g.size()));
-  square_in_rows(map, distance);
+  square_in_rows(map, distance, threads);
+  constexpr Index kTogether = 8;  // columns: one cache line of a row
+  const auto rows = static_cast<std::size_t>(g.rows + 2);
 #pragma omp parallel num_threads(std::max(threads, 1))
   {
     LowerEnvelope envelope(g.rows + 2, g.pitch_y);
-    std::vector<double> f(static_cast<std::size_t>(g.rows + 2)), best(f.size());
+    std::vector<std::vector<double>> f(kTogether, std::vector<double>(rows, 0.0));  // missing above and below
+    std::vector<double> best(rows);
 #pragma omp for schedule(static)
-    for (Index col = 0; col < g.cols; ++col) {
-      f.front() = f.back() = 0.0;
+    for (Index first = 0; first < g.cols; first += kTogether) {
+      const Index count = std::min(kTogether, g.cols - first);
       for (Index row = 0; row < g.rows; ++row) {
-        f[static_cast<std::size_t>(row + 1)] = distance[static_cast<std::size_t>(g.index(row, col))];
+        const double* from = distance.data() + g.index(row, first);
+        for (Index k = 0; k < count; ++k) f[static_cast<std::size_t>(k)][static_cast<std::size_t>(row + 1)] = from[k];
       }
-      envelope(f, best);
+      for (Index k = 0; k < count; ++k) {
+        envelope(f[static_cast<std::size_t>(k)], best);
+        f[static_cast<std::size_t>(k)] = best;
+      }
       for (Index row = 0; row < g.rows; ++row) {
-        distance[static_cast<std::size_t>(g.index(row, col))] = std::sqrt(best[static_cast<std::size_t>(row + 1)]);
+        double* to = distance.data() + g.index(row, first);
+        for (Index k = 0; k < count; ++k) {
+          to[k] = std::sqrt(f[static_cast<std::size_t>(k)][static_cast<std::size_t>(row + 1)]);
+        }
       }
+      for (auto& column : f) column.front() = column.back() = 0.0;
     }
   }
   return distance;
