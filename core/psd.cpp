@@ -110,15 +110,15 @@ PsdCurve psd_along_y(const ArealPsd& psd) {
 }
 
 PsdCurve radial_psd(const ArealPsd& psd) {
-  const double longest = psd.longest_wavelength(), nyquist = std::min(psd.nyquist_x, psd.nyquist_y);
-  PsdCurve result = curve("radial", "nm^2 mm^2", longest, nyquist);
-  const auto rings = static_cast<std::size_t>(std::max(std::floor(nyquist * longest - 0.5), 0.0)) + 1;  // 0: the middle
+  const double side = std::min(psd.length_x, psd.length_y), nyquist = std::min(psd.nyquist_x, psd.nyquist_y);
+  PsdCurve result = curve("radial", "nm^2 mm^2", side, nyquist);
+  const auto rings = static_cast<std::size_t>(std::max(std::floor(nyquist * side - 0.5), 0.0)) + 1;  // 0: the middle
   std::vector<double> count(rings), frequency(rings), density(rings);
   for (Index row = 0; row < psd.rows; ++row) {
     const double fy = psd.frequency_y(row);
     for (Index col = 0; col < psd.half_cols(); ++col) {
       const double fx = psd.step_x * static_cast<double>(col), f = std::sqrt(fx * fx + fy * fy);
-      const auto ring = static_cast<std::size_t>(f * longest + 0.5);
+      const auto ring = static_cast<std::size_t>(f * side + 0.5);
       if (ring >= rings) break;  // farther along the row it only grows
       const double many = psd.multiplicity(col);
       count[ring] += many;

@@ -48,8 +48,8 @@ struct PsdCurve {
   std::string unit;               // "nm^2 mm" or "nm^2 mm^2"
   std::vector<double> frequency;  // ascending, > 0 [1/mm]
   std::vector<double> density;
-  /// Where it means something: from two periods on the part (below, the window's width and the form taken out rule) to
-  /// half a sample a pixel.
+  /// Where it means something: from two periods on the part (on its shorter side for the radial one; below, the width
+  /// of the window and the form taken out rule) to half a sample a pixel.
   double resolved_from = 0.0, resolved_to = 0.0;
 };
 
@@ -59,8 +59,9 @@ struct PsdCurve {
 PsdCurve psd_along_x(const ArealPsd& psd);
 PsdCurve psd_along_y(const ArealPsd& psd);
 
-/// Mean of S over rings of the width 1 / length of the longer side, centred on its multiples [nm^2 mm^2]; the frequency
-/// is the mean over the ring. Up to the lower of the two Nyquist frequencies: rings beyond are not closed.
+/// Mean of S over rings of the width 1 / length of the shorter side (finer ones would see one direction only), centred
+/// on its multiples [nm^2 mm^2]; the frequency is the mean over the ring. Up to the lower of the two Nyquist
+/// frequencies: rings beyond are not closed.
 PsdCurve radial_psd(const ArealPsd& psd);
 
 /// Mean squares [nm^2] of the parts of S with |f| in [edges_k, edges_(k+1)), edges ascending, from 0 before the first
