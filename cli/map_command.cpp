@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <memory>
 
 #include "cli/commands.h"
@@ -43,12 +44,15 @@ MapReportOptions report_options(const MapArguments& arguments, const CLI::App& c
   return options;
 }
 
+/// A picture's title names the file, not its folder.
+std::string name_of(const std::string& file) { return std::filesystem::path(file).filename().string(); }
+
 void draw_profile(const MapArguments& arguments, const MapReport& report) {
   if (arguments.profile.empty()) return;
   const MapProfile profile = map_profile(report.figure, parse_profile_spec(arguments.profile));
   fmt::print("profile   {}: PV {:.6g} nm, RMS {:.6g} nm\n", profile.name, profile.pv(), profile.rms());
   if (arguments.profile_png.empty()) return;
-  const std::string title = fmt::format("{}, {}: RMS {:.4g} nm, PV {:.4g} nm ({} removed)", arguments.file,
+  const std::string title = fmt::format("{}, {}: RMS {:.4g} nm, PV {:.4g} nm ({} removed)", name_of(arguments.file),
                                         profile.name, profile.rms(), profile.pv(), to_string(report.removed));
   write_whole_file(arguments.profile_png, profile_picture(profile, title));
 }
@@ -71,7 +75,7 @@ int run_map(const MapArguments& arguments, const CLI::App& command) {
   draw_profile(arguments, report);
   if (!arguments.write.empty()) write_map(arguments.write, map);
   if (!arguments.json.empty()) write_whole_file(arguments.json, map_report_json(report, map, inputs));
-  const std::string title = fmt::format("{}: RMS {:.4g} nm, PV {:.4g} nm ({} removed)", inputs[0].file,
+  const std::string title = fmt::format("{}: RMS {:.4g} nm, PV {:.4g} nm ({} removed)", name_of(arguments.file),
                                         report.statistics.rms, report.statistics.pv, to_string(report.removed));
   if (!arguments.png.empty()) write_whole_file(arguments.png, map_picture(report.figure, {title, "nm", true, {}, {}}));
   if (!arguments.psd_png.empty()) write_whole_file(arguments.psd_png, psd_picture(report, title));
