@@ -13,6 +13,8 @@
 #include "bench/single_fft.h"
 #include "core/fft.h"
 #include "core/lattice_removal.h"
+#include "core/polynomial_fit.h"
+#include "core/psd.h"
 #include "core/scattered_removal.h"
 #include "core/sparse_removal.h"
 #include "paths/nearest_neighbour.h"
@@ -123,6 +125,33 @@ void time_reading(benchmark::State& state, const std::string& format, long size,
   }
 }
 
+/// Hills and noise on a square map without holes, or on the disc in it.
+HeightMap measured_map(long size, bool disc) {
+  HeightMap map(square_grid(size));
+  RandomNumbers random(5);
+  for (Index i = 0; i < map.grid.size(); ++i) {
+    const double u = 2.0 * static_cast<double>(i % size) / static_cast<double>(size) - 1.0;
+    const double v = 2.0 * static_cast<double>(i / size) / static_cast<double>(size) - 1.0;
+    const double z = 100.0 * (u * u + 0.5 * u * v) + 5.0 * u * u * v + random.uniform();
+    if (!disc || u * u + v * v <= 1.0) map.values[static_cast<std::size_t>(i)] = z;
+  }
+  return map;
+}
+
+/// Of 36 terms; the map is the same after the first call to rounding, which takes no less time.
+void time_form(benchmark::State& state, long size, bool disc, int threads) {
+  HeightMap map = measured_map(size, disc);
+  const PolynomialSpec spec = parse_polynomial_spec("zernike-noll:1-36");
+  for (auto _ : state) benchmark::DoNotOptimize(remove_polynomials(map, spec, threads).condition);
+}
+
+void time_radial_psd(benchmark::State& state, long size, bool disc, int threads) {
+  const HeightMap map = measured_map(size, disc);
+  PsdOptions options;
+  options.threads = threads;
+  for (auto _ : state) benchmark::DoNotOptimize(radial_psd(areal_psd(map, options)).density.data());
+}
+
 struct Case {
   std::string name;
   long size;
@@ -167,6 +196,16 @@ std::vector<Case> cases_of(const MicroOptions& options) {
   std::vector<Case> cases;
   for (const long size : sizes) {
     for (const int threads : {1, 2}) append_size(cases, size, threads);
+  }
+  const long map = options.quick ? 512 : 2048;
+  for (const int threads : {1, 2}) {
+    for (const bool disc : {false, true}) {
+      const std::string part = disc ? "-disc" : "";
+      cases.push_back({"form-36-terms" + part, map, threads, "",
+                       [=](benchmark::State& state) { time_form(state, map, disc, threads); }});
+      cases.push_back({"radial-psd" + part, map, threads, "",
+                       [=](benchmark::State& state) { time_radial_psd(state, map, disc, threads); }});
+    }
   }
   const long edge = options.quick ? 300 : 1000;
   cases.push_back(

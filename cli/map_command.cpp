@@ -1,18 +1,22 @@
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <memory>
 
 #include "cli/commands.h"
 #include "cli/job_arguments.h"
 #include "cli/terminal.h"
 #include "core/aperture.h"
+#include "core/errors.h"
 #include "core/map_formats.h"
 #include "core/map_io.h"
-#include "core/map_statistics.h"
 #include "core/whole_file.h"
 #include "runs/height_image.h"
 #include "runs/input_files.h"
+#include "runs/map_profile.h"
+#include "runs/map_report.h"
 #include "runs/picture.h"
+#include "runs/plan.h"
 
 namespace dwell::cli {
 namespace {
@@ -20,51 +24,111 @@ namespace {
 struct MapArguments {
   std::unique_ptr<JobArguments> job;
   std::string file, write, write_image, png;
+  std::string remove = "piston,tilt", form, window = "hann", bands = "33,0.12", limit, json, psd_png, profile,
+              profile_png;
+  bool psd = false;
 };
 
-int run_map(const MapArguments& arguments) {
+/// What of the map is to be told.
+MapReportOptions report_options(const MapArguments& arguments, const CLI::App& command) {
+  MapReportOptions options;
+  options.removed = parse_polynomial_spec(arguments.remove);
+  if (!arguments.form.empty()) options.form = parse_polynomial_spec(arguments.form);
+  options.window = parse_spectral_window(arguments.window);
+  options.band_edges = parse_band_edges(arguments.bands);
+  if (!arguments.limit.empty()) options.limit = parse_psd_limit(arguments.limit);
+  const bool asked = command.count("--bands") + command.count("--limit") + command.count("--window") > 0;
+  options.spectrum = arguments.psd || asked || !arguments.psd_png.empty();
+  if (!arguments.profile_png.empty() && arguments.profile.empty()) {
+    throw InputError("--profile-png needs --profile, the line to draw");
+  }
+  options.threads = thread_count(0);
+  return options;
+}
+
+/// A picture's title names the file, not its folder.
+std::string name_of(const std::string& file) { return std::filesystem::path(file).filename().string(); }
+
+void draw_profile(const MapArguments& arguments, const MapReport& report) {
+  if (arguments.profile.empty()) return;
+  const MapProfile profile = map_profile(report.figure, parse_profile_spec(arguments.profile));
+  fmt::print("profile   {}: PV {:.6g} nm, RMS {:.6g} nm\n", profile.name, profile.pv(), profile.rms());
+  if (arguments.profile_png.empty()) return;
+  const std::string title = fmt::format("{}, {}: RMS {:.4g} nm, PV {:.4g} nm ({} removed)", name_of(arguments.file),
+                                        profile.name, profile.rms(), profile.pv(), to_string(report.removed));
+  write_whole_file(arguments.profile_png, profile_picture(profile, title));
+}
+
+int run_map(const MapArguments& arguments, const CLI::App& command) {
   JobOptions options = arguments.job->options();
   options.map = arguments.file;
+  const MapReportOptions wanted = report_options(arguments, command);
   std::vector<InputFile> inputs;
   const HeightMap map = within(load_map(options, inputs), parse_aperture(options.aperture));
-  const FormTerms terms = parse_form_terms(options.remove);
-  const MapStatistics statistics = map_statistics(map, terms);
+  const MapReport report = map_report(map, wanted);
   const Grid& g = map.grid;
   fmt::print("file      {} (sha256 {})\n", inputs[0].file, inputs[0].sha256);
   fmt::print("size      {} rows (y) x {} columns (x), {:.6g} mm in x, {:.6g} mm in y\n", g.rows, g.cols, g.width(),
              g.height());
   fmt::print("pitch     {:.9g} mm in x, {:.9g} mm in y\n", g.pitch_x, g.pitch_y);
   fmt::print("origin    first pixel at ({:.9g}, {:.9g}) mm\n", g.origin.x, g.origin.y);
-  fmt::print("valid     {} of {} pixels\n", statistics.valid_pixels, g.size());
-  fmt::print("PV        {:.6g} nm ({} removed)\n", statistics.pv, to_string(terms));
-  fmt::print("RMS       {:.6g} nm ({} removed)\n", statistics.rms, to_string(terms));
+  fmt::print("valid     {} of {} pixels\n", report.statistics.valid_pixels, g.size());
+  fmt::print("{}", map_report_text(report));
+  draw_profile(arguments, report);
   if (!arguments.write.empty()) write_map(arguments.write, map);
   if (!arguments.write_image.empty()) write_whole_file(arguments.write_image, height_image_png(map));
-  if (!arguments.png.empty()) {
-    const std::string title = fmt::format("{}: RMS {:.4g} nm, PV {:.4g} nm ({} removed)", inputs[0].file,
-                                          statistics.rms, statistics.pv, to_string(terms));
-    write_whole_file(arguments.png, map_picture(without_form(map, terms), {title, "nm", true, {}, {}}));
-  }
-  return kDone;
+  if (!arguments.json.empty()) write_whole_file(arguments.json, map_report_json(report, map, inputs));
+  const std::string title = fmt::format("{}: RMS {:.4g} nm, PV {:.4g} nm ({} removed)", name_of(arguments.file),
+                                        report.statistics.rms, report.statistics.pv, to_string(report.removed));
+  if (!arguments.png.empty()) write_whole_file(arguments.png, map_picture(report.figure, {title, "nm", true, {}, {}}));
+  if (!arguments.psd_png.empty()) write_whole_file(arguments.psd_png, psd_picture(report, title));
+  return report.spectrum && !report.spectrum->limit_met() ? kLimitReached : kDone;
+}
+
+/// What is told of a map besides its size.
+void add_report_options(CLI::App& command, MapArguments& arguments) {
+  const auto text = [&command](const char* flag, std::string& value, const char* type, const char* help) {
+    command.add_option(flag, value, help)->type_name(type)->expected(1);
+  };
+  text("--remove", arguments.remove, "FORM",
+       "form that does not count: piston,tilt,power,astigmatism or none; zernike-noll:1-36, zernike-fringe:1-37 or "
+       "zernike-ansi:0-35 [,x=MM,y=MM][,radius=MM][,obscuration=RATIO]; legendre:4 or chebyshev:4 (total degree), "
+       "legendre:4x3 (along x and y) (default piston,tilt)");
+  text("--form", arguments.form, "FORM", "list the coefficients of such polynomials [nm]");
+  command.add_flag("--psd", arguments.psd, "power spectra along x, along y and radial; RMS in bands of wavelength");
+  text("--window", arguments.window, "WINDOW", "of the spectra: hann, tukey:R or none (default hann)");
+  text("--bands", arguments.bands, "MM,MM", "wavelengths between the bands in mm (default 33,0.12)");
+  text("--limit", arguments.limit, "A,B",
+       "line A f^-B that the spectra along x and y must not exceed, A in nm^2 mm, f in 1/mm; radial:A,B in nm^2 mm^2 "
+       "for "
+       "the radial one");
+  text("--profile", arguments.profile, "LINE", "y=MM (along x), x=MM (along y) or X0,Y0,X1,Y1 in mm");
+  text("--json", arguments.json, "FILE", "write all that is printed, and the spectra, as JSON");
+  text("--psd-png", arguments.psd_png, "FILE", "draw the spectra");
+  text("--profile-png", arguments.profile_png, "FILE", "draw the profile, form removed");
 }
 
 }  // namespace
 
 void add_map_command(CLI::App& program, int& exit_code) {
-  CLI::App* command = program.add_subcommand("map", "print size, pitch, PV and RMS of a map; convert or draw it");
+  CLI::App* command =
+      program.add_subcommand("map", "print size, pitch, statistics, form and spectra of a map; convert or draw it");
   auto arguments = std::make_shared<MapArguments>();
   command->add_option("file", arguments->file, "a file in any map format, or run.h5:/path/in/it")
       ->type_name("FILE")
       ->required();
-  const std::vector<std::string> flags{"map-pixel", "map-unit", "map-origin", "remove", "aperture"};
+  const std::vector<std::string> flags{"map-pixel", "map-unit", "map-origin", "aperture"};
   arguments->job = std::make_unique<JobArguments>(*command, flags, false);
+  add_report_options(*command, *arguments);
   command->add_option("--write", arguments->write, "write the map as measured [nm]: " + written_map_extensions())
       ->type_name("FILE");
   command->add_option("--write-image", arguments->write_image, "write the map as a 16-bit grey PNG, levels = heights")
       ->type_name("FILE.png");
-  command->add_option("--png", arguments->png, "draw the map, form terms removed")->type_name("FILE");
-  command->footer("Example:\n  dwell map mirror.csv --map-pixel 0.0938 --remove piston,tilt --png mirror.png");
-  command->callback([arguments, &exit_code] { exit_code = run_map(*arguments); });
+  command->add_option("--png", arguments->png, "draw the map, form removed")->type_name("FILE");
+  command->footer(
+      "Example:\n  dwell map mirror.csv --map-pixel 0.0938 --remove piston,tilt --png mirror.png\n"
+      "  dwell map mirror.csv --map-pixel 0.0938 --form zernike-noll:1-15 --psd-png spectra.png");
+  command->callback([arguments, command, &exit_code] { exit_code = run_map(*arguments, *command); });
 }
 
 }  // namespace dwell::cli

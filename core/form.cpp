@@ -9,6 +9,7 @@
 #include "core/number_text.h"
 
 namespace dwell {
+
 FormTerms parse_form_terms(const std::string& text) {
   FormTerms terms;
   if (trim(text) == "none") return terms;
@@ -20,10 +21,12 @@ FormTerms parse_form_terms(const std::string& text) {
       terms.tilt = true;
     } else if (word == "power") {
       terms.power = true;
+    } else if (word == "astigmatism") {
+      terms.astigmatism = true;
     } else {
       throw InputError(
-          fmt::format("form term '{}' in '{}' is unknown; accepted: piston, tilt, power separated by "
-                      "commas, or none alone",
+          fmt::format("form term '{}' in '{}' is unknown; accepted: piston, tilt, power, astigmatism "
+                      "separated by commas, or none alone",
                       word, text));
     }
   }
@@ -38,6 +41,7 @@ std::string to_string(const FormTerms& terms) {
   add(terms.piston, "piston");
   add(terms.tilt, "tilt");
   add(terms.power, "power");
+  add(terms.astigmatism, "astigmatism");
   return text.empty() ? "none" : text;
 }
 

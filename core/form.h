@@ -9,24 +9,27 @@
 
 namespace dwell {
 
-/// Form terms that a specification does not count: piston (constant), tilt (x and y), power (x^2 + y^2).
+/// Form terms that a specification does not count: piston (constant), tilt (x and y), power (x^2 + y^2), astigmatism
+/// (x^2 - y^2 and 2 x y).
 struct FormTerms {
   bool piston = false;
   bool tilt = false;
   bool power = false;
+  bool astigmatism = false;
 
-  bool any() const { return piston || tilt || power; }
+  bool any() const { return piston || tilt || power || astigmatism; }
   friend bool operator==(const FormTerms&, const FormTerms&) = default;
 };
 
-/// Parses "piston,tilt,power" in any order, or "none". Throws InputError naming the unknown word and the accepted ones.
+/// Parses "piston,tilt,power,astigmatism" in any order, some of them, or "none". Throws InputError naming the unknown
+/// word and the accepted ones.
 FormTerms parse_form_terms(const std::string& text);
 std::string to_string(const FormTerms& terms);  // "piston,tilt", or "none"
 
 /// Basis of the form terms on the given pixels, orthonormal in the weighted sense: with w the weights (empty = all
-/// one), B = diag(w) [1, x, y, x^2 + y^2 restricted to `terms`] and the result Q has orthonormal columns spanning B.
-/// Columns that are dependent on these pixels (one pixel, one
-/// row) are dropped. Size pixels.size() x (0..4). Cost O(pixels).
+/// one), B = diag(w) [1, x, y, x^2 + y^2, x^2 - y^2, 2 x y restricted to `terms`] and the result Q has orthonormal
+/// columns spanning B. Columns that are dependent on these pixels (one pixel, one row) are dropped. Size pixels.size()
+/// x (0..6). Cost O(pixels).
 Eigen::MatrixXd form_basis(const Grid& grid, const std::vector<Index>& pixels, const FormTerms& terms,
                            const std::vector<double>& weights = {}, int threads = 1);
 

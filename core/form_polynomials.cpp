@@ -9,24 +9,32 @@ namespace {
 
 constexpr Index kBlock = 1 << 14;  // pixels; small enough to share among threads, large enough to keep them busy
 
+constexpr std::size_t kRoundTerms = 4;  // piston, tilt, power
+
+/// Of the first `Terms` coefficients, 4 or 6.
+template <std::size_t Terms>
 double value_of(const FormPolynomials::Polynomial& p, double x, double y) {
-  return p[0] + p[1] * x + p[2] * y + p[3] * (x * x + y * y);
+  const double round = p[0] + p[1] * x + p[2] * y + p[3] * (x * x + y * y);
+  if constexpr (Terms == kRoundTerms) return round;
+  return round + p[4] * (x * x - y * y) + p[5] * (2.0 * x * y);
 }
 
 }  // namespace
 
 FormPolynomials::FormPolynomials(const Grid& grid, std::span<const Index> pixels, const FormTerms& terms,
                                  std::span<const double> weights, int threads)
-    : grid_(grid), pixels_(pixels), weights_(weights), threads_(std::max(threads, 1)) {
+    : grid_(grid), pixels_(pixels), weights_(weights), threads_(std::max(threads, 1)), astigmatism_(terms.astigmatism) {
   const double size =
       std::sqrt(sum([this](Sums& s, const Place& p) { s[0] += weight(p.number) * weight(p.number); })[0]);
   if (!std::isfinite(size)) throw std::invalid_argument("form_basis: weights must be finite");
   if (!terms.any() || !(size > 0.0)) return;
   centre_and_scale();
-  if (terms.piston) add_term(0, size);
-  if (terms.tilt) add_term(1, size);
-  if (terms.tilt) add_term(2, size);
-  if (terms.power) add_term(3, size);
+  if (terms.piston) add_term<kRoundTerms>(0, size);
+  if (terms.tilt) add_term<kRoundTerms>(1, size);
+  if (terms.tilt) add_term<kRoundTerms>(2, size);
+  if (terms.power) add_term<kRoundTerms>(3, size);
+  if (terms.astigmatism) add_term<kTerms>(4, size);
+  if (terms.astigmatism) add_term<kTerms>(5, size);
 }
 
 Index FormPolynomials::blocks() const { return (static_cast<Index>(pixels_.size()) + kBlock - 1) / kBlock; }
@@ -90,21 +98,22 @@ void FormPolynomials::centre_and_scale() {
 
 /// Gram-Schmidt; twice is enough (Giraud et al. 2005): the second pass takes out what rounding in the first left
 /// behind.
+template <std::size_t Terms>
 void FormPolynomials::add_term(std::size_t term, double size) {
   Polynomial candidate{};
   candidate[term] = 1.0;
   const std::size_t rank = orthonormal_.size();
   for (int pass = 0; pass < 2 && rank > 0; ++pass) {
     const Sums product = sum([&](Sums& s, const Place& p) {
-      const double w = weight(p.number), v = w * w * value_of(candidate, p.x, p.y);
-      for (std::size_t k = 0; k < rank; ++k) s[k] += v * value_of(orthonormal_[k], p.x, p.y);
+      const double w = weight(p.number), v = w * w * value_of<Terms>(candidate, p.x, p.y);
+      for (std::size_t k = 0; k < rank; ++k) s[k] += v * value_of<Terms>(orthonormal_[k], p.x, p.y);
     });
     for (std::size_t k = 0; k < rank; ++k) {
       for (std::size_t c = 0; c < kTerms; ++c) candidate[c] -= product[k] * orthonormal_[k][c];
     }
   }
   const double norm = std::sqrt(sum([&](Sums& s, const Place& p) {
-    const double v = weight(p.number) * value_of(candidate, p.x, p.y);
+    const double v = weight(p.number) * value_of<Terms>(candidate, p.x, p.y);
     s[0] += v * v;
   })[0]);
   // The terms are of size |w| at most; what the others leave of a dependent one is rounding.
@@ -113,30 +122,40 @@ void FormPolynomials::add_term(std::size_t term, double size) {
   orthonormal_.push_back(candidate);
 }
 
-Eigen::MatrixXd FormPolynomials::columns() const {
-  Eigen::MatrixXd q(static_cast<Index>(pixels_.size()), rank());
+template <std::size_t Terms>
+void FormPolynomials::write_columns(Eigen::MatrixXd& q) const {
   for_each([&](const Place& p) {
     for (Index k = 0; k < q.cols(); ++k) {
       q(static_cast<Index>(p.number), k) =
-          weight(p.number) * value_of(orthonormal_[static_cast<std::size_t>(k)], p.x, p.y);
+          weight(p.number) * value_of<Terms>(orthonormal_[static_cast<std::size_t>(k)], p.x, p.y);
     }
   });
+}
+
+Eigen::MatrixXd FormPolynomials::columns() const {
+  Eigen::MatrixXd q(static_cast<Index>(pixels_.size()), rank());
+  astigmatism_ ? write_columns<kTerms>(q) : write_columns<kRoundTerms>(q);
   return q;
 }
 
-void FormPolynomials::remove_from(std::span<double> map_values) const {
-  if (rank() == 0) return;
+template <std::size_t Terms>
+void FormPolynomials::subtract_form(std::span<double> map_values) const {
   Polynomial form{};
   for (int pass = 0; pass < 2; ++pass) {  // as above
     const Sums product = sum([&](Sums& s, const Place& p) {
-      const double v = map_values[static_cast<std::size_t>(p.pixel)] - value_of(form, p.x, p.y);
-      for (std::size_t k = 0; k < orthonormal_.size(); ++k) s[k] += v * value_of(orthonormal_[k], p.x, p.y);
+      const double v = map_values[static_cast<std::size_t>(p.pixel)] - value_of<Terms>(form, p.x, p.y);
+      for (std::size_t k = 0; k < orthonormal_.size(); ++k) s[k] += v * value_of<Terms>(orthonormal_[k], p.x, p.y);
     });
     for (std::size_t k = 0; k < orthonormal_.size(); ++k) {
       for (std::size_t c = 0; c < kTerms; ++c) form[c] += product[k] * orthonormal_[k][c];
     }
   }
-  for_each([&](const Place& p) { map_values[static_cast<std::size_t>(p.pixel)] -= value_of(form, p.x, p.y); });
+  for_each([&](const Place& p) { map_values[static_cast<std::size_t>(p.pixel)] -= value_of<Terms>(form, p.x, p.y); });
+}
+
+void FormPolynomials::remove_from(std::span<double> map_values) const {
+  if (rank() == 0) return;
+  astigmatism_ ? subtract_form<kTerms>(map_values) : subtract_form<kRoundTerms>(map_values);
 }
 
 }  // namespace dwell

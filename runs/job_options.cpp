@@ -91,7 +91,7 @@ std::vector<JobOptionRecord> make_table() {
       {"motion", "motion", "HOW", "moving: the tool runs through; stop: it halts at every dwell point", false, false,
        [](Options& o, const std::string& t) { parse_motion(t), o.motion = t; },
        [](const Options& o) { return o.motion; }},
-      {"remove", "remove", "TERMS", "form terms that do not count: piston,tilt,power or none", false, false,
+      {"remove", "remove", "TERMS", "form terms that do not count: piston,tilt,power,astigmatism or none", false, false,
        [](Options& o, const std::string& t) { parse_form_terms(t), o.remove = t; },
        [](const Options& o) { return o.remove; }},
       {"aperture", "aperture", "AREA", "what counts: map, rect:X0,Y0,X1,Y1 or circle:X,Y,R in mm", false, false,

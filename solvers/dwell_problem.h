@@ -11,7 +11,7 @@
 namespace dwell {
 
 /// Form terms that a specification may leave out: piston, tilt in x and y, power.
-inline constexpr Index kMaxFormTerms = 4;
+inline constexpr Index kMaxFormTerms = 6;
 
 /// The dwell problem (docs/math.md):
 ///

@@ -75,6 +75,50 @@ TEST(MapCommand, WritesAHeightImage) {
   expect_has(png, "nm_per_level");
 }
 
+TEST(MapCommand, TellsFormSpectraAndProfile) {
+  const SmallInputs inputs;
+  const ProgramResult result = inputs.run(
+      {"map", "map.csv", "--map-pixel", "0.5", "--form", "zernike-noll:1-6", "--psd", "--bands", "5,2", "--profile",
+       "y=3", "--json", "map.json", "--psd-png", "psd.png", "--profile-png", "profile.png", "--remove", "legendre:1"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  for (const char* part : {"PVr  ", "urad RMS in x", "Z4 defocus", "PSD rad", "band mid", "5 - 2 mm",
+                           "profile   y = 3 mm", "(legendre:1 removed)"}) {
+    expect_has(result.out, part);
+  }
+  const json report = json::parse(read_whole_file(inputs / "map.json"));
+  EXPECT_EQ(report["form"]["terms"].size(), 6u);
+  EXPECT_EQ(report["spectrum"]["bands"].size(), 3u);
+  EXPECT_EQ(read_whole_file(inputs / "psd.png").substr(1, 3), "PNG");
+  EXPECT_EQ(read_whole_file(inputs / "profile.png").substr(1, 3), "PNG");
+}
+
+TEST(MapCommand, EndsWithALimitReachedWhereASpectrumIsAboveItsLine) {
+  const SmallInputs inputs;
+  const ProgramResult above = inputs.run({"map", "map.csv", "--map-pixel", "0.5", "--limit", "1e-9,2"});
+  EXPECT_EQ(above.exit_code, 3);
+  expect_has(above.out, "EXCEEDED");
+  EXPECT_EQ(inputs.run({"map", "map.csv", "--map-pixel", "0.5", "--limit", "1e9,2"}).exit_code, 0);
+}
+
+TEST(MapCommand, RefusesWrongOptionsBeforeItWritesAnything) {
+  const SmallInputs inputs;
+  const std::size_t before = inputs.folder.entries();
+  for (const auto& [flag, value, word] : std::initializer_list<std::tuple<const char*, const char*, const char*>>{
+           {"--form", "zernike:1-4", "ordering"},
+           {"--remove", "coma", "coma"},
+           {"--bands", "1,2", "descending"},
+           {"--limit", "x", "radial:A,B"},
+           {"--window", "kaiser", "tukey:R"},
+           {"--profile", "y=99", "does not lie on the map"},
+           {"--profile-png", "p.png", "--profile"}}) {
+    const ProgramResult result =
+        inputs.run({"map", "map.csv", "--map-pixel", "0.5", "--png", "map.png", "--json", "map.json", flag, value});
+    EXPECT_EQ(result.exit_code, 2) << flag;
+    expect_has(result.err, word);
+  }
+  EXPECT_EQ(inputs.folder.entries(), before);
+}
+
 TEST(MapCommand, DrawsAPicture) {
   const SmallInputs inputs;
   ASSERT_EQ(inputs.run({"map", "map.csv", "--map-pixel", "0.5", "--png", "map.png"}).exit_code, 0);

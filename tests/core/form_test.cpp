@@ -28,6 +28,8 @@ Eigen::VectorXd residual_by_normal_equations(const Grid& grid, const std::vector
   if (terms.tilt) add([](Point p) { return p.x; });
   if (terms.tilt) add([](Point p) { return p.y; });
   if (terms.power) add([](Point p) { return p.x * p.x + p.y * p.y; });
+  if (terms.astigmatism) add([](Point p) { return p.x * p.x - p.y * p.y; });
+  if (terms.astigmatism) add([](Point p) { return p.x * p.y; });
   Eigen::MatrixXd b(m, static_cast<Index>(columns.size()));
   for (std::size_t k = 0; k < columns.size(); ++k) b.col(static_cast<Index>(k)) = columns[k];
   const Eigen::MatrixXd normal = b.transpose() * b;
@@ -57,8 +59,8 @@ TEST_P(FormBasis, IsOrthonormalAndRemovesWhatNormalEquationsRemove) {
 
   const Eigen::MatrixXd basis =
       form_basis(grid, pixels, GetParam().terms, GetParam().weighted ? weights : std::vector<double>{});
-  const Index terms =
-      (GetParam().terms.piston ? 1 : 0) + (GetParam().terms.tilt ? 2 : 0) + (GetParam().terms.power ? 1 : 0);
+  const Index terms = (GetParam().terms.piston ? 1 : 0) + (GetParam().terms.tilt ? 2 : 0) +
+                      (GetParam().terms.power ? 1 : 0) + (GetParam().terms.astigmatism ? 2 : 0);
   ASSERT_EQ(basis.cols(), terms);
   ASSERT_EQ(basis.rows(), v.size());
   const Eigen::MatrixXd gram = basis.transpose() * basis;
@@ -73,7 +75,8 @@ TEST_P(FormBasis, IsOrthonormalAndRemovesWhatNormalEquationsRemove) {
 INSTANTIATE_TEST_SUITE_P(Terms, FormBasis,
                          testing::Values(Case{{true, false, false}, false}, Case{{true, true, false}, false},
                                          Case{{true, true, true}, false}, Case{{true, true, true}, true},
-                                         Case{{true, true, false}, true}));
+                                         Case{{true, true, true, true}, false}, Case{{true, true, true, true}, true},
+                                         Case{{true, true, false, true}, true}, Case{{true, true, false}, true}));
 
 TEST(FormBasisRank, DropsColumnsThatDependOnTheOthers) {
   const Grid grid{3, 4, 0.1, 0.1, {1e3, -1e3}};
@@ -83,6 +86,9 @@ TEST(FormBasisRank, DropsColumnsThatDependOnTheOthers) {
   EXPECT_EQ(form_basis(grid, {4, 5, 6, 7}, all).cols(), 3);  // one row: piston, x, x^2
   EXPECT_EQ(form_basis(grid, {0, 1, 4, 5}, all).cols(), 3);  // a square: x^2 + y^2 is constant on it
   EXPECT_EQ(form_basis(grid, {0, 1, 4, 5, 6}, all).cols(), 4);
+  const FormTerms astigmatic{true, true, true, true};
+  EXPECT_EQ(form_basis(grid, {4, 5, 6, 7}, astigmatic).cols(), 3);     // one row: x^2 - y^2 is x^2 as well
+  EXPECT_EQ(form_basis(grid, {0, 1, 4, 5, 6}, astigmatic).cols(), 5);  // as many as pixels
   EXPECT_EQ(form_basis(grid, {}, all).cols(), 0);
   EXPECT_EQ(form_basis(grid, {0, 1}, {}).cols(), 0);
   EXPECT_EQ(form_basis(grid, {0, 1}, all, {0.0, 0.0}).cols(), 0);
@@ -112,11 +118,13 @@ TEST(FormTermsText, ParsesAnyOrderAndPrintsOne) {
   EXPECT_EQ(parse_form_terms("power"), (FormTerms{false, false, true}));
   EXPECT_EQ(parse_form_terms("none"), FormTerms{});
   EXPECT_EQ(to_string(parse_form_terms("power,tilt,piston")), "piston,tilt,power");
+  EXPECT_EQ(parse_form_terms("astigmatism,piston"), (FormTerms{true, false, false, true}));
+  EXPECT_EQ(to_string(parse_form_terms("astigmatism,power")), "power,astigmatism");
   EXPECT_EQ(to_string(FormTerms{}), "none");
 }
 
 TEST(FormTermsText, NamesTheUnknownWord) {
-  test::expect_input_error([] { parse_form_terms("piston,coma"); }, {"'coma'", "piston, tilt, power"});
+  test::expect_input_error([] { parse_form_terms("piston,coma"); }, {"'coma'", "piston, tilt, power, astigmatism"});
   test::expect_input_error([] { parse_form_terms(""); }, {"''", "none"});
   test::expect_input_error([] { parse_form_terms("piston,"); }, {"''"});
   test::expect_input_error([] { parse_form_terms("none,piston"); }, {"'none'", "none alone"});

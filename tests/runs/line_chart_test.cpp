@@ -55,6 +55,46 @@ ChartPanel panel() {
       "x [s]", "y [nm]", {{"red", kRed, {{1.0, 1.0, false}, {10.0, 2.0, true}}}, {"blue", kBlue, {{3.0, 5.0, false}}}}};
 }
 
+TEST(LineCharts, LinearAxesAreLinearAndCutLinesWhereThereIsNoValue) {
+  const double nan = std::nan("");
+  ChartPanel linear{"x",
+                    "y",
+                    {{"", kRed, {{-2.0, -1.0}, {0.0, 0.0}, {1.0, nan}, {2.0, 1.0}}, true}},
+                    AxisScale::Linear,
+                    AxisScale::Linear};
+  const auto picture = testing::decode_png(draw_line_charts("", "", {linear}));
+  // The middle of three dots evenly apart: its centre is the mean of the other two.
+  int first_x = picture.width, last_x = 0, first_y = picture.height, last_y = 0;
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 0; x < picture.width; ++x) {
+      if (!(picture.at(x, y) == kRed)) continue;
+      first_x = std::min(first_x, x), last_x = std::max(last_x, x);
+      first_y = std::min(first_y, y), last_y = std::max(last_y, y);
+    }
+  }
+  const int middle_x = (first_x + last_x) / 2, middle_y = (first_y + last_y) / 2;
+  const auto red_near = [&](int x, int y) {  // within the thickness of a line
+    bool red = false;
+    for (int d = -2; d <= 2; ++d) red = red || picture.at(x, y + d) == kRed;
+    return red;
+  };
+  EXPECT_TRUE(red_near(middle_x, middle_y));
+  EXPECT_TRUE(red_near((3 * first_x + last_x) / 4, (first_y + 3 * last_y) / 4));   // the line to the first
+  EXPECT_FALSE(red_near((first_x + 3 * last_x) / 4, (3 * first_y + last_y) / 4));  // none to the last
+}
+
+TEST(LineCharts, DashedLinesAreHalfAsLongAndBandsAreShaded) {
+  ChartPanel solid{"x", "y", {{"", kRed, {{1.0, 1.0}, {10.0, 10.0}}, false}}}, dashed = solid;
+  dashed.lines[0].dashed = true;
+  dashed.bands = {{"band", 0.0, 3.0, kBlue}};
+  const auto a = testing::decode_png(draw_line_charts("", "", {solid}));
+  const auto b = testing::decode_png(draw_line_charts("", "", {dashed}));
+  const double share = static_cast<double>(pixels_of(b, kRed)) / static_cast<double>(pixels_of(a, kRed));
+  EXPECT_NEAR(share, 0.5, 0.1);
+  EXPECT_EQ(pixels_of(a, kBlue), 0u);
+  EXPECT_GT(pixels_of(b, kBlue), 560u * 420u / 3u);
+}
+
 TEST(LineCharts, DrawEveryLineInEveryPanelAndMarkPoints) {
   const auto one = testing::decode_png(draw_line_charts("title", "marked", {panel()}));
   const auto two = testing::decode_png(draw_line_charts("title", "marked", {panel(), panel()}));

@@ -60,7 +60,7 @@ TEST(DwellProblem, NamesTheFieldOfTheWrongSize) {
   expect_refused([](DwellProblem& p) { p.reference = Vector::Ones(7); }, "reference");
   expect_refused([](DwellProblem& p) { p.weights = Vector::Ones(6); }, "weights");
   expect_refused([](DwellProblem& p) { p.form = Eigen::MatrixXd::Zero(6, 3); }, "form");
-  expect_refused([](DwellProblem& p) { p.form = Eigen::MatrixXd::Identity(200, 5); }, "form");
+  expect_refused([](DwellProblem& p) { p.form = Eigen::MatrixXd::Identity(200, kMaxFormTerms + 1); }, "form");
   expect_refused([](DwellProblem& p) { p.smoothness = PathSmoothness({1.0, 1.0}, {0, 1}); }, "smoothness");
 }
 
