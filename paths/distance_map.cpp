@@ -7,45 +7,12 @@
 #include <limits>
 
 #include "core/errors.h"
+#include "core/lower_envelope.h"
 
 namespace dwell {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-/// g[q] = min over p of f[p] + (pitch (q - p))^2, entries of f possibly infinite (but not all).
-class LowerEnvelope {
- public:
-  LowerEnvelope(Index n, double pitch)
-      : pitch2_(pitch * pitch), apex_(static_cast<std::size_t>(n)), from_(static_cast<std::size_t>(n)) {}
-
-  void operator()(const std::vector<double>& f, std::vector<double>& g) {
-    std::size_t count = 0;
-    for (std::size_t q = 0; q < f.size(); ++q) {
-      if (!std::isfinite(f[q])) continue;
-      while (count > 0 && crossing(f, apex_[count - 1], q) <= from_[count - 1]) --count;
-      from_[count] = count == 0 ? -kInfinity : crossing(f, apex_[count - 1], q);
-      apex_[count++] = q;
-    }
-    std::size_t k = 0;
-    for (std::size_t q = 0; q < f.size(); ++q) {
-      while (k + 1 < count && from_[k + 1] < static_cast<double>(q)) ++k;
-      const double steps = static_cast<double>(q) - static_cast<double>(apex_[k]);
-      g[q] = f[apex_[k]] + pitch2_ * steps * steps;
-    }
-  }
-
- private:
-  /// Where the parabola of `right` falls below that of `left` [nodes].
-  double crossing(const std::vector<double>& f, std::size_t left, std::size_t right) const {
-    const auto l = static_cast<double>(left), r = static_cast<double>(right);
-    return 0.5 * (l + r) + (f[right] - f[left]) / (2.0 * pitch2_ * (r - l));
-  }
-
-  double pitch2_;
-  std::vector<std::size_t> apex_;  // parabolas of the envelope, left to right
-  std::vector<double> from_;       // where each begins
-};
 
 Index margin_nodes(double margin, double extent, double pitch) {
   return static_cast<Index>(std::ceil(std::min(margin, extent) / pitch));
@@ -97,17 +64,15 @@ void DistanceMap::index_rows(const HeightMap& map) {
 void DistanceMap::transform_columns(Index margin_rows, Index margin_cols) {
   node_distance_.resize(static_cast<std::size_t>(nodes_.size()));
   const auto n = static_cast<std::size_t>(nodes_.rows);
-  std::vector<double> along_row(n, kInfinity), squared(n);
+  std::vector<double> along_row(n, kInfinity);
   LowerEnvelope envelope(nodes_.rows, pixels_.pitch_y);
   for (Index col = 0; col < nodes_.cols; ++col) {
     for (Index row = 0; row < pixels_.rows; ++row) {
       along_row[static_cast<std::size_t>(row + margin_rows)] = squared_in_row(row, pixels_.x(col - margin_cols));
     }
-    envelope(along_row, squared);
-    for (Index row = 0; row < nodes_.rows; ++row) {
-      node_distance_[static_cast<std::size_t>(nodes_.index(row, col))] =
-          std::sqrt(squared[static_cast<std::size_t>(row)]);
-    }
+    envelope(along_row, [&](std::size_t row, double squared, std::size_t) {
+      node_distance_[static_cast<std::size_t>(nodes_.index(static_cast<Index>(row), col))] = std::sqrt(squared);
+    });
   }
 }
 
