@@ -55,8 +55,11 @@ double mean_of_data(const HeightMap& map) {
 /// Gerchberg's iteration on the pixels of a map, periodic.
 class Gerchberg {
  public:
-  Gerchberg(const HeightMap& map, const std::vector<Index>& nearest, int threads)
-      : map_(map), mean_(mean_of_data(map)), fft_(good_fft_size(map.grid.rows), good_fft_size(map.grid.cols), threads) {
+  Gerchberg(const HeightMap& map, const std::vector<Index>& nearest, const ExtendOptions& options, int threads)
+      : map_(map),
+        mean_(mean_of_data(map)),
+        fft_(periodic_size(map.grid.rows, map.grid.pitch_y, options),
+             periodic_size(map.grid.cols, map.grid.pitch_x, options), threads) {
     // From the nearest height: what the transform adds beyond the map continues its last row and column.
     for (Index r = 0; r < fft_.rows(); ++r) {
       for (Index c = 0; c < fft_.cols(); ++c) {
@@ -95,6 +98,13 @@ class Gerchberg {
   }
 
  private:
+  /// Pixels of an axis of the transform: between the data at one end and, repeated, at the other lies at least one
+  /// shortest wave, so that they do not pull at each other.
+  static Index periodic_size(Index count, double pitch, const ExtendOptions& options) {
+    const double gap = std::max(0.0, options.shortest - 2.0 * options.width) / pitch;
+    return good_fft_size(count + static_cast<Index>(std::ceil(std::min(gap, static_cast<double>(count)))));
+  }
+
   double& at(Index row, Index col) { return fft_.real()[static_cast<std::size_t>(row * fft_.cols() + col)]; }
 
   void take_out_short_waves(double shortest) {
@@ -120,7 +130,7 @@ class Gerchberg {
 void extend_by_gerchberg(const HeightMap& data, const std::vector<Index>& nearest, const ExtendOptions& options,
                          const std::vector<Index>& region, HeightMap& result, ExtendSummary& summary, int threads,
                          const Progress& progress) {
-  Gerchberg gerchberg(data, nearest, threads);
+  Gerchberg gerchberg(data, nearest, options, threads);
   do {
     tell(progress, fmt::format("gerchberg: iteration {} of at most {}, change {:.1e}", summary.iterations,
                                options.iterations, summary.change));

@@ -37,10 +37,11 @@ struct ExtendSummary {
 /// The map on a grid that is larger by the width on every side (rounded up to whole pixels), with heights in every
 /// pixel without data, in holes too, whose centre is at most `width` from the centre of one with data. Pixels with data
 /// keep theirs to the last bit. Gerchberg (R. W. Gerchberg 1974, "Super-resolution through error energy reduction",
-/// Optica Acta 21, 709; Papoulis 1975): from the nearest height everywhere, in turn take out by FFT, periodic on the
-/// grid, all waves shorter than `shortest` in either direction or across, and put the data back. It converges fast for
-/// long waves only. Throws InputError for options out of range or a map without data. Cost O(pixels), Gerchberg two
-/// FFTs an iteration.
+/// Optica Acta 21, 709; Papoulis 1975): from the nearest height everywhere, in turn take out by FFT all waves shorter
+/// than `shortest` in any direction and put the data back; periodic, with at least `shortest` (at most the map's side)
+/// between the data and its repetition. It converges fast for long waves only, and leaves a step at the edge where the
+/// data has shorter ones. Throws InputError for options out of range or a map without data. Cost O(pixels), Gerchberg
+/// two FFTs an iteration.
 HeightMap extended(const HeightMap& map, const ExtendOptions& options, ExtendSummary& summary, int threads = 1,
                    const Progress& progress = {});
 
