@@ -75,15 +75,15 @@ Matrix interpolation(const Places& fine, const Places& coarse) {
 /// The matrices of all levels and one V-cycle over them.
 class Multigrid {
  public:
-  Multigrid(Matrix a, Places places) {
-    levels_.push_back({std::move(a), {}, {}, {}, {}});
+  Multigrid(const Matrix& a, Places places) {
+    levels_.push_back({a, {}, {}, {}, {}});
     while (places.count > kDirectUnknowns) {
       Places next = coarser(places);
       if (next.count == 0) break;
       Level& fine = levels_.back();
       fine.up = interpolation(places, next);
       Matrix coarse = fine.up.transpose() * Matrix(fine.a * fine.up);
-      levels_.push_back({std::move(coarse), {}, {}, {}, {}});
+      levels_.push_back({coarse, {}, {}, {}, {}});
       places = std::move(next);
     }
     for (Level& level : levels_) level.diagonal = level.a.diagonal();

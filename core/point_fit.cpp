@@ -70,6 +70,7 @@ PointFit fit_points(const std::vector<PointPair>& pairs, PointFitKind kind) {
   const double per = 1.0 / static_cast<double>(pairs.size());
   from = per * from, to = per * to;
   std::vector<PointPair> centred;
+  centred.reserve(pairs.size());
   for (const PointPair& p : pairs) centred.push_back({p.from - from, p.to - to});
   PointFit fit;
   if (kind == PointFitKind::Affine) fit.transform = affine(centred);
