@@ -15,6 +15,7 @@
 #include "runs/input_files.h"
 #include "runs/map_profile.h"
 #include "runs/map_report.h"
+#include "runs/map_steps.h"
 #include "runs/picture.h"
 #include "runs/plan.h"
 
@@ -24,13 +25,14 @@ namespace {
 struct MapArguments {
   std::unique_ptr<JobArguments> job;
   std::string file, write, write_image, png;
+  std::vector<std::string> steps;
   std::string remove = "piston,tilt", form, window = "hann", bands = "33,0.12", limit, json, psd_png, profile,
               profile_png;
   bool psd = false;
 };
 
 /// What of the map is to be told.
-MapReportOptions report_options(const MapArguments& arguments, const CLI::App& command) {
+MapReportOptions report_options(const MapArguments& arguments, const CLI::App& command, int threads) {
   MapReportOptions options;
   options.removed = parse_polynomial_spec(arguments.remove);
   if (!arguments.form.empty()) options.form = parse_polynomial_spec(arguments.form);
@@ -42,7 +44,7 @@ MapReportOptions report_options(const MapArguments& arguments, const CLI::App& c
   if (!arguments.profile_png.empty() && arguments.profile.empty()) {
     throw InputError("--profile-png needs --profile, the line to draw");
   }
-  options.threads = thread_count(0);
+  options.threads = threads;
   return options;
 }
 
@@ -59,12 +61,25 @@ void draw_profile(const MapArguments& arguments, const MapReport& report) {
   write_whole_file(arguments.profile_png, profile_picture(profile, title));
 }
 
+/// The map as read and prepared by the steps, in the order given, within the aperture.
+HeightMap prepared_map(const MapArguments& arguments, JobOptions& options, std::vector<InputFile>& inputs) {
+  for (const std::string& step : arguments.steps) {
+    if (parse_map_steps(step).empty())
+      throw InputError(fmt::format("--step '{}': empty; --steps lists what is accepted", step));
+    options.map_steps += (options.map_steps.empty() ? "" : ";") + step;
+  }
+  HeightMap map = within(load_map(options, inputs, terminal_hooks()), parse_aperture(options.aperture));
+  finish_progress();
+  if (options.aperture != "map") map.history.push_back(fmt::format("aperture {}", options.aperture));
+  return map;
+}
+
 int run_map(const MapArguments& arguments, const CLI::App& command) {
   JobOptions options = arguments.job->options();
   options.map = arguments.file;
-  const MapReportOptions wanted = report_options(arguments, command);
+  const MapReportOptions wanted = report_options(arguments, command, thread_count(options.threads));
   std::vector<InputFile> inputs;
-  const HeightMap map = within(load_map(options, inputs), parse_aperture(options.aperture));
+  const HeightMap map = prepared_map(arguments, options, inputs);
   const MapReport report = map_report(map, wanted);
   const Grid& g = map.grid;
   fmt::print("file      {} (sha256 {})\n", inputs[0].file, inputs[0].sha256);
@@ -74,6 +89,7 @@ int run_map(const MapArguments& arguments, const CLI::App& command) {
   fmt::print("origin    first pixel at ({:.9g}, {:.9g}) mm\n", g.origin.x, g.origin.y);
   fmt::print("valid     {} of {} pixels\n", report.statistics.valid_pixels, g.size());
   fmt::print("{}", map_report_text(report));
+  for (const std::string& step : map.history) fmt::print("made      {}\n", step);
   draw_profile(arguments, report);
   if (!arguments.write.empty()) write_map(arguments.write, map);
   if (!arguments.write_image.empty()) write_whole_file(arguments.write_image, height_image_png(map));
@@ -108,26 +124,42 @@ void add_report_options(CLI::App& command, MapArguments& arguments) {
   text("--profile-png", arguments.profile_png, "FILE", "draw the profile, form removed");
 }
 
+void add_step_options(CLI::App& command, MapArguments& arguments) {
+  command
+      .add_option("--step", arguments.steps,
+                  "prepare the map: a step of --steps; may be given often, done in the order given")
+      ->type_name("NAME[:ARGS]")
+      ->allow_extra_args(false);
+  command.add_flag_callback(
+      "--steps",
+      [] {
+        fmt::print("{}", map_steps_help());
+        throw CLI::Success();
+      },
+      "list the steps with their arguments, units and examples, and stop");
+}
+
 }  // namespace
 
 void add_map_command(CLI::App& program, int& exit_code) {
-  CLI::App* command =
-      program.add_subcommand("map", "print size, pitch, statistics, form and spectra of a map; convert or draw it");
+  CLI::App* command = program.add_subcommand(
+      "map", "print size, pitch, statistics, form and spectra of a map; prepare, convert or draw it");
   auto arguments = std::make_shared<MapArguments>();
   command->add_option("file", arguments->file, "a file in any map format, or run.h5:/path/in/it")
       ->type_name("FILE")
       ->required();
-  const std::vector<std::string> flags{"map-pixel", "map-unit", "map-origin", "aperture"};
+  const std::vector<std::string> flags{"map-pixel", "map-unit", "map-origin", "map-steps", "aperture", "threads"};
   arguments->job = std::make_unique<JobArguments>(*command, flags, false);
   add_report_options(*command, *arguments);
   command->add_option("--write", arguments->write, "write the map as measured [nm]: " + written_map_extensions())
       ->type_name("FILE");
+  add_step_options(*command, *arguments);
   command->add_option("--write-image", arguments->write_image, "write the map as a 16-bit grey PNG, levels = heights")
       ->type_name("FILE.png");
   command->add_option("--png", arguments->png, "draw the map, form removed")->type_name("FILE");
   command->footer(
       "Example:\n  dwell map mirror.csv --map-pixel 0.0938 --remove piston,tilt --png mirror.png\n"
-      "  dwell map mirror.csv --map-pixel 0.0938 --form zernike-noll:1-15 --psd-png spectra.png");
+      "  dwell map mirror.csv --map-pixel 0.0938 --step crop:data --form zernike-noll:1-15 --psd-png spectra.png");
   command->callback([arguments, command, &exit_code] { exit_code = run_map(*arguments, *command); });
 }
 

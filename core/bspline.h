@@ -12,4 +12,10 @@ inline std::array<double, 4> bspline_weights(double f) {
   return {g2 * g / 6.0, (4.0 - 3.0 * f2 * (2.0 - f)) / 6.0, (4.0 - 3.0 * g2 * (2.0 - g)) / 6.0, f2 * f / 6.0};
 }
 
+/// Their derivatives by u.
+inline std::array<double, 4> bspline_slopes(double f) {
+  const double g = 1.0 - f;
+  return {-0.5 * g * g, f * (1.5 * f - 2.0), g * (2.0 - 1.5 * g), 0.5 * f * f};
+}
+
 }  // namespace dwell

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cmath>
-#include <cstddef>
 #include <limits>
 #include <vector>
 
@@ -9,15 +8,17 @@
 
 namespace dwell {
 
-/// g[q] = min over p of f[p] + (pitch (q - p))^2, entries of f possibly infinite (but not all): one axis of an exact
-/// Euclidean distance transform, by lower envelopes of parabolas (Felzenszwalb and Huttenlocher 2012, "Distance
-/// transforms of sampled functions", section 2). f and g have n entries. Cost O(n).
+/// g[q] = min over p of f[p] + (pitch (q - p))^2, entries of f possibly infinite (but not all), and the p that gives
+/// it: the lower envelope of parabolas of Felzenszwalb and Huttenlocher 2012, "Distance transforms of sampled
+/// functions", section 2. Cost O(n). Keeps its buffers between calls.
 class LowerEnvelope {
  public:
   LowerEnvelope(Index n, double pitch)
       : pitch2_(pitch * pitch), apex_(static_cast<std::size_t>(n)), from_(static_cast<std::size_t>(n)) {}
 
-  void operator()(const std::vector<double>& f, std::vector<double>& g) {
+  /// Calls visit(q, g[q], p) for every q in order.
+  template <class Visit>
+  void operator()(const std::vector<double>& f, const Visit& visit) {
     std::size_t count = 0;
     for (std::size_t q = 0; q < f.size(); ++q) {
       if (!std::isfinite(f[q])) continue;
@@ -29,7 +30,7 @@ class LowerEnvelope {
     for (std::size_t q = 0; q < f.size(); ++q) {
       while (k + 1 < count && from_[k + 1] < static_cast<double>(q)) ++k;
       const double steps = static_cast<double>(q) - static_cast<double>(apex_[k]);
-      g[q] = f[apex_[k]] + pitch2_ * steps * steps;
+      visit(q, f[apex_[k]] + pitch2_ * steps * steps, apex_[k]);
     }
   }
 

@@ -64,7 +64,8 @@ std::vector<double> edge_distances(const HeightMap& map, int threads) {
         for (Index k = 0; k < count; ++k) f[static_cast<std::size_t>(k)][static_cast<std::size_t>(row + 1)] = from[k];
       }
       for (Index k = 0; k < count; ++k) {
-        envelope(f[static_cast<std::size_t>(k)], best);
+        envelope(f[static_cast<std::size_t>(k)],
+                 [&best](std::size_t row, double squared, std::size_t) { best[row] = squared; });
         f[static_cast<std::size_t>(k)] = best;
       }
       for (Index row = 0; row < g.rows; ++row) {

@@ -47,6 +47,35 @@ SplineSurface SplineSurface::with_coefficients(const Grid& grid, std::vector<dou
   return surface;
 }
 
+SplineSurface::Jet SplineSurface::jet(Point p) const {
+  const double u = (p.x - grid_.origin.x) / grid_.pitch_x;
+  const double v = (p.y - grid_.origin.y) / grid_.pitch_y;
+  Jet jet;
+  if (!(u > -2.0 && v > -2.0 && u < static_cast<double>(grid_.cols) + 1.0 &&
+        v < static_cast<double>(grid_.rows) + 1.0)) {
+    return jet;
+  }
+  const double fu = std::floor(u), fv = std::floor(v);
+  const auto wx = bspline_weights(u - fu), wy = bspline_weights(v - fv);
+  const auto sx = bspline_slopes(u - fu), sy = bspline_slopes(v - fv);
+  const Index col = static_cast<Index>(fu) - 1, row = static_cast<Index>(fv) - 1;
+  for (Index i = 0; i < 4; ++i) {
+    const Index r = row + i;
+    if (r < 0 || r >= grid_.rows) continue;
+    double across = 0.0, slope = 0.0;
+    for (Index j = std::max<Index>(0, -col); j < std::min<Index>(4, grid_.cols - col); ++j) {
+      const double c = c_[static_cast<std::size_t>(grid_.index(r, col + j))];
+      across += wx[static_cast<std::size_t>(j)] * c;
+      slope += sx[static_cast<std::size_t>(j)] * c;
+    }
+    const auto k = static_cast<std::size_t>(i);
+    jet.value += wy[k] * across;
+    jet.by_x += wy[k] * slope / grid_.pitch_x;
+    jet.by_y += sy[k] * across / grid_.pitch_y;
+  }
+  return jet;
+}
+
 double SplineSurface::operator()(Point p) const {
   const double u = (p.x - grid_.origin.x) / grid_.pitch_x;
   const double v = (p.y - grid_.origin.y) / grid_.pitch_y;

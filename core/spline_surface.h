@@ -23,6 +23,12 @@ class SplineSurface {
   /// The surface at p, in the units of the samples. Cost O(1).
   double operator()(Point p) const;
 
+  /// The surface and its slopes at p.
+  struct Jet {
+    double value = 0.0, by_x = 0.0, by_y = 0.0;
+  };
+  Jet jet(Point p) const;
+
   /// The grid of the coefficients: that of the samples with the ring.
   const Grid& grid() const { return grid_; }
   const std::vector<double>& coefficients() const { return c_; }

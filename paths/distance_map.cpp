@@ -64,17 +64,15 @@ void DistanceMap::index_rows(const HeightMap& map) {
 void DistanceMap::transform_columns(Index margin_rows, Index margin_cols) {
   node_distance_.resize(static_cast<std::size_t>(nodes_.size()));
   const auto n = static_cast<std::size_t>(nodes_.rows);
-  std::vector<double> along_row(n, kInfinity), squared(n);
+  std::vector<double> along_row(n, kInfinity);
   LowerEnvelope envelope(nodes_.rows, pixels_.pitch_y);
   for (Index col = 0; col < nodes_.cols; ++col) {
     for (Index row = 0; row < pixels_.rows; ++row) {
       along_row[static_cast<std::size_t>(row + margin_rows)] = squared_in_row(row, pixels_.x(col - margin_cols));
     }
-    envelope(along_row, squared);
-    for (Index row = 0; row < nodes_.rows; ++row) {
-      node_distance_[static_cast<std::size_t>(nodes_.index(row, col))] =
-          std::sqrt(squared[static_cast<std::size_t>(row)]);
-    }
+    envelope(along_row, [&](std::size_t row, double squared, std::size_t) {
+      node_distance_[static_cast<std::size_t>(nodes_.index(static_cast<Index>(row), col))] = std::sqrt(squared);
+    });
   }
 }
 

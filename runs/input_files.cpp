@@ -12,6 +12,8 @@
 #include "core/spec_text.h"
 #include "core/value_units.h"
 #include "core/whole_file.h"
+#include "runs/map_steps.h"
+#include "runs/plan.h"
 
 namespace dwell {
 namespace {
@@ -51,11 +53,16 @@ TifCentre parse_tif_centre(const std::string& text) {
   }
 }
 
-HeightMap load_map(const JobOptions& options, std::vector<InputFile>& inputs) {
+HeightMap load_map(const JobOptions& options, std::vector<InputFile>& inputs, const RunHooks& hooks) {
   if (options.map.empty()) throw InputError("--map: required; a height-error map, for instance mirror.csv");
   const MapReadOptions read{options.map_pixel_mm, options.map_origin_mm, height_unit_nm(options.map_unit), "map"};
   HeightMap map = read_map(options.map, read);
   inputs.push_back({"map", options.map, sha256_of_file(split_map_name(options.map).file)});
+  MapStepContext context{read, &inputs, thread_count(options.threads), [&hooks](const std::string& line) {
+                           hooks.report("map: " + line);
+                           return !(hooks.stop && hooks.stop());
+                         }};
+  apply_map_steps(map, parse_map_steps(options.map_steps), context);
   return map;
 }
 

@@ -7,6 +7,7 @@
 #include "core/height_map.h"
 #include "core/removal_function.h"
 #include "runs/job_options.h"
+#include "runs/run_hooks.h"
 
 namespace dwell {
 
@@ -17,13 +18,14 @@ Point parse_point(const std::string& text);
 
 /// A file that a run has read, as the user named it, with what it is and its SHA-256.
 struct InputFile {
-  std::string role;  // "map", "tif", "path", "program"
+  std::string role;  // "map", "tif", "path", "program", or the step of a map's preparation that read it
   std::string file;
   std::string sha256;
 };
 
-/// Reads the map of a job and appends the file to `inputs`. Throws InputError.
-HeightMap load_map(const JobOptions& options, std::vector<InputFile>& inputs);
+/// Reads the map of a job, prepares it by the job's steps (runs/map_steps.h) and appends all files read to `inputs`.
+/// Throws InputError, Interrupted.
+HeightMap load_map(const JobOptions& options, std::vector<InputFile>& inputs, const RunHooks& hooks = {});
 
 /// Reads or makes the removal function of a job; a file is appended to `inputs`. Throws InputError.
 RemovalFunction load_removal_function(const JobOptions& options, std::vector<InputFile>& inputs);

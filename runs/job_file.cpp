@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
+#include <optional>
 #include <sstream>
 
 #include "core/errors.h"
@@ -10,6 +11,7 @@
 #include "core/spec_text.h"
 #include "core/version.h"
 #include "core/whole_file.h"
+#include "runs/map_steps.h"
 
 namespace dwell {
 namespace {
@@ -28,7 +30,19 @@ bool takes_text(const JobOptionRecord& record, const std::string& text) {
   return !record.is_number || (record.takes_words && !parse_number(text));
 }
 
+/// The strings of a list, separated by semicolons; nothing if it is no list of strings alone.
+std::optional<std::string> joined(const toml::node& node) {
+  const toml::array* list = node.as_array();
+  if (!list || !list->is_homogeneous(toml::node_type::string)) return std::nullopt;
+  std::string text;
+  for (const toml::node& part : *list) text += (text.empty() ? "" : "; ") + part.as_string()->get();
+  return text;
+}
+
 std::string text_of(const toml::node& node, const JobOptionRecord& record, const std::string& source) {
+  if (record.takes_list) {
+    if (const auto text = joined(node)) return *text;
+  }
   if (record.is_number) {
     if (const auto whole = node.as_integer()) return fmt::format("{}", whole->get());
     if (const auto real = node.as_floating_point()) return fmt::format("{}", real->get());
@@ -41,9 +55,10 @@ std::string text_of(const toml::node& node, const JobOptionRecord& record, const
       if constexpr (toml::is_value<decltype(v)>) value << ' ' << v;
     });
   throw InputError(fmt::format("{}:{} is of type {}; required {}", source, value.str(), type.str(),
-                               record.takes_words ? "a number (without quotes) or words (in quotes)"
-                               : record.is_number ? "a number (without quotes)"
-                                                  : "a string (in quotes)"));
+                               record.takes_list    ? "a string, or a list of strings, (in quotes)"
+                               : record.takes_words ? "a number (without quotes) or words (in quotes)"
+                               : record.is_number   ? "a number (without quotes)"
+                                                    : "a string (in quotes)"));
 }
 
 /// Whether the value of a file option names a file: a removal function may be a formula.
@@ -53,9 +68,17 @@ bool names_a_file(const std::string& value) {
 }
 
 /// The value with its file name taken relative to the job file's folder.
-std::string rebased(const JobOptionRecord& record, const std::string& value, const std::filesystem::path& folder) {
+std::string rebased(const JobOptionRecord& record, const std::string& value, const std::filesystem::path& folder,
+                    const std::string& source) {
   if (value.empty()) return value;
   if (record.is_file && names_a_file(value)) return (folder / value).lexically_normal().string();
+  if (record.key == "map_steps") {
+    try {
+      return rebased_map_steps(value, folder);
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("{}: {}", source, error.what()));
+    }
+  }
   constexpr std::string_view kPathFile = "file:";
   if (record.key == "path" && value.starts_with(kPathFile) && value != kPathFile) {
     return std::string(kPathFile) + (folder / value.substr(kPathFile.size())).lexically_normal().string();
@@ -79,7 +102,7 @@ void read_job_file(const std::filesystem::path& file, JobOptions& options) {
     const JobOptionRecord& record = record_of(name, file.string());
     const std::string source = fmt::format("{}: {}", file.string(), name);
     const std::string value = text_of(node, record, source);
-    set_job_option(options, record, rebased(record, value, file.parent_path()), source);
+    set_job_option(options, record, rebased(record, value, file.parent_path(), source), source);
   }
 }
 

@@ -12,6 +12,7 @@
 #include "paths/path_spec.h"
 #include "runs/gcode_dialect.h"
 #include "runs/input_files.h"
+#include "runs/map_steps.h"
 #include "runs/motion.h"
 #include "runs/weight_option.h"
 #include "solvers/dwell_solver.h"
@@ -70,6 +71,10 @@ std::vector<JobOptionRecord> make_table() {
        [](const Options& o) {
          return o.map_origin_mm ? fmt::format("{},{}", o.map_origin_mm->x, o.map_origin_mm->y) : "";
        }},
+      {"map-steps", "map_steps", "STEPS",
+       "how to prepare the map, before all else: STEP;STEP;... of docs/maps.md, as crop:rect:0,0,9,9;fill:harmonic",
+       false, false, [](Options& o, const std::string& t) { parse_map_steps(t), o.map_steps = t; },
+       [](const Options& o) { return o.map_steps; }, false, true},
       {"tif", "tif", "TIF",
        "removal function: FILE (as the map), gaussian:peak=NM/S,fwhm=MM[,radius=MM] (or sigma=MM) or "
        "disc:slope=NM/S/MM,radius=MM",
@@ -94,8 +99,10 @@ std::vector<JobOptionRecord> make_table() {
       {"remove", "remove", "TERMS", "form terms that do not count: piston,tilt,power,astigmatism or none", false, false,
        [](Options& o, const std::string& t) { parse_form_terms(t), o.remove = t; },
        [](const Options& o) { return o.remove; }},
-      {"aperture", "aperture", "AREA", "what counts: map, rect:X0,Y0,X1,Y1 or circle:X,Y,R in mm", false, false,
-       [](Options& o, const std::string& t) { parse_aperture(t), o.aperture = t; },
+      {"aperture", "aperture", "AREA",
+       "what counts: map, rect:X0,Y0,X1,Y1, circle:X,Y,R, ellipse:X,Y,A,B[,DEG], annulus:X,Y,RIN,ROUT or "
+       "polygon:X,Y,X,Y,...[/HOLE...] in mm",
+       false, false, [](Options& o, const std::string& t) { parse_aperture(t), o.aperture = t; },
        [](const Options& o) { return o.aperture; }},
       {"min-dwell", "min_dwell_s", "S", "shortest dwell time at a point in s", false, true,
        [](Options& o, const std::string& t) { o.min_dwell_s = not_negative(t); },

@@ -16,6 +16,7 @@ struct JobOptions {
   std::optional<double> map_pixel_mm;
   std::string map_unit = "nm";
   std::optional<Point> map_origin_mm;
+  std::string map_steps;
   std::string tif;
   std::optional<double> tif_pixel_mm;
   std::string tif_unit = "nm/s";
@@ -50,6 +51,8 @@ struct JobOptionRecord {
   std::string (*get)(const JobOptions&);
   /// A number may also be left open by words, which stand in quotes in a job file.
   bool takes_words = false;
+  /// A job file may give the parts, which semicolons separate, as a list of strings.
+  bool takes_list = false;
 };
 
 const std::vector<JobOptionRecord>& job_option_table();

@@ -28,7 +28,7 @@ ToolPath rounded(ToolPath path) {
 
 void read_inputs(Plan& plan, const RunHooks& hooks) {
   const JobOptions& o = plan.options;
-  HeightMap whole = load_map(o, plan.inputs);
+  HeightMap whole = load_map(o, plan.inputs, hooks);
   plan.map_pixels = whole.valid_pixels();
   plan.map = within(std::move(whole), parse_aperture(o.aperture));
   plan.terms = parse_form_terms(o.remove);

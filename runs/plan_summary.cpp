@@ -19,6 +19,7 @@ Json map_json(const Plan& plan) {
           {"columns", g.cols},
           {"pixel_mm", {g.pitch_x, g.pitch_y}},
           {"origin_mm", {g.origin.x, g.origin.y}},
+          {"history", plan.map.history},
           {"valid_pixels", plan.map_pixels},
           {"aperture", plan.options.aperture},
           {"aperture_pixels", plan.before.valid_pixels},

@@ -20,7 +20,7 @@ Simulation simulate_file(const std::filesystem::path& program, std::optional<Gco
   hooks.report("read: program, map and removal function");
   s.program = read_program(program, dialect);
   s.inputs.push_back({"program", program.string(), sha256_of_file(program)});
-  const HeightMap map = within(load_map(options, s.inputs), parse_aperture(options.aperture));
+  const HeightMap map = within(load_map(options, s.inputs, hooks), parse_aperture(options.aperture));
   const RemovalFunction tif = load_removal_function(options, s.inputs);
   check_tool_fits(tif, map.grid);
   const RemovalKernel kernel = removal_kernel(tif, map.grid.pitch_x, map.grid.pitch_y);

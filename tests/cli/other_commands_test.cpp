@@ -125,6 +125,39 @@ TEST(MapCommand, DrawsAPicture) {
   EXPECT_EQ(read_whole_file(inputs / "map.png").substr(1, 3), "PNG");
 }
 
+TEST(MapCommand, DoesStepsInOrderAndContinuesTheHistory) {
+  const SmallInputs inputs;
+  const ProgramResult first = inputs.run({"map", "map.csv", "--map-pixel", "0.5", "--step", "decimate:2", "--step",
+                                          "crop:rect:0,0,9,9;flip:x", "--write", "a.csv"});
+  ASSERT_EQ(first.exit_code, 0) << first.err;
+  expect_has(first.out, "made      decimate:factor=2 (11 x 15 pixels, 165 with data of 1 x 1 mm)\n");
+  const ProgramResult second =
+      inputs.run({"map", "a.csv", "--map-steps", "rotate:90", "--aperture", "circle:4.5,4.5,3", "--write", "b.xyz"});
+  ASSERT_EQ(second.exit_code, 0) << second.err;
+  const HeightMap map = read_map(inputs / "b.xyz");
+  ASSERT_EQ(map.history.size(), 5u);
+  EXPECT_EQ(map.history[1].substr(0, 18), "crop:rect:0,0,9,9 ");
+  EXPECT_EQ(map.history[2].substr(0, 12), "flip:axis=x ");
+  EXPECT_EQ(map.history[3].substr(0, 17), "rotate:degrees=90");
+  EXPECT_EQ(map.history[4], "aperture circle:4.5,4.5,3");
+  EXPECT_EQ(map.grid.rows, 9);
+}
+
+TEST(MapCommand, ListsTheStepsAndRefusesOthers) {
+  const SmallInputs inputs;
+  const ProgramResult listed = inputs.run({"map", "--steps"});
+  EXPECT_EQ(listed.exit_code, 0) << listed.err;
+  expect_has(listed.out, "--step 'resample:pitch=0.2'");
+  expect_has(listed.out, "default 5)");
+  for (const auto& [step, word] : {std::pair{"polish:1", "unknown step"}, {"", "empty"}, {"fill:smooth", "harmonic"}}) {
+    const ProgramResult result =
+        inputs.run({"map", "map.csv", "--map-pixel", "0.5", "--step", step, "--write", "out.csv"});
+    EXPECT_EQ(result.exit_code, 2);
+    expect_has(result.err, word);
+    EXPECT_FALSE(std::filesystem::exists(inputs / "out.csv"));
+  }
+}
+
 TEST(SimulateCommand, AgreesWithThePlanForTheTableAndForTheProgram) {
   for (const char* gcode : {"g94", "g93-per-minute", "g93-seconds"}) {
     const SmallInputs inputs;

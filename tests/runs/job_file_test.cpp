@@ -23,6 +23,7 @@ JobOptions unusual() {
   o.map_pixel_mm = 0.1;
   o.map_unit = "um";
   o.map_origin_mm = Point{-12.5, 1.0 / 3.0};
+  o.map_steps = "crop:data; subtract:file=/data/b.csv,how=resample";
   o.tif = "gaussian:peak=1,fwhm=2.8,radius=5";
   o.tif_pixel_mm = 0.2;
   o.tif_unit = "um/min";
@@ -87,6 +88,19 @@ TEST(JobFile, TakesWordsWhereAWeightIsLeftOpen) {
   expect_input_error([&] { read(folder, "smoothness = 'total<=3'\n"); },
                      {"job.toml: smoothness", "'total<=3'", "step<=S", "residual<=NM"});
   expect_input_error([&] { read(folder, "min_dwell_s = 'auto'\n"); }, {"job.toml: min_dwell_s", "without quotes"});
+}
+
+TEST(JobFile, TakesStepsAsOneStringOrAsAList) {
+  const TemporaryFolder folder;
+  const std::string file = (folder.path() / "ref.csv").string();
+  const std::string expected = "crop:data; subtract:file=" + file + "; fill";
+  EXPECT_EQ(read(folder, "map_steps = 'crop:data; subtract:ref.csv ;fill'\n").map_steps, expected);
+  EXPECT_EQ(read(folder, "map_steps = ['crop:data', 'subtract:ref.csv', 'fill']\n").map_steps, expected);
+  expect_input_error([&] { read(folder, "map_steps = ['crop:data', 3]\n"); },
+                     {"job.toml: map_steps", "a list of strings"});
+  expect_input_error([&] { read(folder, "map_steps = 'crip:data'\n"); },
+                     {"job.toml: map_steps", "unknown step 'crip'", "crop, keep"});
+  expect_input_error([&] { read(folder, "map = ['a.csv']\n"); }, {"job.toml: map", "a string (in quotes)"});
 }
 
 TEST(JobFile, TakesWholeAndRealNumbers) {

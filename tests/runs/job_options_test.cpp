@@ -53,12 +53,13 @@ TEST(JobOptionTable, GivesBackWhatItIsGiven) {
        std::initializer_list<std::pair<const char*, const char*>>{{"map-pixel", "0.0938"},
                                                                   {"map-unit", "um"},
                                                                   {"map-origin", "-12.5,3"},
+                                                                  {"map-steps", "crop:data;fill:harmonic"},
                                                                   {"tif-unit", "um/min"},
                                                                   {"tif-centre", "0.25,-1"},
                                                                   {"path", "nearest:cell=2"},
                                                                   {"motion", "stop"},
                                                                   {"remove", "none"},
-                                                                  {"aperture", "circle:1,2,3"},
+                                                                  {"aperture", "polygon:0,0,4,0,2,3"},
                                                                   {"min-dwell", "0.1"},
                                                                   {"max-feed", "1234.5"},
                                                                   {"smoothness", "step<=0.004"},
@@ -103,7 +104,8 @@ TEST(JobOptionTable, RefusesUnknownWordsNamingTheAcceptedOnes) {
   refused("path", "spiral:pitch=1", {"raster", "nearest", "file"});
   refused("motion", "go", {"moving", "stop"});
   refused("remove", "piston,coma", {"piston", "tilt", "power"});
-  refused("aperture", "square:1", {"map", "rect", "circle"});
+  refused("aperture", "square:1", {"map", "rect", "circle", "ellipse", "annulus", "polygon"});
+  refused("map-steps", "polish:1", {"unknown step 'polish'", "resample"});
   refused("solver", "magic", {"projected-cg", "dense-nnls"});
   refused("gcode", "g95", {"g94", "g93-per-minute", "g93-seconds"});
 }

@@ -38,6 +38,22 @@ TEST(MakePlan, CorrectsTheMapAndItsCertificateSaysTheSameResidual) {
   EXPECT_EQ(plan.map_pixels, small_map().valid_pixels());
 }
 
+TEST(MakePlan, PreparesItsMapAndSaysHow) {
+  SmallJob job;
+  job.options.map_steps = "crop:rect:-4.25,1.75,8,12;fill:all";
+  const Plan plan = make_plan(job.options, {});
+  EXPECT_EQ(plan.map.grid.cols, 25);
+  EXPECT_EQ(plan.map.valid_pixels(), plan.map.grid.size());
+  EXPECT_EQ(plan.map_pixels, plan.map.grid.size());
+  ASSERT_EQ(plan.map.history.size(), 2u);
+  OutputFolder folder(job.options.out);
+  Plan written = plan;
+  const auto summary = nlohmann::json::parse(write_plan(written, folder, {}).summary);
+  EXPECT_EQ(summary["map"]["history"], plan.map.history);
+  EXPECT_EQ(summary["options"]["map_steps"], job.options.map_steps);
+  EXPECT_NE(plan.map.history[1].find("fill:how=harmonic,all (1 holes"), std::string::npos) << plan.map.history[1];
+}
+
 TEST(MakePlan, KeepsTheLowerBoundsOfTimeAndFeed) {
   SmallJob job;
   job.options.min_dwell_s = 0.15;

@@ -1,0 +1,47 @@
+#pragma once
+
+#include "core/height_map.h"
+#include "core/plane_transform.h"
+#include "core/progress.h"
+#include "solvers/registration_start.h"
+
+namespace dwell {
+
+struct RegistrationOptions {
+  bool rotation = true;     // whether the fit may turn the moving map,
+  bool scale = false;       // magnify it,
+  bool level = true;        // and add piston and tilt to it, which two measurements seldom share
+  RegistrationRange range;  // of the coarse start; zero range = start where the maps lie
+};
+
+/// A number that was fitted and its standard error; 0 and 0 (scale: 1 and 0) if it was not free.
+struct Estimate {
+  double value = 0.0, error = 0.0;
+};
+
+struct MapRegistration {
+  Estimate x, y;             // shift of the moving map's middle [mm]
+  Estimate degrees;          // counter-clockwise about it
+  Estimate scale{1.0, 0.0};  // lateral magnification about it
+  PlaneTransform transform;  // from places on the moving map to places on the fixed one
+  double rms_before = 0.0;   // of the difference of the maps as they lie, level taken out if it is free [nm];
+                             // NaN if they do not overlap as they lie
+  double rms_after = 0.0;    // and registered [nm]
+  Index points = 0;          // compared
+  int iterations = 0;        // of the fit
+};
+
+/// Brings `moving` onto `fixed`: minimises sum rho(fixed(p) - moving(T^-1 p) - level) over pixels p of the fixed map
+/// with data in both, T = shift, rotation and scale about the middle of the moving map's pixel centres, moving between
+/// its pixels by cubic B-spline. rho is Cauchy's, its scale 2.3849 (95 % efficiency, Holland and Welsch 1977) robust
+/// standard deviations of the residual, so that dust and dropouts do not pull. Ceres (Levenberg-Marquardt); the pixels
+/// and the scale of rho are chosen anew, up to ten times, until the fit stays. At most kRegistrationPoints pixels,
+/// evenly chosen. Standard errors: sigma^2 (J' W J)^-1 for independent errors of equal size; where neighbouring errors
+/// are alike (nearly always) the true ones are larger. Throws InputError if the maps do not overlap or say nothing
+/// about a free number (flat, or alike under a rotation), Interrupted. Cost: the start, then O(points) an iteration.
+MapRegistration register_maps(const HeightMap& moving, const HeightMap& fixed, const RegistrationOptions& options,
+                              int threads = 1, const Progress& progress = {});
+
+inline constexpr Index kRegistrationPoints = 40000;
+
+}  // namespace dwell
