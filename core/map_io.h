@@ -14,6 +14,7 @@ struct MapReadOptions {
   std::optional<Point> origin;  // centre of pixel (0, 0) [mm]; default (0, 0), or what the file says
   double scale = 1.0;           // factor from the file's value unit to nm (or nm/s)
   std::string name = "map";     // what error messages call it: "map" or "tif"
+  MapQuantity quantity = MapQuantity::Height;  // what the values are; a file that says otherwise is refused
 };
 
 /// Reads a map by the file's content and extension (docs/formats.md): matrix CSV/TXT, XYZ, NPY.
@@ -21,7 +22,7 @@ struct MapReadOptions {
 HeightMap read_map(const std::filesystem::path& file, const MapReadOptions& options = {});
 
 /// Writes a map, whole or not at all, in the format of the extension: .csv, .txt (matrix), .xyz, .npy. Values are
-/// written in nm so that they read back equal.
+/// written in nm (rates in nm/s) so that they read back equal.
 void write_map(const std::filesystem::path& file, const HeightMap& map);
 
 }  // namespace dwell
