@@ -15,7 +15,7 @@ namespace dwell {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr int kPanels = 32;
+constexpr int kPanels = 16;
 constexpr int kSteps = 512;
 constexpr std::array<double, 2> kNodes{0.3399810435848563, 0.8611363115940526};  // of Gauss-Legendre, 4 points
 constexpr std::array<double, 2> kWeights{0.6521451548625461, 0.3478548451374538};
@@ -37,6 +37,7 @@ struct Motion {
   }
 
   double mean_speed(double rho) const {
+    if (ratio == -1.0) return arm * half_angle(rho) / kPi;  // every point of the pad moves at the speed of its centre
     const double panel = half_angle(rho) / kPanels;
     double sum = 0.0;
     for (int k = 0; k < kPanels; ++k) {

@@ -62,6 +62,19 @@ Grid grid_turned(const Grid& g, const Turn& turn) {
           {pitch * first_col, pitch * first_row}};
 }
 
+/// Whether one of the four samples around a point is not zero.
+bool removes_near(const HeightMap& rates, Point p) {
+  const Grid& g = rates.grid;
+  const Index row = static_cast<Index>(std::floor((p.y - g.origin.y) / g.pitch_y)),
+              col = static_cast<Index>(std::floor((p.x - g.origin.x) / g.pitch_x));
+  for (Index r = std::max<Index>(row, 0); r <= std::min(row + 1, g.rows - 1); ++r) {
+    for (Index c = std::max<Index>(col, 0); c <= std::min(col + 1, g.cols - 1); ++c) {
+      if (rates.at(r, c) != 0.0) return true;
+    }
+  }
+  return false;
+}
+
 HeightMap turned(const HeightMap& rates, double angle) {
   const Turn turn(angle);
   const Grid& g = rates.grid;
@@ -71,10 +84,8 @@ HeightMap turned(const HeightMap& rates, double angle) {
   for (const double v : rates.values) before += v;
   for (Index i = 0; i < map.grid.size(); ++i) {
     const Point p = turn.back(map.grid.centre(i));
-    // The spline rings on beyond the samples; what was not measured removes nothing.
-    const bool inside = p.x >= g.x(0) - 0.5 * g.pitch_x && p.x <= g.x(g.cols - 1) + 0.5 * g.pitch_x &&
-                        p.y >= g.y(0) - 0.5 * g.pitch_y && p.y <= g.y(g.rows - 1) + 0.5 * g.pitch_y;
-    map.values[static_cast<std::size_t>(i)] = inside ? surface(p) : 0.0;
+    // The spline rings on beyond the samples that remove something; there it removes nothing.
+    map.values[static_cast<std::size_t>(i)] = removes_near(rates, p) ? surface(p) : 0.0;
     sum += map.values[static_cast<std::size_t>(i)];
   }
   const double factor = before * g.pitch_x * g.pitch_y / (sum * map.grid.pitch_x * map.grid.pitch_y);

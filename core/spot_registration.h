@@ -12,7 +12,8 @@ enum class SpotRegistration { Centroid, LeastSquares };
 
 /// Refines the centres of the patches, which must be near the truth to a third of the spot's width. The first keeps its
 /// place as the reference; shifts are to a small part of a pixel (1e-4 without noise). Gauss-Newton on the splines of
-/// the patches within `radius`, three rounds against the mean of all. Cost: about 30 spline evaluations a pixel and
+/// the patches within `radius`, three rounds against the mean of all, on
+/// softened copies (the spots themselves stay as they are). Cost: about 30 spline evaluations a pixel and
 /// spot.
 void register_spots(std::vector<SpotPatch>& patches, double radius, SpotRegistration how);
 

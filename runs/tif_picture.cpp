@@ -88,16 +88,21 @@ std::string fit_picture(const TifResult& result) {
 std::string transfer_picture(const TifResult& result) {
   const RemovalAnalysis& a = result.analysis;
   const TransferFunction& t = a.transfer;
-  std::vector<ChartLine> lines{curve(t, t.radial, "mean over directions", {32, 32, 32}),
-                               curve(t, t.along_x, "along x", {31, 119, 180}),
-                               curve(t, t.along_y, "along y", {214, 39, 40})};
-  const std::array waves{std::pair{a.at_half.radial, a.at_tenth.radial}, std::pair{a.at_half.x, a.at_tenth.x},
-                         std::pair{a.at_half.y, a.at_tenth.y}};
-  for (std::size_t k = 0; k < lines.size(); ++k) {
-    mark(lines[k], waves[k].first, 0.5);
-    mark(lines[k], waves[k].second, 0.1);
-  }
-  return draw_line_charts("Transfer function", "50 % and 10 %", {{"wavelength [mm]", "response", lines}});
+  const auto line = [&](const std::vector<double>& response, const char* label, Colour colour,
+                        const std::optional<double>& half, const std::optional<double>& tenth) {
+    ChartLine drawn = curve(t, response, label, colour);
+    mark(drawn, half, 0.5);
+    mark(drawn, tenth, 0.1);
+    return drawn;
+  };
+  return draw_line_charts("Transfer function", "50 % and 10 %",
+                          {{"wavelength [mm] along x, along y",
+                            "response",
+                            {line(t.along_x, "along x", {31, 119, 180}, a.at_half.x, a.at_tenth.x),
+                             line(t.along_y, "along y", {214, 39, 40}, a.at_half.y, a.at_tenth.y)}},
+                           {"wavelength [mm], mean over all directions",
+                            "response",
+                            {line(t.radial, "mean", {32, 32, 32}, a.at_half.radial, a.at_tenth.radial)}}});
 }
 
 }  // namespace dwell

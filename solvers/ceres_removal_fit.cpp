@@ -9,6 +9,7 @@
 #include <limits>
 #include <memory>
 #include <stdexcept>
+#include <utility>
 
 #include "core/errors.h"
 #include "solvers/removal_fit_starts.h"
@@ -135,7 +136,7 @@ class Fit {
     std::vector<double> best_values;
     for (const std::vector<double>& start : starts_) {
       take(start);
-      const double cost = minimise(few_, 0.0, 25).final_cost;
+      const double cost = minimise(few_, 0.0, 15).final_cost;
       // A start that the solver could not even evaluate has a negative cost.
       if (!(cost >= 0.0 && cost < best)) continue;
       best = cost;
@@ -255,7 +256,10 @@ class Fit {
           sum = std::numeric_limits<double>::quiet_NaN();  // the samples leave it open
         }
       }
-      parameters_[free[static_cast<std::size_t>(j)]].error = std::sqrt(variance * sum) / size[j];
+      FittedParameter& parameter = parameters_[free[static_cast<std::size_t>(j)]];
+      parameter.error = std::sqrt(variance * sum) / size[j];
+      // No direction is known to no better than a quarter turn.
+      if (parameter.unit == "deg" && parameter.error > 90.0) parameter.error = std::numeric_limits<double>::quiet_NaN();
     }
   }
 
@@ -268,7 +272,17 @@ class Fit {
     return text;
   }
 
+  /// A D turned half round with its steep and its long side exchanged is the same D: the long side is taken to be
+  /// upstream.
+  void put_long_side_first() {
+    if (model_.name != "mrf" || parameters_[3].held || parameters_[4].held || parameters_[6].held) return;
+    if (values_[3] >= values_[4]) return;
+    std::swap(values_[3], values_[4]);
+    values_[6] += 180.0;
+  }
+
   RemovalFit result(const ceres::Solver::Summary& summary) {
+    put_long_side_first();
     const std::vector<double> r = residuals();
     find_errors(r);
     RemovalFit fit;

@@ -69,6 +69,16 @@ TEST(Oriented, MovesSamplesAsTheyAreForQuarterTurns) {
   EXPECT_EQ(oriented(tif, {0.0, Flip::None}).samples.values, tif.samples.values);
 }
 
+TEST(Oriented, DoesNotGrowWhereTheSplineRings) {
+  HeightMap rates = spot().samples;
+  for (Index i = 0; i < rates.grid.size(); ++i) {
+    if (length(rates.grid.centre(i)) > 3.0) rates.values[static_cast<std::size_t>(i)] = 0.0;
+  }
+  const RemovalFunction tif = measured_removal(rates, {TifCentre::Kind::Given, {}});
+  EXPECT_LE(tif.radius, 3.0);
+  EXPECT_LE(oriented(tif, {45.0, Flip::None}).radius, 3.0 + 2.0 * 0.15);
+}
+
 TEST(Oriented, LeavesRoundToolsAlone) {
   EXPECT_EQ(kind_of(oriented(gaussian_removal(1.0, 2.0, 3.0), {45.0, Flip::X})), "gaussian");
   test::expect_input_error([] { parse_flip("z"); }, {"'z'", "none, x, y"});
