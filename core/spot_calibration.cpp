@@ -199,6 +199,7 @@ SpotCalibration calibrate_spots(const HeightMap& depth, const SpotOptions& optio
   result.radius = options.radius ? *options.radius : radius_of(depth, spots);
   const double radius = result.radius, per_second = 1.0 / options.dwell_time;
   std::vector<Point> centres;
+  centres.reserve(spots.size());
   for (const FoundSpot& s : spots) centres.push_back(s.centre);
   std::vector<SpotPatch> patches;
   for (const Point p : centres) {

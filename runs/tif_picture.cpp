@@ -69,7 +69,8 @@ std::string tif_picture(const TifResult& result) {
 std::string fit_picture(const TifResult& result) {
   const RemovalFit& fit = result.fits.front();
   const auto [least, most] = std::minmax_element(result.rates.values.begin(), result.rates.values.end());
-  const double lower = std::min(0.0, *least), upper = *most;
+  const double lower = std::min(0.0, *least),
+               upper = std::max(*most, *std::max_element(fit.fitted.values.begin(), fit.fitted.values.end()));
   const std::array plots{
       plot_of(result.rates, ColourMap::Sequential, lower, upper, "removal function"),
       plot_of(fit.fitted, ColourMap::Sequential, lower, upper, "fit: " + fit.model),

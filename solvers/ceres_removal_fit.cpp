@@ -92,7 +92,9 @@ class Fit {
   }
 
   void hold(const RemovalFitOptions& options) {
-    for (const auto& [name, value] : options.held) {
+    for (const auto& entry : options.held) {
+      const std::string& name = entry.first;
+      const double value = entry.second;
       const auto found = std::find_if(parameters_.begin(), parameters_.end(),
                                       [&](const FittedParameter& p) { return p.name == name; });
       if (found == parameters_.end()) {
