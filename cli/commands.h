@@ -9,6 +9,7 @@ void add_plan_command(CLI::App& program, int& exit_code);
 void add_pareto_command(CLI::App& program, int& exit_code);
 void add_simulate_command(CLI::App& program, int& exit_code);
 void add_map_command(CLI::App& program, int& exit_code);
+void add_tif_command(CLI::App& program, int& exit_code);
 void add_example_command(CLI::App& program, int& exit_code);
 
 }  // namespace dwell::cli

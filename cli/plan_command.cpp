@@ -26,7 +26,7 @@ void print_plan(const Plan& plan, const WrittenPlan& written) {
   fmt::print("before    RMS {:.4g} nm, PV {:.4g} nm ({} removed)\n", plan.before.rms, plan.before.pv,
              to_string(plan.terms));
   fmt::print("tool      {}, peak {:.4g} nm/s, volume {:.4g} nm mm^2/s, FWHM {:.4g} mm, radius {:.4g} mm\n",
-             to_string(plan.tif.kind), plan.tif.peak, plan.tif.volume, plan.tif.fwhm, plan.tif.radius);
+             kind_of(plan.tif), plan.tif.peak, plan.tif.volume, plan.tif.fwhm, plan.tif.radius);
   fmt::print("path      {}, {} points, {:.6g} mm, longest jump {:.4g} mm, {} lifts\n", plan.path.kind,
              plan.metrics.points, plan.metrics.length, plan.metrics.longest_jump, plan.metrics.lifts);
   fmt::print("weights   smoothness {:.4g}, time price {:.4g} nm^2/s ({})\n", plan.weights.smoothness,

@@ -6,6 +6,7 @@
 
 #include "core/fits.h"
 #include "core/fits_handle.h"
+#include "core/value_units.h"
 
 namespace dwell {
 namespace {
@@ -30,7 +31,7 @@ void write_header(fitsfile* file, const HeightMap& map) {
   const auto number = [&](const std::string& name, double value, const char* comment) {
     fits_write_key_dbl(file, name.c_str(), value, kDigits, comment, &status);
   };
-  text("BUNIT", "nm", "heights");
+  text("BUNIT", unit_of(map.quantity).c_str(), map.quantity == MapQuantity::Rate ? "removal rates" : "heights");
   const Grid& g = map.grid;
   for (const int n : {1, 2}) {
     const std::string axis = std::to_string(n);

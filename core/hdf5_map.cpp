@@ -10,6 +10,7 @@
 #include "core/hdf5_file.h"
 #include "core/isolated_reader.h"
 #include "core/number_text.h"
+#include "core/value_units.h"
 #include "core/zygo_datx.h"
 
 namespace dwell {
@@ -107,7 +108,7 @@ std::string hdf5_map_bytes(const HeightMap& map) {
   content.values = map.values;
   content.numbers = {{"pitch_mm", {map.grid.pitch_x, map.grid.pitch_y}},
                      {"origin_mm", {map.grid.origin.x, map.grid.origin.y}}};
-  content.texts = {{"unit", "nm"}};
+  content.texts = {{"unit", unit_of(map.quantity)}};
   content.lists = {{"history", map.history}};
   return hdf5_bytes(content);
 }

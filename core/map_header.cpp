@@ -6,6 +6,7 @@
 
 #include "core/errors.h"
 #include "core/number_text.h"
+#include "core/value_units.h"
 
 namespace dwell {
 namespace {
@@ -50,12 +51,13 @@ void read_header_line(std::string_view line, const std::string& place, MapHeader
   }
 }
 
-std::string header_lines(const Grid& grid, const std::vector<std::string>& history) {
+std::string header_lines(const HeightMap& map) {
+  const Grid& grid = map.grid;
   const std::string pitch =
       grid.pitch_x == grid.pitch_y ? fmt::format("{}", grid.pitch_x) : fmt::format("{},{}", grid.pitch_x, grid.pitch_y);
-  std::string lines =
-      fmt::format("# pitch_mm: {}\n# origin_mm: {},{}\n# unit: nm\n", pitch, grid.origin.x, grid.origin.y);
-  for (const std::string& step : history) lines += fmt::format("# made: {}\n", step);
+  std::string lines = fmt::format("# pitch_mm: {}\n# origin_mm: {},{}\n# unit: {}\n", pitch, grid.origin.x,
+                                  grid.origin.y, unit_of(map.quantity));
+  for (const std::string& step : map.history) lines += fmt::format("# made: {}\n", step);
   return lines;
 }
 

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/grid.h"
+#include "core/height_map.h"
 
 namespace dwell {
 
@@ -22,7 +22,7 @@ struct MapHeader {
 /// Throws InputError for a known key whose value cannot be read or that comes a second time.
 void read_header_line(std::string_view line, const std::string& place, MapHeader& header);
 
-/// The comment lines that make a text map of this grid and history, in nm, read back equal.
-std::string header_lines(const Grid& grid, const std::vector<std::string>& history);
+/// The comment lines that make a text map of this grid, quantity (in nm or nm/s) and history read back equal.
+std::string header_lines(const HeightMap& map);
 
 }  // namespace dwell

@@ -74,9 +74,11 @@ void check_unit(const MapHeader& header, const MapReadOptions& options, const st
   if (!header.unit) return;
   double factor = 0.0;
   try {
-    factor = value_unit_factor(*header.unit);
+    factor = unit_factor(*header.unit, options.quantity);
   } catch (const InputError& error) {
-    throw InputError(fmt::format("{}: header says unit {}", where, error.what()));
+    throw InputError(fmt::format("{}: header says unit {} ({})", where, error.what(),
+                                 options.quantity == MapQuantity::Rate ? "removal rates are required here, not heights"
+                                                                       : "heights are required here, not rates"));
   }
   if (!same(factor, options.scale, factor)) {
     throw InputError(
@@ -97,6 +99,7 @@ HeightMap map_of_source(MapSource source, const MapReadOptions& options, const s
   const Point origin = known_origin(source.header, options, where).value_or(on_camera);
   HeightMap map({source.rows, source.cols, pitch->x, pitch->y, origin}, std::move(source.values));
   map.history = std::move(source.header.history);
+  map.quantity = options.quantity;
   return map;
 }
 
@@ -106,6 +109,7 @@ HeightMap read_xyz(std::string_view text, const MapReadOptions& options, const s
   HeightMap map = grid_points(xyz.points, known_pitch(xyz.header, options, where),
                               known_origin(xyz.header, options, where), where, options.name);
   map.history = std::move(xyz.header.history);
+  map.quantity = options.quantity;
   return map;
 }
 

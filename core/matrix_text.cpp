@@ -87,8 +87,7 @@ MapSource parse_matrix_text(std::string_view text, const std::string& where) {
 std::string matrix_text(const HeightMap& map, char separator) {
   fmt::memory_buffer buffer;
   auto out = std::back_inserter(buffer);
-  fmt::format_to(out, "{}# rows: row 1 = smallest y; columns: column 1 = smallest x\n",
-                 header_lines(map.grid, map.history));
+  fmt::format_to(out, "{}# rows: row 1 = smallest y; columns: column 1 = smallest x\n", header_lines(map));
   for (Index row = 0; row < map.grid.rows; ++row) {
     for (Index col = 0; col < map.grid.cols; ++col) {
       if (col > 0) buffer.push_back(separator);

@@ -14,7 +14,7 @@ namespace dwell {
 /// column of a ragged row, of what is not a number, and of an infinity. Cost O(bytes).
 MapSource parse_matrix_text(std::string_view text, const std::string& where);
 
-/// The map as text with a header, in nm, every number with the digits that read back equal.
+/// The map as text with a header, in nm (rates in nm/s), every number with the digits that read back equal.
 std::string matrix_text(const HeightMap& map, char separator);
 
 }  // namespace dwell

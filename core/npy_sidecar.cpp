@@ -9,6 +9,7 @@
 #include "core/errors.h"
 #include "core/npy.h"
 #include "core/number_text.h"
+#include "core/value_units.h"
 #include "core/whole_file.h"
 
 namespace dwell {
@@ -87,7 +88,7 @@ Json entry_of(const HeightMap& map, const std::string& npy) {
   const Grid& grid = map.grid;
   return {{"pitch_mm", {grid.pitch_x, grid.pitch_y}},
           {"origin_mm", {grid.origin.x, grid.origin.y}},
-          {"unit", "nm"},
+          {"unit", unit_of(map.quantity)},
           {"history", map.history},
           {"sha256", sha256_of(npy)}};
 }

@@ -118,14 +118,16 @@ RemovalFunction measured_removal(const HeightMap& rates, const TifCentre& centre
   return tif;
 }
 
-std::string to_string(RemovalFunction::Kind kind) {
-  switch (kind) {
+std::string kind_of(const RemovalFunction& tif) {
+  switch (tif.kind) {
     case RemovalFunction::Kind::Gaussian:
       return "gaussian";
     case RemovalFunction::Kind::Disc:
       return "disc";
     case RemovalFunction::Kind::Measured:
       return "measured";
+    case RemovalFunction::Kind::Model:
+      return tif.model;
   }
   return "unknown";
 }

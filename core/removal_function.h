@@ -18,7 +18,7 @@ struct TifCentre {
 /// [mm]. Rows are y, columns are x, as in a map: the sample at displacement d acts on the part at p + d when the
 /// tool stands at p.
 struct RemovalFunction {
-  enum class Kind { Gaussian, Disc, Measured };
+  enum class Kind { Gaussian, Disc, Measured, Model };
 
   Kind kind = Kind::Gaussian;
   double peak = 0.0;    // largest rate [nm/s]
@@ -27,7 +27,8 @@ struct RemovalFunction {
   double radius = 0.0;  // no removal farther than this from the axis, along x or y [mm]
   double sigma = 0.0;   // Gaussian only [mm]
   double slope = 0.0;   // Disc only: rate = slope * r [nm/s/mm]
-  HeightMap samples;    // Measured only: rates on their own grid, NaN read as 0, origin relative to the tool axis
+  HeightMap samples;    // Measured and Model: rates on their own grid, NaN read as 0, origin relative to the tool axis
+  std::string model;    // Model only: which formula the samples were computed from (core/removal_models.h)
 };
 
 /// Gaussian cut off at `radius`: b(r) = peak exp(-r^2 / 2 sigma^2) for r <= radius. peak [nm/s], fwhm and radius
@@ -42,6 +43,7 @@ RemovalFunction spinning_disc_removal(double slope, double radius);
 /// asked for and the sum is not positive.
 RemovalFunction measured_removal(const HeightMap& rates, const TifCentre& centre);
 
-std::string to_string(RemovalFunction::Kind kind);
+/// "gaussian", "disc", "measured", or the name of the model.
+std::string kind_of(const RemovalFunction& tif);
 
 }  // namespace dwell

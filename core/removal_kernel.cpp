@@ -27,7 +27,9 @@ double disc_pixel_mean(const RemovalFunction& tif, Point centre, double hx, doub
   return sum / (kSub * kSub);
 }
 
-std::function<double(Point)> sampler(const RemovalFunction& tif, double hx, double hy) {
+}  // namespace
+
+std::function<double(Point)> rate_at_pixel(const RemovalFunction& tif, double hx, double hy) {
   switch (tif.kind) {
     case RemovalFunction::Kind::Gaussian:
       return [&tif](Point p) {
@@ -37,12 +39,11 @@ std::function<double(Point)> sampler(const RemovalFunction& tif, double hx, doub
     case RemovalFunction::Kind::Disc:
       return [&tif, hx, hy](Point p) { return disc_pixel_mean(tif, p, hx, hy); };
     case RemovalFunction::Kind::Measured:
+    case RemovalFunction::Kind::Model:
       break;
   }
   return SplineSurface(tif.samples.grid, tif.samples.values);
 }
-
-}  // namespace
 
 RemovalKernel removal_kernel(const RemovalFunction& tif, double pitch_x, double pitch_y) {
   if (!(tif.fwhm >= 2.0 * std::max(pitch_x, pitch_y))) {
@@ -58,7 +59,7 @@ RemovalKernel removal_kernel(const RemovalFunction& tif, double pitch_x, double 
                   pitch_x,
                   pitch_y,
                   {-pitch_x * static_cast<double>(rx), -pitch_y * static_cast<double>(ry)}};
-  const auto rate = sampler(tif, pitch_x, pitch_y);
+  const auto rate = rate_at_pixel(tif, pitch_x, pitch_y);
   std::vector<double> samples(static_cast<std::size_t>(grid.size()));
   double sum = 0.0;
   for (Index i = 0; i < grid.size(); ++i) {

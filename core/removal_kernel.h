@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 #include "core/removal_function.h"
 #include "core/spline_surface.h"
 
@@ -17,6 +19,11 @@ struct RemovalKernel {
 
   double rate(Point displacement) const { return surface(displacement); }
 };
+
+/// What a pixel of hx by hy [mm] at a displacement from the tool axis is given as its rate [nm/s]: the formula or the
+/// spline through the samples at its centre; of a disc, whose rim is a jump, the mean over the pixel. It refers to
+/// `tif`.
+std::function<double(Point)> rate_at_pixel(const RemovalFunction& tif, double hx, double hy);
 
 /// Samples `tif` at the pitch (pitch_x, pitch_y) [mm]. Throws InputError if the removal function is too narrow for
 /// the pitch: FWHM below 2 pixels, or a volume factor outside 0.9 .. 1.1. Cost O(size of the removal function).

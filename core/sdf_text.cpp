@@ -177,6 +177,9 @@ MapSource parse_sdf_text(std::string_view text, const std::string& where) {
 }
 
 std::string sdf_text(const HeightMap& map) {
+  if (map.quantity != MapQuantity::Height) {
+    throw InputError("a surface data file (.sdf) holds heights, not removal rates; .csv, .npy or .h5 hold either");
+  }
   const Grid& grid = map.grid;
   fmt::memory_buffer buffer;
   auto out = std::back_inserter(buffer);
@@ -199,7 +202,7 @@ std::string sdf_text(const HeightMap& map) {
   }
   fmt::format_to(out, "*\r\n");
   std::string text = fmt::to_string(buffer);
-  for (const char c : header_lines(grid, map.history)) text += c == '\n' ? "\r\n" : std::string(1, c);
+  for (const char c : header_lines(map)) text += c == '\n' ? "\r\n" : std::string(1, c);
   return text + "*\r\n";
 }
 

@@ -75,6 +75,10 @@ double SpecText::number(std::string_view key) const {
 double SpecText::number(std::string_view key, double fallback) const { return optional_number(key).value_or(fallback); }
 
 void SpecText::accept_only(std::initializer_list<std::string_view> keys) const {
+  accept_only(std::vector<std::string>(keys.begin(), keys.end()));
+}
+
+void SpecText::accept_only(const std::vector<std::string>& keys) const {
   for (const auto& [key, value] : entries) {
     if (std::find(keys.begin(), keys.end(), key) == keys.end()) {
       refuse(*this, fmt::format("unknown key \"{}\"; accepted for {}: {}", key, kind, fmt::join(keys, ", ")));

@@ -27,6 +27,7 @@ struct SpecText {
 
   /// Throws if a key is not among those accepted.
   void accept_only(std::initializer_list<std::string_view> keys) const;
+  void accept_only(const std::vector<std::string>& keys) const;
 };
 
 /// Splits the text. Throws InputError if the kind is empty, an entry is not key=value, or a key is given twice.

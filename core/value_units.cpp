@@ -23,21 +23,24 @@ constexpr Unit kRates[] = {{"nm/s", 1.0},
                            {"um/min", units::kNmPerUm / units::kSecondsPerMinute},
                            {"m/s", units::kNmPerM}};
 
-double factor_of(const std::string& unit, std::initializer_list<std::span<const Unit>> accepted) {
+double factor_of(const std::string& unit, std::span<const Unit> accepted) {
   std::string names;
-  for (const auto& list : accepted) {
-    for (const Unit& known : list) {
-      if (unit == known.name) return known.factor;
-      names += fmt::format("{}{}", names.empty() ? "" : ", ", known.name);
-    }
+  for (const Unit& known : accepted) {
+    if (unit == known.name) return known.factor;
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", known.name);
   }
   throw InputError(fmt::format("'{}'; accepted: {}", unit, names));
 }
 
 }  // namespace
 
-double height_unit_nm(const std::string& unit) { return factor_of(unit, {kHeights}); }
-double rate_unit_nm_per_s(const std::string& unit) { return factor_of(unit, {kRates}); }
-double value_unit_factor(const std::string& unit) { return factor_of(unit, {kHeights, kRates}); }
+double height_unit_nm(const std::string& unit) { return factor_of(unit, kHeights); }
+double rate_unit_nm_per_s(const std::string& unit) { return factor_of(unit, kRates); }
+
+double unit_factor(const std::string& unit, MapQuantity quantity) {
+  return quantity == MapQuantity::Rate ? rate_unit_nm_per_s(unit) : height_unit_nm(unit);
+}
+
+std::string unit_of(MapQuantity quantity) { return quantity == MapQuantity::Rate ? "nm/s" : "nm"; }
 
 }  // namespace dwell

@@ -11,6 +11,7 @@
 #include "core/errors.h"
 #include "core/number_text.h"
 #include "core/text_lines.h"
+#include "core/value_units.h"
 
 namespace dwell {
 namespace {
@@ -128,7 +129,7 @@ XyzText parse_xyz_text(std::string_view text, const std::string& where) {
 std::string xyz_text(const HeightMap& map) {
   fmt::memory_buffer buffer;
   auto out = std::back_inserter(buffer);
-  fmt::format_to(out, "{}# x_mm y_mm z_nm\n", header_lines(map.grid, map.history));
+  fmt::format_to(out, "{}# x_mm y_mm z_{}\n", header_lines(map), unit_of(map.quantity));
   for (Index row = 0; row < map.grid.rows; ++row) {
     for (Index col = 0; col < map.grid.cols; ++col) {
       fmt::format_to(out, "{} {} ", map.grid.x(col), map.grid.y(row));

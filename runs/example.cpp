@@ -197,6 +197,7 @@ HeightMap example_tif(const ExampleTifOptions& options) {
   check(options);
   const double edge = options.pitch * (2.0 * std::floor(options.half_width / options.pitch + 1e-9) + 1.0);
   HeightMap map(centred_grid(edge, edge, options.pitch));
+  map.quantity = MapQuantity::Rate;
   RandomNumbers random(options.seed);
   for (Index i = 0; i < map.grid.size(); ++i) {
     const Point d = map.grid.centre(i) - Point{options.offset_x, options.offset_y};

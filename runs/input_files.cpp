@@ -2,13 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <numbers>
+#include <filesystem>
 
 #include "core/errors.h"
 #include "core/map_io.h"
 #include "core/map_name.h"
 #include "core/number_text.h"
+#include "core/removal_models.h"
+#include "core/removal_orientation.h"
 #include "core/spec_text.h"
 #include "core/value_units.h"
 #include "core/whole_file.h"
@@ -16,23 +17,6 @@
 #include "runs/plan.h"
 
 namespace dwell {
-namespace {
-
-RemovalFunction analytic(const SpecText& spec) {
-  if (spec.kind == "gaussian") {
-    spec.accept_only({"peak", "fwhm", "sigma", "radius"});
-    if (spec.has("fwhm") == spec.has("sigma")) {
-      throw InputError(fmt::format("tif '{}': give either fwhm or sigma [mm]", spec.text));
-    }
-    const double fwhm =
-        spec.has("fwhm") ? spec.number("fwhm") : spec.number("sigma") * std::sqrt(8.0 * std::numbers::ln2);
-    return gaussian_removal(spec.number("peak"), fwhm, spec.number("radius", 1.5 * fwhm));
-  }
-  spec.accept_only({"slope", "radius"});
-  return spinning_disc_removal(spec.number("slope"), spec.number("radius"));
-}
-
-}  // namespace
 
 Point parse_point(const std::string& text) {
   const auto fields = split(text, ',');
@@ -68,13 +52,19 @@ HeightMap load_map(const JobOptions& options, std::vector<InputFile>& inputs, co
 
 RemovalFunction load_removal_function(const JobOptions& options, std::vector<InputFile>& inputs) {
   if (options.tif.empty()) throw InputError("--tif: required; a file of rates, or gaussian:peak=1,fwhm=2.8,radius=5");
-  const std::string kind = split_kind(options.tif).first;
-  if (kind == "gaussian" || kind == "disc") return analytic(parse_spec_text(options.tif, "tif"));
-  const MapReadOptions read{options.tif_pixel_mm, std::nullopt, rate_unit_nm_per_s(options.tif_unit), "tif"};
+  const ToolOrientation orientation{options.tif_angle_deg, parse_flip(options.tif_flip)};
+  if (is_removal_model(split_kind(options.tif).first)) {
+    return oriented(removal_of_spec(parse_spec_text(options.tif, "tif")), orientation);
+  }
+  if (options.tif.find(':') != std::string::npos && !std::filesystem::exists(options.tif)) {
+    removal_model(split_kind(options.tif).first);  // a misspelt model: says which there are
+  }
+  const MapReadOptions read{options.tif_pixel_mm, std::nullopt, rate_unit_nm_per_s(options.tif_unit), "tif",
+                            MapQuantity::Rate};
   const HeightMap rates = read_map(options.tif, read);
   inputs.push_back({"tif", options.tif, sha256_of_file(split_map_name(options.tif).file)});
   try {
-    return measured_removal(rates, parse_tif_centre(options.tif_centre));
+    return oriented(measured_removal(rates, parse_tif_centre(options.tif_centre)), orientation);
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", options.tif, error.what()));
   }

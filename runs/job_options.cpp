@@ -8,6 +8,7 @@
 #include "core/errors.h"
 #include "core/form.h"
 #include "core/number_text.h"
+#include "core/removal_orientation.h"
 #include "core/value_units.h"
 #include "paths/path_spec.h"
 #include "runs/gcode_dialect.h"
@@ -33,6 +34,10 @@ double positive(const std::string& text) {
 
 double not_negative(const std::string& text) {
   return number(text, "a number >= 0", [](double v) { return v >= 0.0; });
+}
+
+double any_angle(const std::string& text) {
+  return number(text, "an angle from -360 to 360 degrees", [](double v) { return v >= -360.0 && v <= 360.0; });
 }
 
 int whole(const std::string& text) {
@@ -76,8 +81,10 @@ std::vector<JobOptionRecord> make_table() {
        false, false, [](Options& o, const std::string& t) { parse_map_steps(t), o.map_steps = t; },
        [](const Options& o) { return o.map_steps; }, false, true},
       {"tif", "tif", "TIF",
-       "removal function: FILE (as the map), gaussian:peak=NM/S,fwhm=MM[,radius=MM] (or sigma=MM) or "
-       "disc:slope=NM/S/MM,radius=MM",
+       "removal function: FILE (as the map), gaussian:peak=NM/S,fwhm=MM[,radius=MM] (or sigma=MM), "
+       "disc:slope=NM/S/MM,radius=MM, or another model (elliptic-gaussian, super-gaussian, planetary, mrf, bonnet) "
+       "with "
+       "its keys",
        true, false, [](Options& o, const std::string& t) { o.tif = t; }, [](const Options& o) { return o.tif; }},
       {"tif-pixel", "tif_pixel_mm", "MM", "pixel pitch of the removal function's file, for formats that carry none",
        false, true, [](Options& o, const std::string& t) { o.tif_pixel_mm = positive(t); },
@@ -89,6 +96,15 @@ std::vector<JobOptionRecord> make_table() {
        "the tool axis in the removal function's file: middle (of its grid), centroid, or X,Y in mm", false, false,
        [](Options& o, const std::string& t) { parse_tif_centre(t), o.tif_centre = t; },
        [](const Options& o) { return o.tif_centre; }},
+      {"tif-angle", "tif_angle_deg", "DEG",
+       "turns the removal function about the tool axis, counter-clockwise seen from +z, x to the right and y up, in "
+       "degrees",
+       false, true, [](Options& o, const std::string& t) { o.tif_angle_deg = any_angle(t); },
+       [](const Options& o) { return shown(o.tif_angle_deg); }},
+      {"tif-flip", "tif_flip", "AXIS",
+       "mirrors the removal function before it is turned: x (+x becomes -x), y, or none", false, false,
+       [](Options& o, const std::string& t) { parse_flip(t), o.tif_flip = t; },
+       [](const Options& o) { return o.tif_flip; }},
       {"path", "path", "PATH",
        "raster:pitch=MM[,step=,angle=,overrun=,order=], nearest:cell=MM[,critical=,lift=,start=X/Y] or file:PATH.csv",
        false, false, [](Options& o, const std::string& t) { parse_path_spec(t), o.path = t; },

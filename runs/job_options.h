@@ -21,6 +21,8 @@ struct JobOptions {
   std::optional<double> tif_pixel_mm;
   std::string tif_unit = "nm/s";
   std::string tif_centre = "middle";
+  double tif_angle_deg = 0.0;
+  std::string tif_flip = "none";
   std::string path;
   std::string motion = "moving";
   std::string remove = "piston,tilt";

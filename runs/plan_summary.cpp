@@ -28,9 +28,13 @@ Json map_json(const Plan& plan) {
 }
 
 Json tif_json(const Plan& plan) {
-  return {{"kind", to_string(plan.tif.kind)},       {"peak_nm_per_s", plan.tif.peak},
-          {"volume_nm_mm2_per_s", plan.tif.volume}, {"fwhm_mm", plan.tif.fwhm},
-          {"radius_mm", plan.tif.radius},           {"volume_factor", plan.kernel.volume_factor}};
+  return {{"kind", kind_of(plan.tif)},
+          {"history", plan.tif.samples.history},
+          {"peak_nm_per_s", plan.tif.peak},
+          {"volume_nm_mm2_per_s", plan.tif.volume},
+          {"fwhm_mm", plan.tif.fwhm},
+          {"radius_mm", plan.tif.radius},
+          {"volume_factor", plan.kernel.volume_factor}};
 }
 
 Json solve_json(const Plan& plan) {

@@ -188,9 +188,9 @@ TEST(MeasuredRemoval, IsRefusedWithoutRemoval) {
 }
 
 TEST(RemovalFunction, NamesItsKind) {
-  EXPECT_EQ(to_string(RemovalFunction::Kind::Gaussian), "gaussian");
-  EXPECT_EQ(to_string(RemovalFunction::Kind::Disc), "disc");
-  EXPECT_EQ(to_string(RemovalFunction::Kind::Measured), "measured");
+  EXPECT_EQ(kind_of(gaussian_removal(1.0, 1.0, 1.0)), "gaussian");
+  EXPECT_EQ(kind_of(spinning_disc_removal(1.0, 1.0)), "disc");
+  EXPECT_EQ(kind_of(measured_removal(asymmetric_spot(), {})), "measured");
 }
 
 }  // namespace

@@ -28,6 +28,8 @@ JobOptions unusual() {
   o.tif_pixel_mm = 0.2;
   o.tif_unit = "um/min";
   o.tif_centre = "0.5,-0.25";
+  o.tif_angle_deg = -37.5;
+  o.tif_flip = "y";
   o.path = "nearest:cell=2,critical=-inf";
   o.motion = "stop";
   o.remove = "piston,tilt,power";

@@ -1,0 +1,122 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "cli/commands.h"
+#include "cli/job_arguments.h"
+#include "cli/terminal.h"
+#include "core/errors.h"
+#include "core/map_io.h"
+#include "core/whole_file.h"
+#include "runs/tif_picture.h"
+#include "runs/tif_report.h"
+#include "runs/tif_run.h"
+
+namespace dwell::cli {
+namespace {
+
+struct TifArguments {
+  std::unique_ptr<JobArguments> options;
+  TifJob job;
+  std::string tif, write, json, png, fit_png, mtf_png;
+};
+
+int run_tif(const TifArguments& arguments) {
+  TifJob job = arguments.job;
+  job.job = arguments.options->options();
+  job.job.tif = arguments.tif;
+  if (!arguments.fit_png.empty() && job.fits.empty()) throw InputError("--fit-png: needs --fit");
+  const TifResult result = make_tif(job);
+  fmt::print("{}", tif_text(result));
+  if (!arguments.write.empty()) write_map(arguments.write, result.rates);
+  if (!arguments.json.empty()) write_whole_file(arguments.json, tif_json(result));
+  if (!arguments.png.empty()) write_whole_file(arguments.png, tif_picture(result));
+  if (!arguments.fit_png.empty()) write_whole_file(arguments.fit_png, fit_picture(result));
+  if (!arguments.mtf_png.empty()) write_whole_file(arguments.mtf_png, transfer_picture(result));
+  return unfinished_fits(result) > 0 ? kLimitReached : kDone;
+}
+
+void add_inputs(CLI::App& command, TifArguments& arguments) {
+  TifJob& job = arguments.job;
+  command
+      .add_option("tif", arguments.tif, "a removal function to look at: file of rates [nm/s], or a model with its keys")
+      ->type_name("TIF");
+  command.add_option("--spot", job.spot, "map of the part after the tool stood on it at one place or several")
+      ->type_name("FILE");
+  command.add_option("--trench", job.trench, "map of the part after the tool ran straight through it")
+      ->type_name("FILE");
+  command.add_option("--before", job.before, "map before, on the same grid (default: it was flat around the spots)")
+      ->type_name("FILE");
+  command.add_option("--dwell-time", job.dwell_time_s, "time that the tool stood on each spot in s")->type_name("S");
+  command.add_option("--feed", job.feed_mm_per_min, "speed along the trench in mm/min")->type_name("MM/MIN");
+  command
+      .add_option("--direction", job.direction_deg,
+                  "direction of the trench in degrees, counter-clockwise from +x (default 0)")
+      ->type_name("DEG");
+  command.add_option("--at", job.at, "where a spot is in mm; once for each (default: all that are found)")
+      ->type_name("X,Y")
+      ->expected(1)
+      ->take_all();
+  command.add_option("--radius", job.radius_mm, "how far a spot or trench reaches in mm (default: found)")
+      ->type_name("MM");
+  command
+      .add_option("--noise-cut", job.noise_cut,
+                  "share of the peak below which a rate is set to 0 (default 0.01, trench 0)")
+      ->type_name("SHARE");
+  command
+      .add_option("--noise-sigmas", job.noise_sigmas, "the same in standard deviations of the surroundings (default 0)")
+      ->type_name("N");
+  command
+      .add_option("--centre", job.centre,
+                  "tool axis in the spot: centroid, peak, or at (as given by --at); default centroid")
+      ->type_name("WHERE");
+  command.add_option("--baseline", job.baseline, "what is taken off: plane, constant or none; default plane")
+      ->type_name("HOW");
+  command
+      .add_option("--register", job.registration,
+                  "how several spots are aligned: least-squares or centroid; default least-squares")
+      ->type_name("HOW");
+}
+
+void add_outputs(CLI::App& command, TifArguments& arguments) {
+  command
+      .add_option(
+          "--fit", arguments.job.fits,
+          "models to fit: names separated by commas, all, or one with parameters to hold, as planetary:ratio=-1; "
+          "may be repeated")
+      ->type_name("MODELS")
+      ->expected(1)
+      ->take_all();
+  command.add_flag("--robust", arguments.job.robust, "outliers count less in the fits");
+  command
+      .add_option("--write", arguments.write,
+                  "write the rates in nm/s, the tool axis at (0, 0) mm: .csv, .txt, .xyz or .npy")
+      ->type_name("FILE");
+  command.add_option("--json", arguments.json, "write all results")->type_name("FILE");
+  command.add_option("--png", arguments.png, "draw the removal function")->type_name("FILE");
+  command.add_option("--fit-png", arguments.fit_png, "draw measured, best fit and residual")->type_name("FILE");
+  command.add_option("--mtf-png", arguments.mtf_png, "draw the transfer function against wavelength")
+      ->type_name("FILE");
+}
+
+}  // namespace
+
+void add_tif_command(CLI::App& program, int& exit_code) {
+  CLI::App* command = program.add_subcommand(
+      "tif", "removal function (TIF) from measured spots or a trench; its properties, model fits and pictures");
+  auto arguments = std::make_shared<TifArguments>();
+  add_inputs(*command, *arguments);
+  add_outputs(*command, *arguments);
+  const std::vector<std::string> flags{"map-pixel",  "map-unit",  "map-origin", "tif-pixel", "tif-unit",
+                                       "tif-centre", "tif-angle", "tif-flip",   "threads"};
+  arguments->options = std::make_unique<JobArguments>(*command, flags, false);
+  command->footer(
+      "Example:\n"
+      "  dwell tif --spot after.csv --before before.csv --map-pixel 0.1 --dwell-time 5 --fit gaussian,super-gaussian "
+      "--write tif.csv\n"
+      "  dwell plan --map part.csv --tif tif.csv --tif-centre 0,0 ...\n"
+      "  dwell tif planetary:radius=5,eccentricity=0.8,ratio=-1,peak=20 --mtf-png mtf.png");
+  command->callback([arguments, &exit_code] { exit_code = run_tif(*arguments); });
+}
+
+}  // namespace dwell::cli
