@@ -77,8 +77,10 @@ void check_unit(const MapHeader& header, const MapReadOptions& options, const st
     factor = unit_factor(*header.unit, options.quantity);
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: header says unit {} ({})", where, error.what(),
-                                 options.quantity == MapQuantity::Rate ? "removal rates are required here, not heights"
-                                                                       : "heights are required here, not rates"));
+                                 options.quantity == MapQuantity::Rate
+                                     ? "removal rates are required here, not heights; of the surface that spots left, "
+                                       "give their --tif-dwell-time"
+                                     : "heights are required here, not rates"));
   }
   if (!same(factor, options.scale, factor)) {
     throw InputError(

@@ -11,6 +11,7 @@
 #include "core/removal_models.h"
 #include "core/removal_orientation.h"
 #include "core/spec_text.h"
+#include "core/spot_calibration.h"
 #include "core/value_units.h"
 #include "core/whole_file.h"
 #include "runs/map_steps.h"
@@ -50,24 +51,50 @@ HeightMap load_map(const JobOptions& options, std::vector<InputFile>& inputs, co
   return map;
 }
 
+namespace {
+
+/// The removal function from the surface that spots of a known dwell time left.
+RemovalFunction removal_of_spots(const JobOptions& options) {
+  const std::string unit = options.tif_unit == JobOptions{}.tif_unit ? "nm" : options.tif_unit;
+  const MapReadOptions read{options.tif_pixel_mm, std::nullopt, height_unit_nm(unit), "tif", MapQuantity::Height};
+  HeightMap depth = read_map(options.tif, read);
+  for (double& value : depth.values) value = -value;
+  SpotOptions spots;
+  spots.dwell_time = *options.tif_dwell_time_s;
+  if (const TifCentre centre = parse_tif_centre(options.tif_centre); centre.kind == TifCentre::Kind::Given) {
+    spots.at = {centre.given};
+    spots.centre = SpotCentre::Given;
+  }
+  return measured_removal(calibrate_spots(depth, spots).rates, {TifCentre::Kind::Given, {}});
+}
+
+RemovalFunction removal_of_rates(const JobOptions& options) {
+  const MapReadOptions read{options.tif_pixel_mm, std::nullopt, rate_unit_nm_per_s(options.tif_unit), "tif",
+                            MapQuantity::Rate};
+  return measured_removal(read_map(options.tif, read), parse_tif_centre(options.tif_centre));
+}
+
+}  // namespace
+
 RemovalFunction load_removal_function(const JobOptions& options, std::vector<InputFile>& inputs) {
   if (options.tif.empty()) throw InputError("--tif: required; a file of rates, or gaussian:peak=1,fwhm=2.8,radius=5");
   const ToolOrientation orientation{options.tif_angle_deg, parse_flip(options.tif_flip)};
   if (is_removal_model(split_kind(options.tif).first)) {
     return oriented(removal_of_spec(parse_spec_text(options.tif, "tif")), orientation);
   }
-  if (options.tif.find(':') != std::string::npos && !std::filesystem::exists(options.tif)) {
+  const std::filesystem::path file = split_map_name(options.tif).file;
+  if (options.tif.find(':') != std::string::npos && !std::filesystem::exists(file)) {
     removal_model(split_kind(options.tif).first);  // a misspelt model: says which there are
   }
-  const MapReadOptions read{options.tif_pixel_mm, std::nullopt, rate_unit_nm_per_s(options.tif_unit), "tif",
-                            MapQuantity::Rate};
-  const HeightMap rates = read_map(options.tif, read);
-  inputs.push_back({"tif", options.tif, sha256_of_file(split_map_name(options.tif).file)});
+  RemovalFunction tif;
   try {
-    return oriented(measured_removal(rates, parse_tif_centre(options.tif_centre)), orientation);
+    tif = oriented(options.tif_dwell_time_s ? removal_of_spots(options) : removal_of_rates(options), orientation);
   } catch (const InputError& error) {
-    throw InputError(fmt::format("{}: {}", options.tif, error.what()));
+    const std::string what = error.what();
+    throw InputError(what.find(options.tif) == std::string::npos ? fmt::format("{}: {}", options.tif, what) : what);
   }
+  inputs.push_back({"tif", options.tif, sha256_of_file(file)});
+  return tif;
 }
 
 void check_tool_fits(const RemovalFunction& tif, const Grid& map) {

@@ -36,6 +36,10 @@ double not_negative(const std::string& text) {
   return number(text, "a number >= 0", [](double v) { return v >= 0.0; });
 }
 
+void check_height_or_rate_unit(const std::string& unit) {
+  unit_factor(unit, unit.find('/') == std::string::npos ? MapQuantity::Height : MapQuantity::Rate);
+}
+
 double any_angle(const std::string& text) {
   return number(text, "an angle from -360 to 360 degrees", [](double v) { return v >= -360.0 && v <= 360.0; });
 }
@@ -89,9 +93,16 @@ std::vector<JobOptionRecord> make_table() {
       {"tif-pixel", "tif_pixel_mm", "MM", "pixel pitch of the removal function's file, for formats that carry none",
        false, true, [](Options& o, const std::string& t) { o.tif_pixel_mm = positive(t); },
        [](const Options& o) { return shown(o.tif_pixel_mm); }},
-      {"tif-unit", "tif_unit", "UNIT", "unit of the removal rates: nm/s, um/s, um/min or m/s", false, false,
-       [](Options& o, const std::string& t) { rate_unit_nm_per_s(t), o.tif_unit = t; },
+      {"tif-unit", "tif_unit", "UNIT",
+       "unit of the removal rates: nm/s, um/s, um/min or m/s; with tif-dwell-time of the heights: nm, um, mm or m",
+       false, false, [](Options& o, const std::string& t) { check_height_or_rate_unit(t), o.tif_unit = t; },
        [](const Options& o) { return o.tif_unit; }},
+      {"tif-dwell-time", "tif_dwell_time_s", "SECONDS",
+       "the removal function's file is a surface, flat before, after the tool stood on it for so many seconds at one "
+       "or "
+       "more spots; dwell tif shows and does more",
+       false, true, [](Options& o, const std::string& t) { o.tif_dwell_time_s = positive(t); },
+       [](const Options& o) { return shown(o.tif_dwell_time_s); }},
       {"tif-centre", "tif_centre", "WHERE",
        "the tool axis in the removal function's file: middle (of its grid), centroid, or X,Y in mm", false, false,
        [](Options& o, const std::string& t) { parse_tif_centre(t), o.tif_centre = t; },

@@ -20,6 +20,7 @@ struct JobOptions {
   std::string tif;
   std::optional<double> tif_pixel_mm;
   std::string tif_unit = "nm/s";
+  std::optional<double> tif_dwell_time_s;
   std::string tif_centre = "middle";
   double tif_angle_deg = 0.0;
   std::string tif_flip = "none";

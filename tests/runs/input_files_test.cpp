@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/map_io.h"
 #include "core/value_units.h"
 #include "core/whole_file.h"
 #include "tests/core/expect_error.h"
@@ -113,6 +114,46 @@ TEST(LoadRemovalFunction, ReadsAFileWithItsUnitPitchAndAxis) {
   options.tif_centre = "0.75,0.25";
   EXPECT_DOUBLE_EQ(load_removal_function(options, inputs).samples.grid.origin.x, -0.75);
   EXPECT_DOUBLE_EQ(load_removal_function(options, inputs).samples.grid.origin.y, -0.25);
+}
+
+// As from an interferometer: the surface after 4 s, tilted, off its middle, and longer towards +x than towards -x.
+TEST(LoadRemovalFunction, CalibratesTheSurfaceThatASpotLeft) {
+  const TemporaryFolder folder;
+  HeightMap after(Grid{81, 101, 0.1, 0.1, {3.0, -2.0}});
+  const auto rate = [](double dx, double dy) {
+    const double lead = dx > 0.0 ? 1.1 : 0.6;
+    return 5.0 * std::exp(-0.5 * (dx * dx / (lead * lead) + dy * dy / (0.7 * 0.7)));
+  };
+  for (Index i = 0; i < after.grid.size(); ++i) {
+    const Point p = after.grid.centre(i);
+    after.values[static_cast<std::size_t>(i)] = 7.0 + 2.0 * p.x - p.y - 4.0 * rate(p.x - 7.8, p.y - 2.3);
+  }
+  write_map(folder.path() / "after.csv", after);
+  JobOptions options;
+  options.tif = (folder.path() / "after.csv").string();
+  std::vector<InputFile> inputs;
+  expect_input_error([&] { load_removal_function(options, inputs); }, {"after.csv", "--tif-dwell-time"});
+  options.tif_dwell_time_s = 4.0;
+  options.tif_centre = "7.8,2.3";
+  const RemovalFunction tif = load_removal_function(options, inputs);
+  EXPECT_NEAR(tif.peak, 5.0, 0.05);
+  EXPECT_NEAR(tif.volume, 5.0 * 2.0 * std::numbers::pi * 0.5 * (1.1 + 0.6) * 0.7, 0.3);
+  ASSERT_EQ(inputs.size(), 1U);
+  EXPECT_EQ(inputs[0].role, "tif");
+  const Grid& g = tif.samples.grid;
+  const auto at = [&](double x, double y) {
+    return tif.samples.at(std::lround((y - g.origin.y) / g.pitch_y), std::lround((x - g.origin.x) / g.pitch_x));
+  };
+  EXPECT_NEAR(at(1.2, 0.0), rate(1.2, 0.0), 0.1);
+  EXPECT_NEAR(at(-1.2, 0.0), rate(-1.2, 0.0), 0.1);
+  EXPECT_NEAR(at(0.5, 0.9), rate(0.5, 0.9), 0.1);
+  options.tif_dwell_time_s = 8.0;
+  EXPECT_NEAR(load_removal_function(options, inputs).peak, 0.5 * tif.peak, 1e-9);
+  options.tif_unit = "um/s";
+  expect_input_error([&] { load_removal_function(options, inputs); }, {"um/s", "nm, um, mm, m"});
+  options.tif_dwell_time_s.reset();
+  options.tif_unit = "nm";
+  expect_input_error([&] { load_removal_function(options, inputs); }, {"after.csv", "'nm'", "nm/s, um/s"});
 }
 
 TEST(LoadRemovalFunction, RefusesASpotThatRemovesNothing) {

@@ -27,6 +27,7 @@ JobOptions unusual() {
   o.tif = "gaussian:peak=1,fwhm=2.8,radius=5";
   o.tif_pixel_mm = 0.2;
   o.tif_unit = "um/min";
+  o.tif_dwell_time_s = 4.5;
   o.tif_centre = "0.5,-0.25";
   o.tif_angle_deg = -37.5;
   o.tif_flip = "y";
