@@ -140,6 +140,18 @@ TEST(Fits, WritesWhatItReadsBackEqual) {
   EXPECT_EQ(fits_bytes(map), fits_bytes(map));
 }
 
+// CFITSIO reads whole blocks, whatever the memory holds behind the file's last byte.
+TEST(Fits, NeedsEveryNumberButNotTheFillAfterThem) {
+  const std::string whole = header(primary(-64, 3, 2)) + big_endian(kValues);
+  const std::size_t end = 2880 + 8 * kValues.size();
+  for (const std::size_t size : {whole.size() - 1, end + 1, end}) {
+    EXPECT_EQ(read(std::string(whole.data(), size)).values, kValues) << size;
+  }
+  for (const std::size_t size : {end - 1, end - 8, std::size_t{2881}}) {
+    test::expect_input_error([&] { read(std::string(whole.data(), size)); }, {"map a.fits", "truncated"});
+  }
+}
+
 TEST(Fits, SurvivesTruncationAndDamage) {
   const std::string whole =
       header(primary(16, 3, 2, {"BZERO   = 5.0", "CUNIT1  = 'mm'", "CDELT1  = 0.5"})) + big_endian(kValues);
