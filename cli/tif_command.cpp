@@ -18,7 +18,7 @@ namespace {
 struct TifArguments {
   std::unique_ptr<JobArguments> options;
   TifJob job;
-  std::string tif, write, json, png, fit_png, mtf_png;
+  std::string tif, write, json, png, section_png, fit_png, mtf_png;
 };
 
 int run_tif(const TifArguments& arguments) {
@@ -31,6 +31,7 @@ int run_tif(const TifArguments& arguments) {
   if (!arguments.write.empty()) write_map(arguments.write, result.rates);
   if (!arguments.json.empty()) write_whole_file(arguments.json, tif_json(result));
   if (!arguments.png.empty()) write_whole_file(arguments.png, tif_picture(result));
+  if (!arguments.section_png.empty()) write_whole_file(arguments.section_png, section_picture(result));
   if (!arguments.fit_png.empty()) write_whole_file(arguments.fit_png, fit_picture(result));
   if (!arguments.mtf_png.empty()) write_whole_file(arguments.mtf_png, transfer_picture(result));
   return unfinished_fits(result) > 0 ? kLimitReached : kDone;
@@ -94,6 +95,8 @@ void add_outputs(CLI::App& command, TifArguments& arguments) {
       ->type_name("FILE");
   command.add_option("--json", arguments.json, "write all results")->type_name("FILE");
   command.add_option("--png", arguments.png, "draw the removal function")->type_name("FILE");
+  command.add_option("--section-png", arguments.section_png, "draw cross sections along x and y, with the best fits")
+      ->type_name("FILE");
   command.add_option("--fit-png", arguments.fit_png, "draw measured, best fit and residual")->type_name("FILE");
   command.add_option("--mtf-png", arguments.mtf_png, "draw the transfer function against wavelength")
       ->type_name("FILE");

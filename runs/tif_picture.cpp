@@ -56,7 +56,39 @@ void mark(ChartLine& line, const std::optional<double>& wave, double share) {
   line.points.insert(after, {*wave, share, true});
 }
 
+enum class Section { AlongX, AlongY };
+
+ChartLine section_of(const HeightMap& map, Section section, const std::string& label, Colour colour, bool dashed) {
+  const Grid& g = map.grid;
+  ChartLine line{label, colour, {}, false, dashed};
+  const bool along_x = section == Section::AlongX;
+  const double axis = along_x ? -g.origin.y / g.pitch_y : -g.origin.x / g.pitch_x;
+  const auto last = static_cast<double>((along_x ? g.rows : g.cols) - 1);
+  const auto at = static_cast<Index>(std::lround(std::clamp(axis, 0.0, last)));
+  for (Index k = 0; k < (along_x ? g.cols : g.rows); ++k)
+    line.points.push_back({along_x ? g.x(k) : g.y(k), along_x ? map.at(at, k) : map.at(k, at), false});
+  return line;
+}
+
+ChartPanel section_panel(const TifResult& result, Section section) {
+  constexpr std::array kColours{Colour{214, 39, 40}, Colour{31, 119, 180}, Colour{44, 160, 44}};
+  ChartPanel panel{section == Section::AlongX ? "x [mm], through the tool axis" : "y [mm], through the tool axis",
+                   "rate [nm/s]",
+                   {section_of(result.rates, section, result.source, {32, 32, 32}, false)},
+                   AxisScale::Linear,
+                   AxisScale::Linear};
+  for (std::size_t k = 0; k < std::min(result.fits.size(), kColours.size()); ++k)
+    panel.lines.push_back(
+        section_of(result.fits[k].fitted, section, "fit: " + result.fits[k].model, kColours[k], true));
+  return panel;
+}
+
 }  // namespace
+
+std::string section_picture(const TifResult& result) {
+  return draw_line_charts("Sections of the removal function", "",
+                          {section_panel(result, Section::AlongX), section_panel(result, Section::AlongY)});
+}
 
 std::string tif_picture(const TifResult& result) {
   const RemovalAnalysis& a = result.analysis;

@@ -86,7 +86,8 @@ TEST(MakeTif, ReportsFitsAndDrawsThem) {
   for (const char* part :
        {"nm/s", "nm mm^2/s", "FWHM", "asymmetry", "10 % response", "held", "BIC", "--tif elliptic-gaussian:"})
     EXPECT_NE(text.find(part), std::string::npos) << part;
-  for (const std::string& png : {tif_picture(result), fit_picture(result), transfer_picture(result)})
+  for (const std::string& png :
+       {tif_picture(result), section_picture(result), fit_picture(result), transfer_picture(result)})
     EXPECT_EQ(png.substr(1, 3), "PNG");
   // The specification printed is the function fitted.
   const RemovalFit& ellipse = result.fits[0].model == "elliptic-gaussian" ? result.fits[0] : result.fits[1];
