@@ -16,7 +16,11 @@ struct MapHeader {
   std::optional<Point> origin;  // centre of pixel (0, 0) [mm]
   std::optional<std::string> unit;
   std::vector<std::string> history;  // how the map was made, a step each, oldest first
+  double pitch_rounding = 1e-9;      // relative: how well a pitch that the user gives can agree with the file's
 };
+
+/// pitch_rounding of formats that hold the pitch in single precision.
+inline constexpr double kSinglePitchRounding = 1e-6;
 
 /// Takes one comment line (from its '#') into the header. `place` begins the message, as in "map a.csv, line 3".
 /// Throws InputError for a known key whose value cannot be read or that comes a second time.

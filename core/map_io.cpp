@@ -45,7 +45,8 @@ std::optional<Point> known_pitch(const MapHeader& header, const MapReadOptions& 
   if (!options.pitch) return header.pitch;
   const double pitch = *options.pitch;
   if (!header.pitch) return Point{pitch, pitch};
-  if (!same(header.pitch->x, pitch, pitch) || !same(header.pitch->y, pitch, pitch)) {
+  const double rounding = header.pitch_rounding * pitch;
+  if (!(std::abs(header.pitch->x - pitch) <= rounding && std::abs(header.pitch->y - pitch) <= rounding)) {
     throw InputError(
         fmt::format("{}: header says pitch_mm = {},{} but --{}-pixel says {}; they must agree (or the option "
                     "be left out)",

@@ -14,6 +14,9 @@ struct TifCentre {
   Point given;
 };
 
+/// What dwell tif ends the history of its files with: their coordinates are relative to the tool axis.
+inline constexpr const char* kToolAxisAtOrigin = "tif: tool axis at 0,0";
+
 /// The removal function (tool influence function, TIF): removal rate [nm/s] at a displacement from the tool axis
 /// [mm]. Rows are y, columns are x, as in a map: the sample at displacement d acts on the part at p + d when the
 /// tool stands at p.

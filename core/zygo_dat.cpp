@@ -154,6 +154,7 @@ MapSource parse_zygo_dat(std::string_view bytes, const std::string& where) {
   source.rows = static_cast<Index>(block.rows);
   source.cols = static_cast<Index>(block.cols);
   source.header.unit = "nm";
+  source.header.pitch_rounding = kSinglePitchRounding;
   source.pitch_hint = "; its lateral resolution (byte 184) is 0, unknown";
   if (resolution > 0.0) source.header.pitch = Point{resolution * units::kMmPerM, resolution * units::kMmPerM};
   const double bottom = header.signed16(66) + static_cast<double>(block.rows - 1);

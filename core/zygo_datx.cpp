@@ -157,6 +157,7 @@ MapSource read_datx_surface(const Hdf5File& file, const std::string& path, const
   if (x && y) source.header.pitch = Point{*x, *y};
   source.pitch_hint = "; its 'X Converter' and 'Y Converter' say 0, unknown, or are not there";
   source.header.unit = "nm";
+  source.header.pitch_rounding = kSinglePitchRounding;
   Hdf5Matrix matrix = file.matrix(path);
   const auto cols = static_cast<std::ptrdiff_t>(matrix.cols);
   for (auto top = matrix.values.begin(), end = matrix.values.end(); end - top > cols; top += cols, end -= cols) {

@@ -34,7 +34,7 @@ TifCentre parse_tif_centre(const std::string& text) {
   try {
     return {TifCentre::Kind::Given, parse_point(text)};
   } catch (const InputError&) {
-    throw InputError(fmt::format("'{}'; accepted: middle, centroid, or X,Y in mm", text));
+    throw InputError(fmt::format("'{}'; accepted: auto, middle, centroid, or X,Y in mm", text));
   }
 }
 
@@ -61,17 +61,29 @@ RemovalFunction removal_of_spots(const JobOptions& options) {
   for (double& value : depth.values) value = -value;
   SpotOptions spots;
   spots.dwell_time = *options.tif_dwell_time_s;
-  if (const TifCentre centre = parse_tif_centre(options.tif_centre); centre.kind == TifCentre::Kind::Given) {
-    spots.at = {centre.given};
+  if (options.tif_centre == "middle") {
+    throw InputError(
+        "--tif-centre middle: a spot may lie anywhere in its file; accepted: auto, centroid, or X,Y in mm");
+  }
+  if (options.tif_centre != "auto" && options.tif_centre != "centroid") {
+    spots.at = {parse_point(options.tif_centre)};
     spots.centre = SpotCentre::Given;
   }
   return measured_removal(calibrate_spots(depth, spots).rates, {TifCentre::Kind::Given, {}});
 }
 
+TifCentre centre_of(const HeightMap& rates, const std::string& wanted) {
+  if (wanted != "auto") return parse_tif_centre(wanted);
+  const bool made_here =
+      std::find(rates.history.begin(), rates.history.end(), kToolAxisAtOrigin) != rates.history.end();
+  return made_here ? TifCentre{TifCentre::Kind::Given, {}} : TifCentre{};
+}
+
 RemovalFunction removal_of_rates(const JobOptions& options) {
   const MapReadOptions read{options.tif_pixel_mm, std::nullopt, rate_unit_nm_per_s(options.tif_unit), "tif",
                             MapQuantity::Rate};
-  return measured_removal(read_map(options.tif, read), parse_tif_centre(options.tif_centre));
+  const HeightMap rates = read_map(options.tif, read);
+  return measured_removal(rates, centre_of(rates, options.tif_centre));
 }
 
 }  // namespace
@@ -80,6 +92,11 @@ RemovalFunction load_removal_function(const JobOptions& options, std::vector<Inp
   if (options.tif.empty()) throw InputError("--tif: required; a file of rates, or gaussian:peak=1,fwhm=2.8,radius=5");
   const ToolOrientation orientation{options.tif_angle_deg, parse_flip(options.tif_flip)};
   if (is_removal_model(split_kind(options.tif).first)) {
+    if (options.tif_dwell_time_s) {
+      throw InputError(
+          fmt::format("--tif-dwell-time {}: for the file of a surface that spots left, not for the formula {}",
+                      *options.tif_dwell_time_s, options.tif));
+    }
     return oriented(removal_of_spec(parse_spec_text(options.tif, "tif")), orientation);
   }
   const std::filesystem::path file = split_map_name(options.tif).file;

@@ -94,8 +94,8 @@ std::vector<JobOptionRecord> make_table() {
        false, true, [](Options& o, const std::string& t) { o.tif_pixel_mm = positive(t); },
        [](const Options& o) { return shown(o.tif_pixel_mm); }},
       {"tif-unit", "tif_unit", "UNIT",
-       "unit of the removal rates: nm/s, um/s, um/min or m/s; with tif-dwell-time of the heights: nm, um, mm or m",
-       false, false, [](Options& o, const std::string& t) { check_height_or_rate_unit(t), o.tif_unit = t; },
+       "unit of the removal rates: nm/s, um/s, um/min or m/s (of the surface that spots left: nm, um, mm or m)", false,
+       false, [](Options& o, const std::string& t) { check_height_or_rate_unit(t), o.tif_unit = t; },
        [](const Options& o) { return o.tif_unit; }},
       {"tif-dwell-time", "tif_dwell_time_s", "SECONDS",
        "the removal function's file is a surface, flat before, after the tool stood on it for so many seconds at one "
@@ -104,8 +104,14 @@ std::vector<JobOptionRecord> make_table() {
        false, true, [](Options& o, const std::string& t) { o.tif_dwell_time_s = positive(t); },
        [](const Options& o) { return shown(o.tif_dwell_time_s); }},
       {"tif-centre", "tif_centre", "WHERE",
-       "the tool axis in the removal function's file: middle (of its grid), centroid, or X,Y in mm", false, false,
-       [](Options& o, const std::string& t) { parse_tif_centre(t), o.tif_centre = t; },
+       "the tool axis in the removal function's file: middle (of its grid), centroid, X,Y in mm, or auto: 0,0 of a "
+       "file "
+       "that dwell tif wrote, the centroid of a spot, the middle of others",
+       false, false,
+       [](Options& o, const std::string& t) {
+         if (t != "auto") parse_tif_centre(t);
+         o.tif_centre = t;
+       },
        [](const Options& o) { return o.tif_centre; }},
       {"tif-angle", "tif_angle_deg", "DEG",
        "turns the removal function about the tool axis, counter-clockwise seen from +z, x to the right and y up, in "

@@ -21,7 +21,7 @@ struct JobOptions {
   std::optional<double> tif_pixel_mm;
   std::string tif_unit = "nm/s";
   std::optional<double> tif_dwell_time_s;
-  std::string tif_centre = "middle";
+  std::string tif_centre = "auto";
   double tif_angle_deg = 0.0;
   std::string tif_flip = "none";
   std::string path;

@@ -44,7 +44,7 @@ void refuse_unused(const TifJob& job) {
   const JobOptions& o = job.job;
   only(o.map_pixel_mm || o.map_origin_mm || o.map_unit != "nm", measured, "--map-pixel, --map-origin or --map-unit",
        "--spot or --trench (for a file of rates: --tif-pixel, --tif-unit)");
-  only(o.tif_pixel_mm || o.tif_unit != "nm/s" || o.tif_centre != "middle", !measured,
+  only(o.tif_pixel_mm || o.tif_unit != "nm/s" || o.tif_centre != "auto", !measured,
        "--tif-pixel, --tif-unit or --tif-centre",
        "a file of rates (for --spot and --trench: --map-pixel, --map-unit, --centre)");
 }
@@ -189,6 +189,9 @@ TifResult make_tif(const TifJob& job) {
   }
   std::stable_sort(result.fits.begin(), result.fits.end(),
                    [](const RemovalFit& a, const RemovalFit& b) { return a.bic < b.bic; });
+  auto& history = result.rates.history;
+  if (std::find(history.begin(), history.end(), kToolAxisAtOrigin) == history.end())
+    history.emplace_back(kToolAxisAtOrigin);
   return result;
 }
 

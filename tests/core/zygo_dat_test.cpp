@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/map_io.h"
+#include "core/whole_file.h"
 #include "tests/core/byte_flips.h"
 #include "tests/core/expect_error.h"
 #include "tests/core/spread.h"
@@ -128,6 +129,17 @@ TEST(ZygoDat, RefusesEveryTruncation) {
 TEST(ZygoDat, SurvivesDamage) {
   test::expect_survives_flips(ZygoDatFile().bytes(), 834, 20000, read, "map a.dat");
   test::expect_survives_flips(ZygoDatFile().bytes(), 10, 2000, read, "map a.dat");
+}
+
+// The file holds its pitch in single precision, and people type what they read.
+TEST(ZygoDat, AgreesWithAPitchAsItIsPrinted) {
+  const test::TemporaryFolder folder;
+  write_whole_file(folder.path() / "a.dat", ZygoDatFile().bytes());
+  MapReadOptions options;
+  options.pitch = 0.2;
+  EXPECT_EQ(read_map(folder.path() / "a.dat", options).grid.pitch_x, static_cast<double>(2e-4F) * 1e3);
+  options.pitch = 0.20001;
+  test::expect_input_error([&] { read_map(folder.path() / "a.dat", options); }, {"pitch_mm", "--map-pixel", "agree"});
 }
 
 /// The file that comes with prysm (425 x 432 pixels of MetroPro 8.3.5). Reference: read_zygo_dat of prysm's io.py (the

@@ -151,9 +151,16 @@ TEST(LoadRemovalFunction, CalibratesTheSurfaceThatASpotLeft) {
   EXPECT_NEAR(load_removal_function(options, inputs).peak, 0.5 * tif.peak, 1e-9);
   options.tif_unit = "um/s";
   expect_input_error([&] { load_removal_function(options, inputs); }, {"um/s", "nm, um, mm, m"});
+  options.tif_unit = "nm/s";
+  options.tif_centre = "middle";
+  expect_input_error([&] { load_removal_function(options, inputs); }, {"--tif-centre middle", "centroid"});
+  options.tif_centre = "auto";
   options.tif_dwell_time_s.reset();
   options.tif_unit = "nm";
   expect_input_error([&] { load_removal_function(options, inputs); }, {"after.csv", "'nm'", "nm/s, um/s"});
+  options.tif = "gaussian:peak=8,fwhm=2";
+  options.tif_dwell_time_s = 4.0;
+  expect_input_error([&] { load_removal_function(options, inputs); }, {"--tif-dwell-time 4", "gaussian:peak=8"});
 }
 
 TEST(LoadRemovalFunction, RefusesASpotThatRemovesNothing) {

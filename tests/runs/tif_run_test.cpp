@@ -54,7 +54,6 @@ TEST(MakeTif, CalibratesASpotAndWritesWhatAPlanTakesWithoutScaling) {
   EXPECT_NE(read_whole_file(spot.file("tif.csv")).find("# made: tif: 1 spot of 5 s"), std::string::npos);
   JobOptions plan;
   plan.tif = spot.file("tif.csv");
-  plan.tif_centre = "0,0";
   std::vector<InputFile> inputs;
   const RemovalFunction tif = load_removal_function(plan, inputs);
   EXPECT_EQ(tif.samples.values, result.rates.values);
