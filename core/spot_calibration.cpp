@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/errors.h"
 #include "core/spot_finder.h"
@@ -49,7 +50,7 @@ std::vector<FoundSpot> spots_of(const HeightMap& depth, const SpotOptions& optio
     if (distance(nearest->centre, p) > 2.0 * nearest->extent) {
       throw InputError(
           fmt::format("--at {},{}: no spot there; the nearest one found is at ({:.4g}, {:.4g}) mm (with "
-                      "--radius the place is taken as given)",
+                      "--radius the search starts at the place given)",
                       p.x, p.y, nearest->centre.x, nearest->centre.y));
     }
     chosen.push_back(*nearest);
@@ -90,6 +91,31 @@ Sums sums_of(const HeightMap& map, Point centre, double radius) {
     sums.volume += v * map.grid.pitch_x * map.grid.pitch_y;
   }
   return sums;
+}
+
+/// Diameter of the disc of the area above half the peak within the radius about the patch's centre.
+double half_width(const SpotPatch& patch, double radius) {
+  const Grid& g = patch.depth.grid;
+  const double half = 0.5 * sums_of(patch.depth, patch.centre, radius).peak;
+  Index above = 0;
+  for (Index i = 0; i < g.size(); ++i) {
+    above += distance(g.centre(i), patch.centre) <= radius && patch.depth.values[static_cast<std::size_t>(i)] >= half;
+  }
+  return 2.0 * std::sqrt(static_cast<double>(above) * g.pitch_x * g.pitch_y / std::numbers::pi);
+}
+
+/// Refuses a spot that was registered away from the place given for it: it is another one, or the noise there.
+void refuse_jumps(const std::vector<SpotPatch>& patches, double radius, const std::vector<Point>& at) {
+  for (std::size_t k = 0; k < at.size(); ++k) {
+    const Point found = patches[k].centre;
+    const double width = half_width(patches[k], radius), away = distance(found, at[k]);
+    const double reach = 0.5 * width + std::max(patches[k].depth.grid.pitch_x, patches[k].depth.grid.pitch_y);
+    if (away <= reach) continue;
+    throw InputError(fmt::format(
+        "--at {},{} (spot {} of {}): the spot near there is at ({:.4g}, {:.4g}) mm, {:.4g} mm away; at most {:.4g} mm, "
+        "half of its width at half height and a pixel, is accepted: is this its place, in the coordinates of the map?",
+        at[k].x, at[k].y, k + 1, at.size(), found.x, found.y, away, reach));
+  }
 }
 
 /// The apex of the paraboloid through what is above 70 % of the peak, weighted by how far above.
@@ -213,6 +239,7 @@ SpotCalibration calibrate_spots(const HeightMap& depth, const SpotOptions& optio
     result.filled_pixels += patches.back().filled_inside;
   }
   register_spots(patches, radius, options.registration);
+  refuse_jumps(patches, radius, options.at);
   SpotMean mean = mean_of_spots(patches);
   double scatter = 0.0;
   for (const SpotPatch& patch : patches) {

@@ -48,9 +48,12 @@ std::string shown(const MapRegistration& r, const RegistrationOptions& options) 
   return fmt::format(
       "looked {:.4g} mm and {:.4g} degrees each way; moved by {:.6g} +- {:.2g} mm in x and {:.6g} +- {:.2g} mm in y, "
       "turned by {:.6g} +- {:.2g} degrees, scaled by "
-      "{:.8g} +- {:.2g}; difference {:.5g} nm RMS before, {:.5g} nm after, {} pixels",
+      "{:.8g} +- {:.2g}; difference {:.5g} nm RMS (robust {:.5g}) before, {:.5g} nm (robust {:.5g}) after, {} pixels; "
+      "lone "
+      "spikes left out of the fit: {} of the map moved, {} of the other",
       options.range.shift, options.range.degrees, r.x.value, r.x.error, r.y.value, r.y.error, r.degrees.value,
-      r.degrees.error, r.scale.value, r.scale.error, r.rms_before, r.rms_after, r.points);
+      r.degrees.error, r.scale.value, r.scale.error, r.before.rms, r.before.scatter, r.after.rms, r.after.scatter,
+      r.points, r.spikes_moving, r.spikes_fixed);
 }
 
 std::vector<Point> points_of(const MapStep& step, const std::string& name) {

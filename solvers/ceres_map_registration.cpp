@@ -12,13 +12,16 @@
 #include <limits>
 #include <memory>
 #include <numbers>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "core/errors.h"
 #include "core/grid_limit.h"
+#include "core/map_outliers.h"
 #include "core/map_sampler.h"
 #include "core/map_statistics.h"
+#include "core/robust_plane.h"
 
 namespace dwell {
 namespace {
@@ -125,14 +128,34 @@ double rms(const std::vector<double>& r) {
   return std::sqrt(sum / static_cast<double>(r.size()));
 }
 
-/// RMS of the difference as the maps lie (all parameters at `q`), level fitted if it is free; NaN without overlap.
-double rms_of_difference(const Pair& pair, const Parameters& q, bool level) {
+/// The difference of the maps as they lie (all parameters at `q`), NaN but at `pixels`.
+HeightMap difference_at(const Pair& pair, const Parameters& q, const std::vector<Index>& pixels) {
   HeightMap difference(pair.fixed.grid);
-  const std::vector<Index> pixels = common_pixels(pair, q);
-  if (pixels.empty()) return std::numeric_limits<double>::quiet_NaN();
+  std::fill(difference.values.begin(), difference.values.end(), std::numeric_limits<double>::quiet_NaN());
   const std::vector<double> r = residuals(pair, q, pixels);
   for (std::size_t i = 0; i < pixels.size(); ++i) difference.values[static_cast<std::size_t>(pixels[i])] = r[i];
-  return map_statistics(difference, {level, level, false}).rms;
+  return difference;
+}
+
+/// How large the difference is as the maps lie, level taken out if it is free; NaN for less than three common pixels.
+DifferenceSize size_of_difference(const Pair& pair, const Parameters& q, bool level) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<Index> pixels = common_pixels(pair, q);
+  if (pixels.size() < 3) return {kNone, kNone};
+  const HeightMap difference = difference_at(pair, q, pixels);
+  return {map_statistics(difference, {level, level, false}).rms,
+          level ? robust_plane(difference, pixels, true).scatter : robust_sigma(residuals(pair, q, pixels))};
+}
+
+/// The map without its lone spikes, and how many these were. Between its pixels the spline of the moving map rings
+/// around each, and so the fit would see a field that stays with the pixels whatever the surface does.
+std::pair<HeightMap, Index> without_spikes(HeightMap map, int threads, const Progress& progress) {
+  const std::vector<Index> pixels = finite_pixels(map);
+  if (pixels.size() < 3) return {std::move(map), 0};
+  const double scatter = robust_plane(map, pixels, true).scatter;
+  const OutlierOptions options{kSpikeSigmas, kSpikeWindow, kLeastSpike * scatter / kSpikeSigmas};
+  const Index spikes = remove_outliers(map, options, threads, progress);
+  return {std::move(map), spikes};
 }
 
 class Fit {
@@ -222,17 +245,8 @@ class Fit {
 
 /// The level between the maps as they lie, so that the robust fit starts near.
 void start_level(const Pair& pair, Parameters& q, const std::vector<Index>& pixels) {
-  Eigen::MatrixX3d a(static_cast<Eigen::Index>(pixels.size()), 3);
-  Eigen::VectorXd b(a.rows());
-  const std::vector<double> r = residuals(pair, q, pixels);
-  for (Eigen::Index k = 0; k < a.rows(); ++k) {
-    const Point l = pair.fixed.grid.centre(pixels[static_cast<std::size_t>(k)]) - pair.level_centre;
-    a.row(k) << 1.0, l.x, l.y;
-    b[k] = r[static_cast<std::size_t>(k)];
-  }
-  const Eigen::Vector3d level = (a.transpose() * a).ldlt().solve(a.transpose() * b);
-  if (!level.allFinite()) return;
-  q[kPiston] = level[0], q[kSlopeX] = level[1], q[kSlopeY] = level[2];
+  const Plane level = robust_plane(difference_at(pair, q, pixels), pixels, true);
+  q[kPiston] += level.at(pair.level_centre), q[kSlopeX] += level.slope.x, q[kSlopeY] += level.slope.y;
 }
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
@@ -249,14 +263,17 @@ std::vector<Index> enough_pixels(const Pair& pair, const Parameters& q) {
 
 MapRegistration register_maps(const HeightMap& moving, const HeightMap& fixed, const RegistrationOptions& options,
                               int threads, const Progress& progress) {
-  tell(progress, "registration: coarse start");
-  const Pair pair(moving, fixed);
-  Parameters q{};
   MapRegistration result;
-  result.rms_before = rms_of_difference(pair, q, options.level);
+  HeightMap clear_moving, clear_fixed;
+  std::tie(clear_moving, result.spikes_moving) = without_spikes(moving, threads, progress);
+  std::tie(clear_fixed, result.spikes_fixed) = without_spikes(fixed, threads, progress);
+  tell(progress, "registration: coarse start");
+  const Pair pair(clear_moving, clear_fixed);
+  Parameters q{};
+  result.before = size_of_difference(pair, q, options.level);
   if (options.range.shift > 0.0 || options.range.degrees > 0.0) {
     const RegistrationRange range{options.range.shift, options.rotation ? options.range.degrees : 0.0};
-    const RegistrationStart start = coarse_registration(moving, fixed, range, threads);
+    const RegistrationStart start = coarse_registration(clear_moving, clear_fixed, range, threads);
     q[kX] = start.shift.x, q[kY] = start.shift.y, q[kAngle] = start.degrees / kDegrees;
   }
   std::vector<Index> pixels = enough_pixels(pair, q);
@@ -279,7 +296,7 @@ MapRegistration register_maps(const HeightMap& moving, const HeightMap& fixed, c
   result.scale = {1.0 + q[kScale], errors[kScale]};
   result.transform = similarity(pair.about, {q[kX], q[kY]}, result.degrees.value, result.scale.value);
   result.points = static_cast<Index>(pixels.size());
-  result.rms_after = rms_of_difference(pair, q, options.level);
+  result.after = size_of_difference(pair, q, options.level);
   return result;
 }
 

@@ -11,19 +11,23 @@
 #include "core/errors.h"
 #include "core/grid_limit.h"
 #include "core/map_decimate.h"
-#include "core/map_statistics.h"
 #include "core/plane_transform.h"
+#include "core/robust_plane.h"
 
 namespace dwell {
 namespace {
 
-/// Averaged over blocks of about `pitch` mm, plane removed.
+/// Averaged over blocks of about `pitch` mm, plane removed: a robust one, which a smudge on one map does not tilt.
 HeightMap averaged(const HeightMap& map, double pitch) {
   const auto factor = [&](double own, Index pixels) {
     return std::clamp<Index>(static_cast<Index>(std::llround(pitch / own)), 1, std::max<Index>(1, pixels / 2));
   };
   HeightMap coarse = decimated(map, factor(map.grid.pitch_y, map.grid.rows), factor(map.grid.pitch_x, map.grid.cols));
-  return without_form(coarse, {true, true, false});
+  const std::vector<Index> pixels = finite_pixels(coarse);
+  if (pixels.size() < 3) return coarse;
+  const Plane plane = robust_plane(coarse, pixels, true);
+  for (const Index i : pixels) coarse.values[static_cast<std::size_t>(i)] -= plane.at(coarse.grid.centre(i));
+  return coarse;
 }
 
 struct Sample {

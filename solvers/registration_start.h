@@ -18,7 +18,7 @@ struct RegistrationStart {
 /// The shift and rotation that bring `moving` best onto `fixed` by exhaustive search: both averaged in blocks until the
 /// fixed one has at most kStartPixels pixels, every shift by whole such pixels and every rotation by as much as moves
 /// the corner of the moving map by one, the RMS difference without its mean over the common pixels, of which there must
-/// be kStartOverlap of the smaller map. Nearest pixels, planes removed from both maps before. Good to about one
+/// be kStartOverlap of the smaller map. Nearest pixels, robust planes removed from both maps before. Good to about one
 /// averaged pixel. Throws InputError if no place has that overlap. Cost O(kStartPixels) a place.
 RegistrationStart coarse_registration(const HeightMap& moving, const HeightMap& fixed, const RegistrationRange& range,
                                       int threads = 1);

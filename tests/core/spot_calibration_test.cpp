@@ -218,6 +218,29 @@ TEST(CalibrateSpots, RefusesASpotAtTheEdge) {
   expect_input_error([&] { calibrate_spots(depth, options); }, {"spot at (100, 100)", "baseline"});
 }
 
+// With a radius the place is taken as given; the centroid then walks to the next spot.
+TEST(CalibrateSpots, RefusesASpotFarFromThePlaceGiven) {
+  const HeightMap depth = depth_of(after_spots(kGrid, {{-2.0, 10.0}, {6.1, 15.3}}, 5.0, 0.1, 1));
+  // Above half the peak: 2 mm wide.
+  SpotOptions options = options_for(5.0);
+  options.radius = 3.0;
+  options.at = {{-2.0, 10.0}, {6.1, 15.3}};
+  const Point place = calibrate_spots(depth, options).spots[1].position;
+  EXPECT_LE(distance(place, {6.1, 15.3}), 0.5);
+  for (const Point off : {Point{0.9, 0.0}, {-0.6, 0.4}}) {
+    options.at[1] = Point{6.1, 15.3} + off;
+    const Point found = calibrate_spots(depth, options).spots[1].position;
+    EXPECT_LE(distance(found, place), 0.01) << off.x;
+  }
+  options.at[1] = {6.1, 12.9};
+  expect_input_error([&] { calibrate_spots(depth, options); }, {"--at 6.1,12.9 (spot 2 of 2)", "is at (6.3", ", 15.3",
+                                                                "2.4", "at most 1.1", "half of its width"});
+  // Found by itself, too, where the nearest spot is not at the place.
+  options.radius.reset();
+  options.at = {{-2.0, 8.0}};
+  expect_input_error([&] { calibrate_spots(depth, options); }, {"--at -2,8 (spot 1 of 1)", "mm away"});
+}
+
 TEST(CalibrateSpots, RefusesBeforeAndAfterSwapped) {
   const HeightMap flat(kGrid, std::vector<double>(static_cast<std::size_t>(kGrid.size()), 0.0));
   const HeightMap after = after_spots(kGrid, kFour, 5.0, 0.1, 1);
