@@ -33,7 +33,7 @@ void paste(Canvas& canvas, const Canvas& part, int left, int top) {
 ChartLine curve(const TransferFunction& t, const std::vector<double>& response, const char* label, Colour colour) {
   constexpr int kPoints = 120;
   constexpr double kLeast = 0.01;
-  ChartLine line{label, colour, {}};
+  ChartLine line{label, colour, {}, false, false};
   std::size_t last = 1;
   for (std::size_t k = 1; k < response.size(); ++k) {
     if (response[k] >= kLeast) last = k;

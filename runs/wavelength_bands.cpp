@@ -44,6 +44,7 @@ std::vector<double> parse_band_edges(const std::string& text) {
 BandSplit band_rms(const ArealPsd& psd, const std::vector<double>& edges) {
   static const std::array<const char*, 3> kNames{"form", "mid", "rough"};
   std::vector<double> frequencies;
+  frequencies.reserve(edges.size() + 1);
   for (const double edge : edges) frequencies.push_back(1.0 / edge);
   // One wave on the part, where the bands are cut; the sample there belongs to them whatever way it is rounded.
   const double lowest = (1.0 - 1e-9) / psd.longest_wavelength();
