@@ -2,15 +2,15 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "cli/commands.h"
 #include "cli/job_arguments.h"
+#include "cli/output_files.h"
 #include "cli/terminal.h"
 #include "core/aperture.h"
 #include "core/errors.h"
 #include "core/map_formats.h"
-#include "core/map_io.h"
-#include "core/whole_file.h"
 #include "runs/height_image.h"
 #include "runs/input_files.h"
 #include "runs/map_profile.h"
@@ -51,53 +51,89 @@ MapReportOptions report_options(const MapArguments& arguments, const CLI::App& c
 /// A picture's title names the file, not its folder.
 std::string name_of(const std::string& file) { return std::filesystem::path(file).filename().string(); }
 
-void draw_profile(const MapArguments& arguments, const MapReport& report) {
-  if (arguments.profile.empty()) return;
-  const MapProfile profile = map_profile(report.figure, parse_profile_spec(arguments.profile));
-  fmt::print("profile   {}: PV {:.6g} nm, RMS {:.6g} nm\n", profile.name, profile.pv(), profile.rms());
-  if (arguments.profile_png.empty()) return;
-  const std::string title = fmt::format("{}, {}: RMS {:.4g} nm, PV {:.4g} nm ({} removed)", name_of(arguments.file),
-                                        profile.name, profile.rms(), profile.pv(), to_string(report.removed));
-  write_whole_file(arguments.profile_png, profile_picture(profile, title));
-}
-
-/// The map as read and prepared by the steps, in the order given, within the aperture.
-HeightMap prepared_map(const MapArguments& arguments, JobOptions& options, std::vector<InputFile>& inputs) {
+/// The steps of --map-steps, then those of --step.
+void add_steps(JobOptions& options, const MapArguments& arguments) {
   for (const std::string& step : arguments.steps) {
     if (parse_map_steps(step).empty())
       throw InputError(fmt::format("--step '{}': empty; --steps lists what is accepted", step));
     options.map_steps += (options.map_steps.empty() ? "" : ";") + step;
   }
+}
+
+void check_outputs(const MapArguments& a, const JobOptions& options) {
+  std::vector<ReadFile> read{{"the map", a.file}};
+  for (const std::string& file : map_step_files(options.map_steps)) read.push_back({"a map of a step", file});
+  using Kind = OutputFile::Kind;
+  check_output_files({{Kind::Map, "--write", a.write},
+                      {Kind::Png, "--write-image", a.write_image},
+                      {Kind::Json, "--json", a.json},
+                      {Kind::Png, "--png", a.png},
+                      {Kind::Png, "--psd-png", a.psd_png},
+                      {Kind::Png, "--profile-png", a.profile_png}},
+                     read);
+}
+
+/// The map as read and prepared by the steps, within the aperture.
+HeightMap prepared_map(const JobOptions& options, std::vector<InputFile>& inputs) {
   HeightMap map = within(load_map(options, inputs, terminal_hooks()), parse_aperture(options.aperture));
   finish_progress();
   if (options.aperture != "map") map.history.push_back(fmt::format("aperture {}", options.aperture));
   return map;
 }
 
+std::string told(const HeightMap& map, const MapReport& report, const std::optional<MapProfile>& profile,
+                 const InputFile& input) {
+  const Grid& g = map.grid;
+  std::string text = fmt::format("file      {} (sha256 {})\n", input.file, input.sha256);
+  text += fmt::format("size      {} rows (y) x {} columns (x), {:.6g} mm in x, {:.6g} mm in y\n", g.rows, g.cols,
+                      g.width(), g.height());
+  text += fmt::format("pitch     {:.9g} mm in x, {:.9g} mm in y\n", g.pitch_x, g.pitch_y);
+  text += fmt::format("origin    first pixel at ({:.9g}, {:.9g}) mm\n", g.origin.x, g.origin.y);
+  text += fmt::format("valid     {} of {} pixels\n", report.statistics.valid_pixels, g.size());
+  text += map_report_text(report);
+  for (const std::string& step : map.history) text += fmt::format("made      {}\n", step);
+  if (profile) {
+    text += fmt::format("profile   {}: PV {:.6g} nm, RMS {:.6g} nm about its mean\n", profile->name, profile->pv(),
+                        profile->rms());
+  }
+  return text;
+}
+
+/// All pictures and texts, made before the first file is written.
+PendingFiles files_of(const MapArguments& a, const HeightMap& map, const MapReport& report,
+                      const std::optional<MapProfile>& profile, const std::vector<InputFile>& inputs) {
+  const std::string removed = to_string(report.removed);
+  const std::string title = fmt::format("{}: RMS {:.4g} nm, PV {:.4g} nm ({} removed)", name_of(a.file),
+                                        report.statistics.rms, report.statistics.pv, removed);
+  PendingFiles files;
+  files.add_map(a.write, map);
+  files.add(a.write_image, [&] { return height_image_png(map); });
+  files.add(a.json, [&] { return map_report_json(report, map, inputs); });
+  files.add(a.png, [&] { return map_picture(report.figure, {title, "nm", true, {}, {}}); });
+  files.add(a.psd_png, [&] { return psd_picture(report, title); });
+  files.add(a.profile_png, [&] {
+    return profile_picture(*profile, fmt::format("{}, {}: RMS {:.4g} nm, PV {:.4g} nm ({} removed)", name_of(a.file),
+                                                 profile->name, profile->rms(), profile->pv(), removed));
+  });
+  return files;
+}
+
 int run_map(const MapArguments& arguments, const CLI::App& command) {
   JobOptions options = arguments.job->options();
   options.map = arguments.file;
   const MapReportOptions wanted = report_options(arguments, command, thread_count(options.threads));
+  std::optional<ProfileSpec> line;
+  if (!arguments.profile.empty()) line = parse_profile_spec(arguments.profile);
+  add_steps(options, arguments);
+  check_outputs(arguments, options);
   std::vector<InputFile> inputs;
-  const HeightMap map = prepared_map(arguments, options, inputs);
+  const HeightMap map = prepared_map(options, inputs);
   const MapReport report = map_report(map, wanted);
-  const Grid& g = map.grid;
-  fmt::print("file      {} (sha256 {})\n", inputs[0].file, inputs[0].sha256);
-  fmt::print("size      {} rows (y) x {} columns (x), {:.6g} mm in x, {:.6g} mm in y\n", g.rows, g.cols, g.width(),
-             g.height());
-  fmt::print("pitch     {:.9g} mm in x, {:.9g} mm in y\n", g.pitch_x, g.pitch_y);
-  fmt::print("origin    first pixel at ({:.9g}, {:.9g}) mm\n", g.origin.x, g.origin.y);
-  fmt::print("valid     {} of {} pixels\n", report.statistics.valid_pixels, g.size());
-  fmt::print("{}", map_report_text(report));
-  for (const std::string& step : map.history) fmt::print("made      {}\n", step);
-  draw_profile(arguments, report);
-  if (!arguments.write.empty()) write_map(arguments.write, map);
-  if (!arguments.write_image.empty()) write_whole_file(arguments.write_image, height_image_png(map));
-  if (!arguments.json.empty()) write_whole_file(arguments.json, map_report_json(report, map, inputs));
-  const std::string title = fmt::format("{}: RMS {:.4g} nm, PV {:.4g} nm ({} removed)", name_of(arguments.file),
-                                        report.statistics.rms, report.statistics.pv, to_string(report.removed));
-  if (!arguments.png.empty()) write_whole_file(arguments.png, map_picture(report.figure, {title, "nm", true, {}, {}}));
-  if (!arguments.psd_png.empty()) write_whole_file(arguments.psd_png, psd_picture(report, title));
+  std::optional<MapProfile> profile;
+  if (line) profile = map_profile(report.figure, *line);
+  const std::string text = told(map, report, profile, inputs[0]);
+  files_of(arguments, map, report, profile, inputs).write();
+  fmt::print("{}", text);
   return report.spectrum && !report.spectrum->limit_met() ? kLimitReached : kDone;
 }
 
@@ -119,9 +155,9 @@ void add_report_options(CLI::App& command, MapArguments& arguments) {
        "for "
        "the radial one");
   text("--profile", arguments.profile, "LINE", "y=MM (along x), x=MM (along y) or X0,Y0,X1,Y1 in mm");
-  text("--json", arguments.json, "FILE", "write all that is printed, and the spectra, as JSON");
-  text("--psd-png", arguments.psd_png, "FILE", "draw the spectra");
-  text("--profile-png", arguments.profile_png, "FILE", "draw the profile, form removed");
+  text("--json", arguments.json, "FILE.json", "write all that is printed, and the spectra, as JSON");
+  text("--psd-png", arguments.psd_png, "FILE.png", "draw the spectra");
+  text("--profile-png", arguments.profile_png, "FILE.png", "draw the profile, form removed");
 }
 
 void add_step_options(CLI::App& command, MapArguments& arguments) {
@@ -151,12 +187,12 @@ void add_map_command(CLI::App& program, int& exit_code) {
   const std::vector<std::string> flags{"map-pixel", "map-unit", "map-origin", "map-steps", "aperture", "threads"};
   arguments->job = std::make_unique<JobArguments>(*command, flags, false);
   add_report_options(*command, *arguments);
-  command->add_option("--write", arguments->write, "write the map as measured [nm]: " + written_map_extensions())
+  command->add_option("--write", arguments->write, "write the map after all steps [nm]: " + written_map_extensions())
       ->type_name("FILE");
   add_step_options(*command, *arguments);
   command->add_option("--write-image", arguments->write_image, "write the map as a 16-bit grey PNG, levels = heights")
       ->type_name("FILE.png");
-  command->add_option("--png", arguments->png, "draw the map, form removed")->type_name("FILE");
+  command->add_option("--png", arguments->png, "draw the map, form removed")->type_name("FILE.png");
   command->footer(
       "Example:\n  dwell map mirror.csv --map-pixel 0.0938 --remove piston,tilt --png mirror.png\n"
       "  dwell map mirror.csv --map-pixel 0.0938 --step crop:data --form zernike-noll:1-15 --psd-png spectra.png");

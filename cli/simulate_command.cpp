@@ -1,13 +1,14 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <optional>
 
 #include "cli/commands.h"
 #include "cli/job_arguments.h"
+#include "cli/output_files.h"
 #include "cli/terminal.h"
 #include "core/map_formats.h"
-#include "core/map_io.h"
-#include "core/whole_file.h"
+#include "runs/map_steps.h"
 #include "runs/picture.h"
 #include "runs/simulation.h"
 
@@ -20,27 +21,42 @@ struct SimulateArguments {
   bool json = false;
 };
 
+void check_outputs(const SimulateArguments& a, const JobOptions& options) {
+  std::vector<ReadFile> read{
+      {"the program", a.program}, {"the map", options.map}, {"the removal function", options.tif}};
+  for (const std::string& file : map_step_files(options.map_steps)) read.push_back({"a map of a step", file});
+  check_output_files({{OutputFile::Kind::Map, "--residual", a.residual}, {OutputFile::Kind::Png, "--png", a.png}},
+                     read);
+}
+
+std::string told(const Simulation& s) {
+  return fmt::format("program   {}: {} steps, {:.6g} mm with removal, {:.2f} s\n", s.program.file,
+                     s.program.steps.size(), s.program.removing_length(), s.program.total_seconds()) +
+         fmt::format("before    RMS {:.4g} nm, PV {:.4g} nm ({} removed, {} pixels)\n", s.before.rms, s.before.pv,
+                     to_string(s.terms), s.before.valid_pixels) +
+         fmt::format("after     RMS {:.4g} nm, PV {:.4g} nm\n", s.after.rms, s.after.pv);
+}
+
 int run_simulate(const SimulateArguments& arguments) {
   std::optional<GcodeDialect> dialect;
   if (!arguments.gcode.empty()) dialect = parse_gcode_dialect(arguments.gcode);
-  const Simulation s = simulate_file(arguments.program, dialect, arguments.job->options(), terminal_hooks());
+  const JobOptions options = arguments.job->options();
+  check_outputs(arguments, options);
+  const Simulation s = simulate_file(arguments.program, dialect, options, terminal_hooks());
   finish_progress();
-  const std::string removed = to_string(s.terms);
-  if (!arguments.residual.empty()) write_map(arguments.residual, s.residual);
-  if (!arguments.png.empty()) {
-    const std::string title = fmt::format("After {}: RMS {:.4g} nm, PV {:.4g} nm ({} removed)", s.program.file,
-                                          s.after.rms, s.after.pv, removed);
-    write_whole_file(arguments.png, map_picture(s.residual, {title, "nm", true, {}, {}}));
-  }
-  if (arguments.json) {
-    fmt::print("{}", simulation_json(s));
-    return kDone;
-  }
-  fmt::print("program   {}: {} steps, {:.6g} mm with removal, {:.2f} s\n", s.program.file, s.program.steps.size(),
-             s.program.removing_length(), s.program.total_seconds());
-  fmt::print("before    RMS {:.4g} nm, PV {:.4g} nm ({} removed, {} pixels)\n", s.before.rms, s.before.pv, removed,
-             s.before.valid_pixels);
-  fmt::print("after     RMS {:.4g} nm, PV {:.4g} nm\n", s.after.rms, s.after.pv);
+  const std::string text = arguments.json ? simulation_json(s) : told(s);
+  PendingFiles files;
+  files.add_map(arguments.residual, s.residual);
+  files.add(arguments.png, [&] {
+    return map_picture(s.residual, {fmt::format("After {}: RMS {:.4g} nm, PV {:.4g} nm ({} removed)", s.program.file,
+                                                s.after.rms, s.after.pv, to_string(s.terms)),
+                                    "nm",
+                                    true,
+                                    {},
+                                    {}});
+  });
+  files.write();
+  fmt::print("{}", text);
   return kDone;
 }
 

@@ -4,10 +4,10 @@
 
 #include "cli/commands.h"
 #include "cli/job_arguments.h"
+#include "cli/output_files.h"
 #include "cli/terminal.h"
 #include "core/errors.h"
-#include "core/map_io.h"
-#include "core/whole_file.h"
+#include "core/map_formats.h"
 #include "runs/tif_picture.h"
 #include "runs/tif_report.h"
 #include "runs/tif_run.h"
@@ -21,19 +21,37 @@ struct TifArguments {
   std::string tif, write, json, png, section_png, fit_png, mtf_png;
 };
 
+void check_outputs(const TifArguments& a) {
+  using Kind = OutputFile::Kind;
+  check_output_files({{Kind::Map, "--write", a.write},
+                      {Kind::Json, "--json", a.json},
+                      {Kind::Png, "--png", a.png},
+                      {Kind::Png, "--section-png", a.section_png},
+                      {Kind::Png, "--fit-png", a.fit_png},
+                      {Kind::Png, "--mtf-png", a.mtf_png}},
+                     {{"the removal function", a.tif},
+                      {"the map of --spot", a.job.spot},
+                      {"the map of --trench", a.job.trench},
+                      {"the map of --before", a.job.before}});
+}
+
 int run_tif(const TifArguments& arguments) {
   TifJob job = arguments.job;
   job.job = arguments.options->options();
   job.job.tif = arguments.tif;
   if (!arguments.fit_png.empty() && job.fits.empty()) throw InputError("--fit-png: needs --fit");
+  check_outputs(arguments);
   const TifResult result = make_tif(job);
-  fmt::print("{}", tif_text(result));
-  if (!arguments.write.empty()) write_map(arguments.write, result.rates);
-  if (!arguments.json.empty()) write_whole_file(arguments.json, tif_json(result));
-  if (!arguments.png.empty()) write_whole_file(arguments.png, tif_picture(result));
-  if (!arguments.section_png.empty()) write_whole_file(arguments.section_png, section_picture(result));
-  if (!arguments.fit_png.empty()) write_whole_file(arguments.fit_png, fit_picture(result));
-  if (!arguments.mtf_png.empty()) write_whole_file(arguments.mtf_png, transfer_picture(result));
+  const std::string text = tif_text(result);
+  PendingFiles files;
+  files.add_map(arguments.write, result.rates);
+  files.add(arguments.json, [&] { return tif_json(result); });
+  files.add(arguments.png, [&] { return tif_picture(result); });
+  files.add(arguments.section_png, [&] { return section_picture(result); });
+  files.add(arguments.fit_png, [&] { return fit_picture(result); });
+  files.add(arguments.mtf_png, [&] { return transfer_picture(result); });
+  files.write();
+  fmt::print("{}", text);
   return unfinished_fits(result) > 0 ? kLimitReached : kDone;
 }
 
@@ -91,7 +109,7 @@ void add_outputs(CLI::App& command, TifArguments& arguments) {
   command.add_flag("--robust", arguments.job.robust, "outliers count less in the fits");
   command
       .add_option("--write", arguments.write,
-                  "write the rates in nm/s, the tool axis at (0, 0) mm: .csv, .txt, .xyz or .npy")
+                  "write the rates in nm/s, the tool axis at (0, 0) mm: " + written_map_extensions())
       ->type_name("FILE");
   command.add_option("--json", arguments.json, "write all results")->type_name("FILE");
   command.add_option("--png", arguments.png, "draw the removal function")->type_name("FILE");

@@ -45,14 +45,29 @@ class Descriptor {
   int number_;
 };
 
+/// What is neither a regular file nor a folder, for messages.
+const char* kind_of(mode_t mode) {
+  if (S_ISFIFO(mode)) return "a pipe";
+  if (S_ISCHR(mode) || S_ISBLK(mode)) return "a device";
+  return "neither a file nor a folder";
+}
+
+/// A pipe or device may have no end, or wait for ever for a first byte.
+void require_regular(const struct stat& status, const fs::path& file) {
+  if (S_ISDIR(status.st_mode)) throw InputError(fmt::format("'{}' is a directory; a file is required", file.string()));
+  if (!S_ISREG(status.st_mode)) {
+    throw InputError(fmt::format("'{}' is {}; a regular file is required", file.string(), kind_of(status.st_mode)));
+  }
+}
+
 /// Passes the file's bytes to `take` in blocks.
 template <class Take>
 void for_each_block(const fs::path& file, Take take) {
-  const Descriptor descriptor(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
+  const Descriptor descriptor(::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));  // a pipe is not waited for
   if (descriptor.number() < 0) fail("read", file, errno);
   struct stat status {};
   if (::fstat(descriptor.number(), &status) != 0) fail("read", file, errno);
-  if (S_ISDIR(status.st_mode)) throw InputError(fmt::format("'{}' is a directory; a file is required", file.string()));
+  require_regular(status, file);
   std::vector<char> block(std::size_t{1} << 20);
   for (;;) {
     const ssize_t count = ::read(descriptor.number(), block.data(), block.size());
@@ -118,7 +133,7 @@ fs::path temporary_beside(const fs::path& file) {
 
 std::string read_whole_file(const fs::path& file) {
   std::string bytes;
-  std::error_code unknown;  // a pipe has no size: then it grows as it is read
+  std::error_code unknown;  // what has none is refused below, or grows as it is read
   const std::uintmax_t size = fs::file_size(file, unknown);
   if (!unknown && size < bytes.max_size()) bytes.reserve(static_cast<std::size_t>(size));
   for_each_block(file, [&](std::string_view block) { bytes += block; });

@@ -6,7 +6,8 @@
 
 namespace dwell {
 
-/// The bytes of a file. Throws InputError naming the file if it cannot be read or is a directory.
+/// The bytes of a file. Throws InputError naming the file if it cannot be read or is not a regular file: pipes and
+/// devices are refused, for they may never end.
 std::string read_whole_file(const std::filesystem::path& file);
 
 /// Writes bytes to a temporary file beside `file` and renames it: the file appears whole or not at all.

@@ -101,9 +101,14 @@ double MapProfile::pv() const {
 }
 
 double MapProfile::rms() const {
-  double square = 0.0, count = 0.0;
+  double sum = 0.0, count = 0.0;
   for (const double z : heights) {
-    if (std::isfinite(z)) square += z * z, count += 1.0;
+    if (std::isfinite(z)) sum += z, count += 1.0;
+  }
+  const double mean = sum / count;
+  double square = 0.0;
+  for (const double z : heights) {
+    if (std::isfinite(z)) square += (z - mean) * (z - mean);
   }
   return std::sqrt(square / count);
 }

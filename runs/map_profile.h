@@ -27,7 +27,7 @@ struct MapProfile {
   std::vector<double> heights;  // [nm], NaN where the map has no data
 
   double pv() const;   // of the finite heights [nm]
-  double rms() const;  // about zero [nm]
+  double rms() const;  // of the finite heights about their mean [nm]
 };
 
 /// Throws InputError if the line does not lie on the map, saying where the map lies, or if it meets no finite pixel.

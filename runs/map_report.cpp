@@ -28,7 +28,7 @@ SpectrumReport spectrum_report(const HeightMap& figure, const MapReportOptions& 
   report.shortest_wavelength = psd.shortest_wavelength();
   report.bridged = psd.bridged;
   report.holes = psd.holes;
-  report.bands = band_rms(psd, options.band_edges);
+  report.split = band_rms(psd, options.band_edges);
   report.limit = options.limit;
   for (PsdCurve& curve : std::vector<PsdCurve>{psd_along_x(psd), psd_along_y(psd), radial_psd(psd)}) {
     const auto [from, to] = counted_range(curve, options.band_edges);

@@ -38,7 +38,7 @@ struct SpectrumReport {
   Index bridged = 0;
   bool holes = false;
   std::vector<CurveReport> curves;  // along x, along y, radial
-  std::vector<BandRms> bands;
+  BandSplit split;
   std::optional<PsdLimit> limit;
 
   bool limit_met() const;  // also without a limit
@@ -50,7 +50,7 @@ struct MapReport {
   PolynomialFit removed_fit;
   HeightMap figure;  // the map without `removed`
   MapStatistics statistics;
-  RobustPv robust;
+  std::optional<RobustPv> robust;  // none of fewer pixels than terms
   SlopeStatistics slope;
   std::optional<PolynomialSpec> form;
   PolynomialFit form_fit;

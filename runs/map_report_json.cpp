@@ -61,11 +61,11 @@ Json curve_json(const CurveReport& c) {
 
 Json spectrum_json(const SpectrumReport& s) {
   Json bands = Json::array();
-  for (const BandRms& band : s.bands) {
+  for (const BandRms& band : s.split.bands) {
     bands.push_back({{"name", band.name},
                      {"longest_mm", number(band.longest)},
                      {"shortest_mm", band.shortest},
-                     {"rms_nm", band.rms},
+                     {"rms_nm", band.rms ? Json(*band.rms) : Json(nullptr)},
                      {"note", band.note}});
   }
   Json json = {{"window", to_string(s.window)},
@@ -73,7 +73,9 @@ Json spectrum_json(const SpectrumReport& s) {
                {"bridged_pixels", s.bridged},
                {"rms_nm", s.rms},
                {"resolved_wavelengths_mm", {s.shortest_wavelength, s.longest_wavelength}},
-               {"bands", bands}};
+               {"bands", bands},
+               {"longer_than_resolved_rms_nm", s.split.longer},
+               {"shorter_than_resolved_rms_nm", s.split.shorter}};
   if (s.limit) json["limit"] = {{"radial", s.limit->radial}, {"a", s.limit->line.a}, {"b", s.limit->line.b}};
   for (const CurveReport& c : s.curves) json[c.curve.name] = curve_json(c);
   return json;
@@ -92,7 +94,7 @@ std::string map_report_json(const MapReport& report, const HeightMap& map, const
                  {"history", map.history}};
   json["removed"] = fit_json(report.removed, report.removed_fit);
   json["pv_nm"] = report.statistics.pv;
-  json["pvr_nm"] = report.robust.pvr;
+  json["pvr_nm"] = report.robust ? Json(report.robust->pvr) : Json(nullptr);
   json["rms_nm"] = report.statistics.rms;
   json["slope_rms_urad"] = {
       {"x", number(report.slope.x)}, {"y", number(report.slope.y)}, {"total", number(report.slope.total)}};

@@ -14,10 +14,9 @@ constexpr Colour kLimit{200, 30, 30}, kBlue{33, 102, 172}, kGreen{27, 120, 55}, 
 
 Colour colour_of(const std::string& name) { return name == "x" ? kBlue : name == "y" ? kGreen : kViolet; }
 
-/// The same colour, darker: a fit is seen on the curve it belongs to.
-Colour dark(Colour c) {
-  const auto half = [](int v) { return static_cast<std::uint8_t>(v / 2); };
-  return {half(c.red), half(c.green), half(c.blue)};
+/// Of the fits: apart from each other, and from the curves that they lie on.
+Colour colour_of_fit(const std::string& name) {
+  return name == "x" ? Colour{240, 130, 0} : name == "y" ? Colour{20, 20, 20} : Colour{230, 170, 0};
 }
 
 ChartLine straight(const std::string& label, Colour colour, const PsdLine& line, double from, double to) {
@@ -35,7 +34,7 @@ void add_curve(ChartPanel& panel, const CurveReport& c) {
   if (!c.fit) return;
   const PsdLineFit& fit = *c.fit;
   const std::string label = fmt::format("{}: {:.3g} f^-{:.3g}", c.curve.name, fit.line.a, fit.line.b);
-  panel.lines.push_back(straight(label, dark(colour), fit.line, fit.from, fit.to));
+  panel.lines.push_back(straight(label, colour_of_fit(c.curve.name), fit.line, fit.from, fit.to));
 }
 
 void add_limit(ChartPanel& panel, const PsdLimitCheck& check, const PsdLimit& limit) {
@@ -48,7 +47,8 @@ void add_bands(ChartPanel& panel, const std::vector<BandRms>& bands) {
     const double from = std::isfinite(bands[k].longest) ? 1.0 / bands[k].longest : 0.0;
     const double to = bands[k].shortest > 0.0 ? 1.0 / bands[k].shortest : std::numeric_limits<double>::infinity();
     const Colour colour = k % 2 == 0 ? Colour{255, 255, 255} : Colour{244, 246, 232};
-    panel.bands.push_back({fmt::format("{} {:.3g} nm", bands[k].name, bands[k].rms), from, to, colour});
+    const std::string value = bands[k].rms ? fmt::format("{:.3g} nm", *bands[k].rms) : "not resolved";
+    panel.bands.push_back({bands[k].name + " " + value, from, to, colour});
   }
 }
 
@@ -61,7 +61,7 @@ std::string psd_picture(const MapReport& report, const std::string& title) {
   for (const CurveReport& c : report.spectrum->curves) add_curve(c.curve.name == "radial" ? radial : lines, c);
   for (ChartPanel* panel : {&lines, &radial}) {
     panel->width = 680;
-    add_bands(*panel, report.spectrum->bands);
+    add_bands(*panel, report.spectrum->split.bands);
   }
   if (const auto& limit = report.spectrum->limit) {
     // The two line spectra share one limit: it is drawn once, over the longer of their ranges.

@@ -50,7 +50,28 @@ std::string limit_text(const CurveReport& c) {
       check.runs.front().first, check.runs.back().second);
 }
 
-std::string spectrum_text(const SpectrumReport& s) {
+std::string bands_text(const SpectrumReport& s, double plain_rms) {
+  std::string text;
+  for (const BandRms& band : s.split.bands) {
+    if (band.rms) {
+      text += fmt::format("band {:<5}{:>10.4g} nm RMS at wavelengths {}{}\n", band.name, *band.rms,
+                          wavelengths_text(band), band.note.empty() ? "" : " (" + band.note + ")");
+    } else {
+      text += fmt::format("band {:<5} wavelengths {} {}\n", band.name, wavelengths_text(band), band.note);
+    }
+  }
+  text += fmt::format("     long {:>10.4g} nm RMS longer than the part resolves, > {:.4g} mm\n", s.split.longer,
+                      s.longest_wavelength);
+  if (s.split.shorter > 0.0) {
+    text += fmt::format("     short{:>10.4g} nm RMS in the bands shorter than two pixels, along diagonals\n",
+                        s.split.shorter);
+  }
+  return text +
+         fmt::format("     all  {:>10.4g} nm RMS as the window sees the map (plain RMS {:.4g} nm)\n", s.rms, plain_rms);
+}
+
+/// `plain_rms`: of the map, every pixel counting the same [nm].
+std::string spectrum_text(const SpectrumReport& s, double plain_rms) {
   std::string text =
       fmt::format("spectrum  window {}{}; wavelengths from {:.4g} to {:.4g} mm are resolved\n", to_string(s.window),
                   s.holes ? ", along the edge of the part" : "", s.shortest_wavelength, s.longest_wavelength);
@@ -64,11 +85,7 @@ std::string spectrum_text(const SpectrumReport& s) {
       text += fmt::format("PSD {:<6}too few frequencies are resolved to fit a line\n", short_name(c.curve));
     }
   }
-  for (const BandRms& band : s.bands) {
-    text += fmt::format("band {:<5}{:>10.4g} nm RMS at wavelengths {}{}\n", band.name, band.rms, wavelengths_text(band),
-                        band.note.empty() ? "" : " (" + band.note + ")");
-  }
-  text += fmt::format("     all  {:>10.4g} nm RMS as the window sees the map\n", s.rms);
+  text += bands_text(s, plain_rms);
   for (const CurveReport& c : s.curves) {
     if (c.limit) text += limit_text(c);
   }
@@ -83,6 +100,15 @@ std::string dropped_text(const PolynomialFit& fit) {
   return names.empty() ? "" : fmt::format("          not removed, since they depend on the others here: {}\n", names);
 }
 
+std::string robust_text(const MapReport& report) {
+  if (!report.robust) {
+    return fmt::format("PVr       too few pixels: {} with data, 36 Zernike terms\n", report.statistics.valid_pixels);
+  }
+  const RobustPv& robust = *report.robust;
+  return fmt::format("PVr       {:.6g} nm (36 Zernike terms {:.6g} nm PV + 3 x {:.6g} nm RMS of the rest)\n",
+                     robust.pvr, robust.fit_pv, robust.residual_rms);
+}
+
 std::string slope_number(double slope) { return std::isfinite(slope) ? fmt::format("{:.6g}", slope) : "none"; }
 
 }  // namespace
@@ -90,14 +116,13 @@ std::string slope_number(double slope) { return std::isfinite(slope) ? fmt::form
 std::string map_report_text(const MapReport& report) {
   const std::string removed = to_string(report.removed);
   std::string text = fmt::format("PV        {:.6g} nm ({} removed)\n", report.statistics.pv, removed);
-  text += fmt::format("PVr       {:.6g} nm (36 Zernike terms {:.6g} nm PV + 3 x {:.6g} nm RMS of the rest)\n",
-                      report.robust.pvr, report.robust.fit_pv, report.robust.residual_rms);
+  text += robust_text(report);
   text += fmt::format("RMS       {:.6g} nm ({} removed)\n", report.statistics.rms, removed);
   text += fmt::format("slope     {} urad RMS in x, {} in y, {} together, from pixel to pixel\n",
                       slope_number(report.slope.x), slope_number(report.slope.y), slope_number(report.slope.total));
   text += dropped_text(report.removed_fit);
   if (report.form) text += form_text(report);
-  if (report.spectrum) text += spectrum_text(*report.spectrum);
+  if (report.spectrum) text += spectrum_text(*report.spectrum, report.statistics.rms);
   return text;
 }
 

@@ -283,6 +283,8 @@ std::string described(const MapStepArgument& a) {
   return fmt::format("{}: {}{}", name, a.help, tail);
 }
 
+bool names_file(const MapStepArgument& a) { return a.kind == Kind::File || a.kind == Kind::Files; }
+
 }  // namespace
 
 const std::vector<MapStepRecord>& map_step_table() {
@@ -302,13 +304,23 @@ std::vector<MapStep> parse_map_steps(const std::string& text) {
   return steps;
 }
 
+std::vector<std::string> map_step_files(const std::string& text) {
+  std::vector<std::string> files;
+  for (const MapStep& step : parse_map_steps(text)) {
+    for (const MapStepArgument& a : step.record->arguments) {
+      if (!names_file(a)) continue;
+      for (std::string& file : step.values(a.name)) files.push_back(std::move(file));
+    }
+  }
+  return files;
+}
+
 std::string rebased_map_steps(const std::string& text, const std::filesystem::path& folder) {
   std::string result;
   for (MapStep& step : parse_map_steps(text)) {
     for (auto& [name, value] : step.given) {
       for (const MapStepArgument& a : step.record->arguments) {
-        const bool is_file = a.kind == Kind::File || a.kind == Kind::Files;
-        if (is_file && a.name == name) value = (folder / value).lexically_normal().string();
+        if (names_file(a) && a.name == name) value = (folder / value).lexically_normal().string();
       }
     }
     result += (result.empty() ? "" : "; ") + to_string(step, false);

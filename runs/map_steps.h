@@ -18,6 +18,9 @@ std::vector<MapStep> parse_map_steps(const std::string& text);
 /// The steps with the names of their files taken relative to `folder`. Throws InputError.
 std::string rebased_map_steps(const std::string& text, const std::filesystem::path& folder);
 
+/// The files of other maps that the steps read, as given. Throws InputError.
+std::vector<std::string> map_step_files(const std::string& text);
+
 /// Does the steps in order; each appends one line to the map's history: its arguments in force and what it did. Throws
 /// InputError that begins with the step; Interrupted.
 void apply_map_steps(HeightMap& map, const std::vector<MapStep>& steps, MapStepContext& context);

@@ -33,7 +33,7 @@ void paste(Canvas& canvas, const Canvas& part, int left, int top) {
 ChartLine curve(const TransferFunction& t, const std::vector<double>& response, const char* label, Colour colour) {
   constexpr int kPoints = 120;
   constexpr double kLeast = 0.01;
-  ChartLine line{label, colour, {}};
+  ChartLine line{label, colour, {}, false, false};
   std::size_t last = 1;
   for (std::size_t k = 1; k < response.size(); ++k) {
     if (response[k] >= kLeast) last = k;
@@ -122,20 +122,21 @@ std::string transfer_picture(const TifResult& result) {
   const RemovalAnalysis& a = result.analysis;
   const TransferFunction& t = a.transfer;
   const auto line = [&](const std::vector<double>& response, const char* label, Colour colour,
-                        const std::optional<double>& half, const std::optional<double>& tenth) {
+                        const std::optional<double>& half, const std::optional<double>& tenth, bool dashed) {
     ChartLine drawn = curve(t, response, label, colour);
     mark(drawn, half, 0.5);
     mark(drawn, tenth, 0.1);
+    drawn.dashed = dashed;
     return drawn;
   };
   return draw_line_charts("Transfer function", "50 % and 10 %",
                           {{"wavelength [mm] along x, along y",
                             "response",
-                            {line(t.along_x, "along x", {31, 119, 180}, a.at_half.x, a.at_tenth.x),
-                             line(t.along_y, "along y", {214, 39, 40}, a.at_half.y, a.at_tenth.y)}},
+                            {line(t.along_x, "along x", {31, 119, 180}, a.at_half.x, a.at_tenth.x, false),
+                             line(t.along_y, "along y", {214, 39, 40}, a.at_half.y, a.at_tenth.y, true)}},
                            {"wavelength [mm], mean over all directions",
                             "response",
-                            {line(t.radial, "mean", {32, 32, 32}, a.at_half.radial, a.at_tenth.radial)}}});
+                            {line(t.radial, "mean", {32, 32, 32}, a.at_half.radial, a.at_tenth.radial, false)}}});
 }
 
 }  // namespace dwell

@@ -41,22 +41,37 @@ std::vector<double> parse_band_edges(const std::string& text) {
       fmt::format("bands \"{}\"; accepted: wavelengths in mm, descending, at most 20, for instance 33,0.12", text));
 }
 
-std::vector<BandRms> band_rms(const ArealPsd& psd, const std::vector<double>& edges) {
+BandSplit band_rms(const ArealPsd& psd, const std::vector<double>& edges) {
   static const std::array<const char*, 3> kNames{"form", "mid", "rough"};
   std::vector<double> frequencies;
+  frequencies.reserve(edges.size() + 1);
   for (const double edge : edges) frequencies.push_back(1.0 / edge);
+  // One wave on the part, where the bands are cut; the sample there belongs to them whatever way it is rounded.
+  const double lowest = (1.0 - 1e-9) / psd.longest_wavelength();
+  const auto cut = std::upper_bound(frequencies.begin(), frequencies.end(), lowest);
+  const auto longer = static_cast<std::size_t>(cut - frequencies.begin());
+  frequencies.insert(cut, lowest);
   const std::vector<double> squares = band_mean_squares(psd, frequencies);
-  std::vector<BandRms> bands;
-  for (std::size_t k = 0; k < squares.size(); ++k) {
+  BandSplit split;
+  double below = 0.0, above = 0.0;
+  for (std::size_t k = 0; k <= longer; ++k) below += squares[k];
+  for (std::size_t k = 0; k <= edges.size(); ++k) {
     BandRms band;
-    band.name = squares.size() == kNames.size() ? kNames[k] : fmt::format("{}", k + 1);
+    band.name = edges.size() + 1 == kNames.size() ? kNames[k] : fmt::format("{}", k + 1);
     band.longest = k == 0 ? std::numeric_limits<double>::infinity() : edges[k - 1];
     band.shortest = k == edges.size() ? 0.0 : edges[k];
-    band.rms = std::sqrt(squares[k]);
     band.note = note_of(psd, band);
-    bands.push_back(band);
+    const double square = k < longer ? 0.0 : squares[k + 1];
+    if (band.shortest < psd.longest_wavelength() && band.longest > psd.shortest_wavelength()) {
+      band.rms = std::sqrt(square);
+    } else {
+      above += square;
+    }
+    split.bands.push_back(band);
   }
-  return bands;
+  split.longer = std::sqrt(below);
+  split.shorter = std::sqrt(above);
+  return split;
 }
 
 std::string wavelengths_text(const BandRms& band) {

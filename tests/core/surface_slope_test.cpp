@@ -40,13 +40,21 @@ TEST(RobustPv, IgnoresASpikeAndKeepsTheForm) {
       if (u * u + v * v < 0.98) map.at(r, c) = 50.0 * (u * u + v * v) + 10.0 * u * v + ((r + c) % 2 ? 0.5 : -0.5);
     }
   }
-  const RobustPv clean = robust_pv(map);
+  const RobustPv clean = robust_pv(map).value();
   EXPECT_NEAR(clean.residual_rms, 0.5, 0.01);
   EXPECT_NEAR(clean.fit_pv, 53.9, 0.6);  // 50 rho^2 + 5 rho^2 sin 2 theta up to the last pixel within rho^2 = 0.98
   EXPECT_NEAR(clean.pvr, clean.fit_pv + 3.0 * clean.residual_rms, 1e-12);
   map.at(30, 41) += 1000.0;
-  const RobustPv spiked = robust_pv(map, 2);
+  const RobustPv spiked = robust_pv(map, 2).value();
   EXPECT_LE(spiked.pvr, clean.pvr + 60.0);  // of the 1000 nm: 3 / sqrt(4900 pixels), and the bump in the fit
+}
+
+TEST(RobustPv, NeedsAsManyPixelsAsTerms) {
+  HeightMap map(Grid{6, 7, 0.5, 0.4, {}}, std::vector<double>(42, 1.0));
+  for (std::size_t i = 0; i < 6; ++i) map.values[7 * i] = std::nan("");
+  EXPECT_TRUE(robust_pv(map));  // 36
+  map.at(2, 3) = std::nan("");
+  EXPECT_FALSE(robust_pv(map));
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "core/whole_file.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <string>
 
@@ -36,6 +37,15 @@ TEST(WholeFile, NamesWhatItCannotReadOrWrite) {
   test::expect_input_error([&] { read_whole_file(folder.path()); }, {folder.path().string(), "directory"});
   test::expect_input_error([&] { sha256_of_file(missing); }, {missing.string(), "No such file"});
   test::expect_input_error([&] { write_whole_file(inside, "x"); }, {inside.string(), "No such file"});
+}
+
+TEST(WholeFile, RefusesPipesAndDevicesAtOnce) {
+  const test::TemporaryFolder folder;
+  const std::filesystem::path pipe = folder.path() / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  test::expect_input_error([&] { read_whole_file(pipe); }, {pipe.string(), "is a pipe; a regular file is required"});
+  test::expect_input_error([&] { sha256_of_file(pipe); }, {pipe.string(), "is a pipe; a regular file is required"});
+  test::expect_input_error([] { read_whole_file("/dev/zero"); }, {"'/dev/zero' is a device; a regular file"});
 }
 
 TEST(WholeFile, AFailedWriteLeavesNothingBehind) {

@@ -34,7 +34,8 @@ TEST(MapProfile, AlongAnAxisTakesTheNearestPixels) {
   EXPECT_EQ(y.name, "x = 10 mm");
   ASSERT_EQ(y.heights.size(), 5u);
   EXPECT_EQ(y.heights[4], 20.0 + 6.0);
-  EXPECT_NEAR(y.rms(), std::sqrt((26.0 * 26 + 27.5 * 27.5 + 29.0 * 29 + 30.5 * 30.5 + 32.0 * 32) / 5.0), 1e-12);
+  EXPECT_NEAR(y.rms(), 1.5 * std::sqrt(2.0), 1e-12);                        // 26, 27.5, ... 32 about 29
+  EXPECT_NEAR(x.rms(), std::sqrt(75.0 / 6.0 - 17.0 * 17.0 / 36.0), 1e-12);  // 0, 1, 2, 3, 5, 6 above the first
 }
 
 TEST(MapProfile, BetweenTwoPointsInterpolates) {
