@@ -7,7 +7,9 @@
 #include "core/hdf5_map.h"
 #include "core/matrix_text.h"
 #include "core/npy.h"
+#include "core/npy_sidecar.h"
 #include "core/sdf_text.h"
+#include "core/whole_file.h"
 #include "core/xyz_text.h"
 #include "core/zygo_dat.h"
 
@@ -38,15 +40,19 @@ constexpr std::array kFormats{
         parse_codev_int},
 };
 
+std::string csv_text(const HeightMap& map) { return matrix_text(map, ','); }
+std::string blank_text(const HeightMap& map) { return matrix_text(map, ' '); }
+
+template <std::string (*bytes)(const HeightMap& map)>
+void write_bytes(const std::filesystem::path& file, const HeightMap& map) {
+  write_whole_file(file, bytes(map));
+}
+
 constexpr std::array kWriters{
-    MapWriter{".csv", [](const HeightMap& map) { return matrix_text(map, ','); }},
-    MapWriter{".txt", [](const HeightMap& map) { return matrix_text(map, ' '); }},
-    MapWriter{".xyz", xyz_text},
-    MapWriter{".npy", [](const HeightMap& map) { return npy_bytes(map); }},
-    MapWriter{".h5", hdf5_map_bytes},
-    MapWriter{".hdf5", hdf5_map_bytes},
-    MapWriter{".fits", fits_bytes},
-    MapWriter{".sdf", sdf_text},
+    MapWriter{".csv", write_bytes<csv_text>},      MapWriter{".txt", write_bytes<blank_text>},
+    MapWriter{".xyz", write_bytes<xyz_text>},      MapWriter{".npy", write_npy_with_sidecar},
+    MapWriter{".h5", write_bytes<hdf5_map_bytes>}, MapWriter{".hdf5", write_bytes<hdf5_map_bytes>},
+    MapWriter{".fits", write_bytes<fits_bytes>},   MapWriter{".sdf", write_bytes<sdf_text>},
 };
 
 /// "a, b and c" with the last word before c.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -28,7 +29,8 @@ std::string accepted_map_formats();
 /// A format that maps are written in, by the extension of the file (lower case, with its dot).
 struct MapWriter {
   const char* extension;
-  std::string (*bytes)(const HeightMap& map);
+  /// Writes the file, and what belongs to it, whole or not at all.
+  void (*write)(const std::filesystem::path& file, const HeightMap& map);
 };
 
 /// The writer of an extension, or null.

@@ -197,11 +197,7 @@ void write_map(const std::filesystem::path& file, const HeightMap& map) {
     throw InputError(fmt::format("cannot write '{}': extension '{}' is not of a map format; {} are accepted",
                                  file.string(), extension, written_map_extensions()));
   }
-  if (extension == ".npy") {
-    write_npy_with_sidecar(file, map);
-  } else {
-    write_whole_file(file, writer->bytes(map));
-  }
+  writer->write(file, map);
 }
 
 }  // namespace dwell
