@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/point.h"
+
 namespace dwell {
 
 /// What a user wrote as "kind:key=value,key=value" or just "kind", for instance "gaussian:peak=1,fwhm=2.8,radius=5".
@@ -24,6 +26,15 @@ struct SpecText {
   double number(std::string_view key) const;                   // required
   double number(std::string_view key, double fallback) const;  // fallback if the key is not given
   std::optional<double> optional_number(std::string_view key) const;
+
+  /// One of a few words; the first if the key is not given.
+  std::string choice(std::string_view key, std::initializer_list<std::string_view> accepted) const;
+
+  /// A point [mm] written X/Y.
+  std::optional<Point> optional_point(std::string_view key) const;
+
+  /// Throws that the value of a key is not what is required.
+  [[noreturn]] void reject(std::string_view key, std::string_view required) const;
 
   /// Throws if a key is not among those accepted.
   void accept_only(std::initializer_list<std::string_view> keys) const;

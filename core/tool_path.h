@@ -14,6 +14,8 @@ struct ToolPath {
   std::string kind;           // "raster", "nearest", "file", ...
   std::vector<Point> points;  // n dwell points [mm]
   std::vector<char> lifted;   // n flags
+  /// What the planner has to say to the user, a sentence each: points it left out and why, options it chose.
+  std::vector<std::string> notes{};
 
   std::size_t size() const { return points.size(); }
 };

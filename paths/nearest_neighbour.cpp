@@ -127,6 +127,16 @@ Index start_cell(const Cells& cells, const std::optional<Point>& start) {
 
 }  // namespace
 
+NearestOptions parse_nearest_options(const SpecText& spec) {
+  spec.accept_only({"cell", "critical", "lift", "start"});
+  NearestOptions options;
+  options.cell = spec.number("cell");
+  options.critical = spec.number("critical", options.critical);
+  options.lift = spec.number("lift", options.lift);
+  options.start = spec.optional_point("start");
+  return options;
+}
+
 NearestPath nearest_path(const HeightMap& map, const NearestOptions& options) {
   check(options, map.grid);
   const std::vector<Index> pixels = finite_pixels(map);

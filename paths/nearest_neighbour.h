@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/height_map.h"
+#include "core/spec_text.h"
 #include "core/tool_path.h"
 
 namespace dwell {
@@ -21,6 +22,9 @@ struct NearestPath {
   Index cells_total = 0;            // cells that have a valid pixel, kept or not
   Index blocks_searched = 0;        // work done: blocks of the search pyramid looked into
 };
+
+/// From "nearest:cell=MM,..."; throws InputError as SpecText does.
+NearestOptions parse_nearest_options(const SpecText& spec);
 
 /// From the start to the nearest unvisited dwell point; among equally near ones to that of the highest eigenvalue,
 /// then to the lowest row and column; until none is left ("improved Prim", Xie et al. 2022, section 2, eq. 1-5).

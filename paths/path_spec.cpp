@@ -5,10 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <optional>
 
 #include "core/errors.h"
-#include "core/number_text.h"
 #include "core/spec_text.h"
 #include "paths/distance_map.h"
 #include "paths/path_file.h"
@@ -18,43 +16,6 @@ namespace {
 
 [[noreturn]] void refuse(const std::string& text, const std::string& why) {
   throw InputError(fmt::format("path \"{}\": {}", text, why));
-}
-
-RasterOptions parse_raster(const SpecText& spec) {
-  spec.accept_only({"pitch", "step", "angle", "overrun", "order"});
-  RasterOptions options;
-  options.pitch = spec.number("pitch");
-  options.step = spec.optional_number("step");
-  options.angle_deg = spec.number("angle", options.angle_deg);
-  options.overrun = spec.optional_number("overrun");
-  const std::string order = spec.word("order").value_or("serpentine");
-  if (order != "serpentine" && order != "one-way") {
-    refuse(spec.text, fmt::format("order = \"{}\"; accepted: serpentine, one-way", order));
-  }
-  options.serpentine = order == "serpentine";
-  return options;
-}
-
-std::optional<Point> parse_start(const SpecText& spec) {
-  const std::optional<std::string> text = spec.word("start");
-  if (!text) return std::nullopt;
-  const std::size_t slash = text->find('/');
-  if (slash != std::string::npos) {
-    const std::optional<double> x = parse_number(text->substr(0, slash));
-    const std::optional<double> y = parse_number(text->substr(slash + 1));
-    if (x && y) return Point{*x, *y};
-  }
-  refuse(spec.text, fmt::format("start = \"{}\"; required X/Y in mm, for instance start=-10/2.5", *text));
-}
-
-NearestOptions parse_nearest(const SpecText& spec) {
-  spec.accept_only({"cell", "critical", "lift", "start"});
-  NearestOptions options;
-  options.cell = spec.number("cell");
-  options.critical = spec.number("critical", options.critical);
-  options.lift = spec.number("lift", options.lift);
-  options.start = parse_start(spec);
-  return options;
 }
 
 std::string span(double low, double high) { return fmt::format("{:.6g} to {:.6g}", low, high); }
@@ -81,42 +42,73 @@ void refuse_outside(const ToolPath& path, const HeightMap& target, double tif_ra
       tif_radius));
 }
 
-struct Planner {
-  const HeightMap& target;
-  double tif_radius;
+ToolPath planned(RasterOptions options, const PathJob& job) {
+  if (!options.overrun) options.overrun = job.tif.radius;
+  return raster_path(job.target, options);
+}
 
-  ToolPath operator()(RasterOptions options) const {
-    if (!options.overrun) options.overrun = tif_radius;
-    return raster_path(target, options);
-  }
-  ToolPath operator()(const NearestOptions& options) const { return nearest_path(target, options).path; }
-  ToolPath operator()(const PathFromFile& spec) const {
-    ToolPath path = read_path_file(spec.file);
-    refuse_outside(path, target, tif_radius, spec.file.string());
-    return path;
-  }
+ToolPath planned(const NearestOptions& options, const PathJob& job) { return nearest_path(job.target, options).path; }
+
+ToolPath planned(const PathFromFile& spec, const PathJob& job) {
+  ToolPath path = read_path_file(spec.file);
+  refuse_outside(path, job.target, job.tif.radius, spec.file.string());
+  return path;
+}
+
+PathSpec parse_file(const SpecText& spec) {
+  const std::string file = split_kind(spec.text).second;
+  if (file.empty()) refuse(spec.text, "the name of a file is missing; required: file:PATH.csv");
+  return PathFromFile{file};
+}
+
+struct KnownKind {
+  PathKind kind;
+  PathSpec (*parse)(const SpecText&);
 };
+
+const std::vector<KnownKind>& known_kinds() {
+  static const std::vector<KnownKind> kinds{
+      {{"raster", "pitch=MM[,step=MM][,angle=DEGREES][,overrun=MM][,order=serpentine|one-way]", "straight lines"},
+       [](const SpecText& spec) -> PathSpec { return parse_raster_options(spec); }},
+      {{"nearest", "cell=MM[,critical=NM][,lift=CELLS|inf][,start=X/Y]",
+        "from cell to nearest cell, only where the map is above the critical value"},
+       [](const SpecText& spec) -> PathSpec { return parse_nearest_options(spec); }},
+      {{"file", "PATH.csv", "dwell points in the order of a file"}, parse_file},
+  };
+  return kinds;
+}
+
+std::vector<PathKind> kinds_alone() {
+  std::vector<PathKind> kinds;
+  for (const KnownKind& known : known_kinds()) kinds.push_back(known.kind);
+  return kinds;
+}
+
+/// "file:PATH.csv" is not cut at commas: a name may hold any.
+SpecText spec_text_of(const std::string& text) {
+  const auto [kind, rest] = split_kind(text);
+  return kind == "file" ? SpecText{"path", text, kind, {}} : parse_spec_text(text, "path");
+}
 
 }  // namespace
 
-PathSpec parse_path_spec(const std::string& text) {
-  const auto [kind, rest] = split_kind(text);
-  if (kind == "file") {
-    if (rest.empty()) refuse(text, "the name of a file is missing; required: file:PATH.csv");
-    return PathFromFile{rest};
-  }
-  const SpecText spec = parse_spec_text(text, "path");
-  if (spec.kind == "raster") return parse_raster(spec);
-  if (spec.kind == "nearest") return parse_nearest(spec);
-  refuse(text,
-         fmt::format("unknown kind \"{}\"; accepted: raster:pitch=MM, nearest:cell=MM, file:PATH.csv", spec.kind));
+const std::vector<PathKind>& path_kinds() {
+  static const std::vector<PathKind> kinds = kinds_alone();
+  return kinds;
 }
 
-ToolPath plan_path(const PathSpec& spec, const HeightMap& target, double tif_radius) {
-  if (!(std::isfinite(tif_radius) && tif_radius > 0.0)) {
-    throw InputError(fmt::format("path: radius of the removal function = {} mm; required finite and > 0", tif_radius));
+PathSpec parse_path_spec(const std::string& text) {
+  const SpecText spec = spec_text_of(text);
+  std::string accepted;
+  for (const KnownKind& known : known_kinds()) {
+    if (known.kind.name == spec.kind) return known.parse(spec);
+    accepted += (accepted.empty() ? "" : ", ") + known.kind.name;
   }
-  return std::visit(Planner{target, tif_radius}, spec);
+  refuse(text, fmt::format("unknown kind \"{}\"; accepted: {}", spec.kind, accepted));
+}
+
+ToolPath plan_path(const PathSpec& spec, const PathJob& job) {
+  return std::visit([&](const auto& options) { return planned(options, job); }, spec);
 }
 
 }  // namespace dwell

@@ -1,10 +1,13 @@
 #pragma once
 
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "core/height_map.h"
+#include "core/removal_function.h"
 #include "core/tool_path.h"
 #include "paths/nearest_neighbour.h"
 #include "paths/raster.h"
@@ -19,17 +22,30 @@ struct PathFromFile {
 /// Which planner, and its options.
 using PathSpec = std::variant<RasterOptions, NearestOptions, PathFromFile>;
 
-/// Parses
-///   raster:pitch=MM[,step=MM][,angle=DEGREES][,overrun=MM][,order=serpentine|one-way]
-///   nearest:cell=MM[,critical=NM][,lift=CELLS|inf][,start=X/Y]        (X, Y in mm)
-///   file:PATH.csv                                                     (all after the colon is the name)
-/// Throws InputError naming the text, the key or kind that is unknown or missing, and those accepted. Ranges are
-/// checked where the path is planned.
+/// A kind of path as a user names it.
+struct PathKind {
+  std::string name;   // before the colon
+  std::string usage;  // after the colon: "pitch=MM[,step=MM]..."
+  std::string about;  // one line
+};
+
+/// Every kind that parse_path_spec accepts, in the order of the documentation.
+const std::vector<PathKind>& path_kinds();
+
+/// Parses "kind:key=value,..." as path_kinds says; "file:PATH.csv": all after the colon is the name. Throws InputError
+/// naming the text, the key or kind that is unknown or missing, and those accepted. Ranges are checked where the path
+/// is planned.
 PathSpec parse_path_spec(const std::string& text);
 
-/// Runs the planner on the map [nm, NaN = outside]. tif_radius [mm], finite and > 0: default overrun of a raster; and a
-/// path from a file that comes nowhere within the TIF's reach of a valid pixel is refused. Throws InputError as the
-/// planners do.
-ToolPath plan_path(const PathSpec& spec, const HeightMap& target, double tif_radius);
+/// What a path is planned for. Refers to what it was made of.
+struct PathJob {
+  const HeightMap& target;                                    // removal wanted [nm], NaN = outside
+  const RemovalFunction& tif;                                 // its radius is the default overrun
+  double max_feed = std::numeric_limits<double>::infinity();  // [mm/s]
+};
+
+/// Runs the planner. A path from a file that comes nowhere within the TIF's reach of a valid pixel is refused. Throws
+/// InputError as the planners do.
+ToolPath plan_path(const PathSpec& spec, const PathJob& job);
 
 }  // namespace dwell

@@ -139,6 +139,17 @@ std::vector<Run> wanted_runs(const HeightMap& map, const std::vector<Index>& pix
 
 }  // namespace
 
+RasterOptions parse_raster_options(const SpecText& spec) {
+  spec.accept_only({"pitch", "step", "angle", "overrun", "order"});
+  RasterOptions options;
+  options.pitch = spec.number("pitch");
+  options.step = spec.optional_number("step");
+  options.angle_deg = spec.number("angle", options.angle_deg);
+  options.overrun = spec.optional_number("overrun");
+  options.serpentine = spec.choice("order", {"serpentine", "one-way"}) == "serpentine";
+  return options;
+}
+
 ToolPath raster_path(const HeightMap& map, const RasterOptions& options) {
   const double step = options.step.value_or(options.pitch);
   const double overrun = options.overrun.value_or(0.0);

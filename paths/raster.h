@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "core/height_map.h"
+#include "core/spec_text.h"
 #include "core/tool_path.h"
 
 namespace dwell {
@@ -15,6 +16,9 @@ struct RasterOptions {
       overrun;             // how far lines go on beyond the valid pixels [mm], >= 0; default 0 (plan_path: TIF radius)
   bool serpentine = true;  // every other line backwards; false = one-way, each line entered lifted
 };
+
+/// From "raster:pitch=MM,..."; throws InputError as SpecText does.
+RasterOptions parse_raster_options(const SpecText& spec);
 
 /// Straight parallel lines over the valid pixels of a map (NaN = outside).
 ///
