@@ -38,6 +38,7 @@ int run(int argc, char** argv) {
   program.failure_message(usage_message);
   int exit_code = kDone;
   add_plan_command(program, exit_code);
+  add_paths_command(program, exit_code);
   add_pareto_command(program, exit_code);
   add_simulate_command(program, exit_code);
   add_map_command(program, exit_code);

@@ -29,6 +29,7 @@ void print_plan(const Plan& plan, const WrittenPlan& written) {
              kind_of(plan.tif), plan.tif.peak, plan.tif.volume, plan.tif.fwhm, plan.tif.radius);
   fmt::print("path      {}, {} points, {:.6g} mm, longest jump {:.4g} mm, {} lifts\n", plan.path.kind,
              plan.metrics.points, plan.metrics.length, plan.metrics.longest_jump, plan.metrics.lifts);
+  for (const std::string& note : plan.path.notes) fmt::print("          {}\n", note);
   fmt::print("weights   smoothness {:.4g}, time price {:.4g} nm^2/s ({})\n", plan.weights.smoothness,
              plan.weights.time_price,
              plan.search ? fmt::format("chosen from {} solves", plan.search->trials.size()) : "given");

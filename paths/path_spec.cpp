@@ -71,9 +71,9 @@ const std::vector<KnownKind>& known_kinds() {
       {{"raster", "pitch=MM[,step=MM][,angle=DEGREES][,overrun=MM][,order=serpentine|one-way]", "straight lines"},
        [](const SpecText& spec) -> PathSpec { return parse_raster_options(spec); }},
       {{"nearest", "cell=MM[,critical=NM][,lift=CELLS|inf][,start=X/Y]",
-        "from cell to nearest cell, only where the map is above the critical value"},
+        "from cell to nearest cell, only where the map is above the critical value", "cell"},
        [](const SpecText& spec) -> PathSpec { return parse_nearest_options(spec); }},
-      {{"file", "PATH.csv", "dwell points in the order of a file"}, parse_file},
+      {{"file", "PATH.csv", "dwell points in the order of a file", ""}, parse_file},
   };
   return kinds;
 }

@@ -27,6 +27,8 @@ struct PathKind {
   std::string name;   // before the colon
   std::string usage;  // after the colon: "pitch=MM[,step=MM]..."
   std::string about;  // one line
+  /// The key that sets the distance of its tracks and must be given; empty if there is none.
+  std::string spacing = "pitch";
 };
 
 /// Every kind that parse_path_spec accepts, in the order of the documentation.

@@ -35,6 +35,11 @@ std::string foreign_entry(const fs::path& target, const ResultFiles& files) {
   for (fs::directory_iterator entry(target, error), end; !error && entry != end; entry.increment(error)) {
     const std::string name = entry->path().filename().string();
     whole = whole || name == files.always;
+    if (files.in_folders && entry->is_directory(error) && !entry->is_symlink(error)) {
+      const std::string other = foreign_entry(entry->path(), *files.in_folders);
+      if (other.empty()) continue;
+      return fmt::format("in its folder '{}', {}", name, other);
+    }
     if (!files.has(name) || !entry->is_regular_file(error)) return fmt::format("it holds '{}'", name);
   }
   if (error) return error.message();
@@ -68,12 +73,19 @@ const ResultFiles& plan_files() {
   static const ResultFiles kFiles{"plan",
                                   "summary.json",
                                   {"feed.csv", "program.nc", "before.png", "after.png", "dwell.png", "residual.npy",
-                                   "residual.npy.json", "dwell.npy", "search.csv"}};
+                                   "residual.npy.json", "dwell.npy", "search.csv", "path.png", "path_detail.png"},
+                                  nullptr};
   return kFiles;
 }
 
 const ResultFiles& pareto_files() {
-  static const ResultFiles kFiles{"pareto sweep", "pareto.json", {"pareto.csv", "pareto.png"}};
+  static const ResultFiles kFiles{"pareto sweep", "pareto.json", {"pareto.csv", "pareto.png"}, nullptr};
+  return kFiles;
+}
+
+const ResultFiles& path_comparison_files() {
+  static const ResultFiles kFiles{
+      "path comparison", "paths.json", {"paths.csv", "paths.png", "psd.png"}, &plan_files()};
   return kFiles;
 }
 

@@ -13,11 +13,13 @@ struct ResultFiles {
   std::string_view kind;    // "plan"
   std::string_view always;  // in every result of the kind
   std::vector<std::string_view> others;
+  const ResultFiles* in_folders = nullptr;  // what folders in it may hold, of any name: a result of this kind each
 
   bool has(std::string_view name) const;
 };
 const ResultFiles& plan_files();
 const ResultFiles& pareto_files();
+const ResultFiles& path_comparison_files();
 
 /// A folder of results that appears whole or not at all. Files go to a temporary folder beside the target; commit()
 /// puts it in place in one step (an earlier result is exchanged with it and then removed); without commit() the

@@ -26,36 +26,6 @@ ToolPath rounded(ToolPath path) {
   return path;
 }
 
-void read_inputs(Plan& plan, const RunHooks& hooks) {
-  const JobOptions& o = plan.options;
-  HeightMap whole = load_map(o, plan.inputs, hooks);
-  plan.map_pixels = whole.valid_pixels();
-  plan.map = within(std::move(whole), parse_aperture(o.aperture));
-  plan.terms = parse_form_terms(o.remove);
-  plan.figure = without_form(plan.map, plan.terms, plan.threads);
-  plan.before = map_statistics(plan.figure, {}, plan.threads);
-  hooks.report(fmt::format("map: {} x {} pixels of {:.4g} mm, {} in the aperture, RMS {:.4g} nm", plan.map.grid.rows,
-                           plan.map.grid.cols, plan.map.grid.pitch_x, plan.before.valid_pixels, plan.before.rms));
-  plan.tif = load_removal_function(o, plan.inputs);
-  check_tool_fits(plan.tif, plan.map.grid);
-  plan.kernel = removal_kernel(plan.tif, plan.map.grid.pitch_x, plan.map.grid.pitch_y);
-}
-
-void lay_path(Plan& plan, const RunHooks& hooks) {
-  const JobOptions& o = plan.options;
-  if (o.path.empty())
-    throw InputError("--path: required; for instance raster:pitch=1, nearest:cell=2 or file:path.csv");
-  plan.motion = parse_motion(o.motion);
-  const PathSpec spec = parse_path_spec(o.path);
-  plan.path = rounded(plan_path(spec, {plan.figure, plan.tif, feed_limits(o).max_feed}));
-  if (const auto* file = std::get_if<PathFromFile>(&spec)) {
-    plan.inputs.push_back({"path", file->file.string(), sha256_of_file(file->file)});
-  }
-  plan.metrics = path_metrics(plan.path);
-  plan.strokes = strokes_of(plan.path, plan.motion);
-  hooks.report(fmt::format("path: {} dwell points, {:.4g} mm", plan.path.size(), plan.metrics.length));
-}
-
 void solve_dwell(Plan& plan, const RunHooks& hooks) {
   const JobOptions& o = plan.options;
   hooks.report("solve: removal operator, target and form");
@@ -101,23 +71,57 @@ int thread_count(int asked) { return asked > 0 ? asked : omp_get_num_procs(); }
 
 FeedLimits feed_limits(const JobOptions& o) { return {o.min_dwell_s, units::mm_per_s(o.max_feed_mm_per_min)}; }
 
-Plan prepare_plan(const JobOptions& options, const RunHooks& hooks) {
+Plan read_inputs(const JobOptions& o, const RunHooks& hooks) {
   Plan plan;
-  plan.options = options;
-  plan.threads = thread_count(options.threads);
-  read_inputs(plan, hooks);
+  plan.options = o;
+  plan.threads = thread_count(o.threads);
+  HeightMap whole = load_map(o, plan.inputs, hooks);
+  plan.map_pixels = whole.valid_pixels();
+  plan.map = within(std::move(whole), parse_aperture(o.aperture));
+  plan.terms = parse_form_terms(o.remove);
+  plan.figure = without_form(plan.map, plan.terms, plan.threads);
+  plan.before = map_statistics(plan.figure, {}, plan.threads);
+  hooks.report(fmt::format("map: {} x {} pixels of {:.4g} mm, {} in the aperture, RMS {:.4g} nm", plan.map.grid.rows,
+                           plan.map.grid.cols, plan.map.grid.pitch_x, plan.before.valid_pixels, plan.before.rms));
+  plan.tif = load_removal_function(o, plan.inputs);
+  check_tool_fits(plan.tif, plan.map.grid);
+  plan.kernel = removal_kernel(plan.tif, plan.map.grid.pitch_x, plan.map.grid.pitch_y);
   hooks.check();
+  return plan;
+}
+
+void lay_path(Plan& plan, const RunHooks& hooks) {
+  const JobOptions& o = plan.options;
+  if (o.path.empty())
+    throw InputError("--path: required; for instance raster:pitch=1, nearest:cell=2 or file:path.csv");
+  plan.motion = parse_motion(o.motion);
+  const PathSpec spec = parse_path_spec(o.path);
+  plan.path = rounded(plan_path(spec, {plan.figure, plan.tif, feed_limits(o).max_feed}));
+  if (const auto* file = std::get_if<PathFromFile>(&spec)) {
+    plan.inputs.push_back({"path", file->file.string(), sha256_of_file(file->file)});
+  }
+  plan.metrics = path_metrics(plan.path);
+  plan.strokes = strokes_of(plan.path, plan.motion);
+  hooks.report(fmt::format("path: {} dwell points, {:.4g} mm", plan.path.size(), plan.metrics.length));
+}
+
+void find_dwell(Plan& plan, const RunHooks& hooks) {
+  if (weights_are_searched(plan.options)) plan.search.emplace();
+  solve_dwell(plan, hooks);
+  schedule_feed(plan);
+}
+
+Plan prepare_plan(const JobOptions& options, const RunHooks& hooks) {
+  Plan plan = read_inputs(options, hooks);
   lay_path(plan, hooks);
   hooks.check();
   return plan;
 }
 
 Plan make_plan(const JobOptions& options, const RunHooks& hooks) {
-  const bool search = weights_are_searched(options);
+  weights_are_searched(options);  // refuses what cannot be searched before any work is done
   Plan plan = prepare_plan(options, hooks);
-  if (search) plan.search.emplace();
-  solve_dwell(plan, hooks);
-  schedule_feed(plan);
+  find_dwell(plan, hooks);
   return plan;
 }
 

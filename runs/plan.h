@@ -62,6 +62,12 @@ Plan make_plan(const JobOptions& options, const RunHooks& hooks);
 /// The first part of make_plan: inputs read, path laid, no dwell yet.
 Plan prepare_plan(const JobOptions& options, const RunHooks& hooks);
 
+/// The parts of both, for who plans several paths on one map: inputs read (options.path is not looked at); the path of
+/// plan.options laid; dwell and feed found.
+Plan read_inputs(const JobOptions& options, const RunHooks& hooks);
+void lay_path(Plan& plan, const RunHooks& hooks);
+void find_dwell(Plan& plan, const RunHooks& hooks);
+
 /// The limits on dwell and speed that the options set.
 FeedLimits feed_limits(const JobOptions& options);
 

@@ -9,6 +9,7 @@
 #include "core/units.h"
 #include "core/version.h"
 #include "runs/gcode.h"
+#include "runs/path_picture.h"
 #include "runs/picture.h"
 #include "runs/plan_summary.h"
 #include "runs/program_reader.h"
@@ -53,6 +54,10 @@ void write_pictures(const Plan& plan, const HeightMap& after, const MapStatistic
       dwell_picture(
           plan.path, plan.table.dwell_s,
           {fmt::format("Dwell: {} points, total {:.4g} s", plan.path.size(), plan.dwell.sum()), "s", false, {}, {}}));
+  const std::string path = fmt::format("Path: {}, {} points, {:.4g} mm, {} lifts", plan.path.kind, plan.path.size(),
+                                       plan.metrics.length, plan.metrics.lifts);
+  folder.write("path.png", path_picture(plan.figure, plan.path, path));
+  folder.write("path_detail.png", path_detail_picture(plan.figure, plan.path, "Path, detail: " + plan.path.kind));
 }
 
 bool differs(double a, double b, double tolerance) {
@@ -81,10 +86,10 @@ WrittenPlan write_plan(Plan& plan, const OutputFolder& folder, const RunHooks& h
 
   hooks.report("simulate: the program as read back from disk");
   const Program program = read_program(folder.path("program.nc"));
-  const HeightMap residual = without_form(
-      surface_after(plan.map, simulate(program, plan.map, plan.kernel, plan.threads)), plan.terms, plan.threads);
   WrittenPlan written;
-  written.simulated = map_statistics(residual, {}, plan.threads);
+  written.residual = without_form(surface_after(plan.map, simulate(program, plan.map, plan.kernel, plan.threads)),
+                                  plan.terms, plan.threads);
+  written.simulated = map_statistics(written.residual, {}, plan.threads);
   written.program_seconds = program.total_seconds();
   if (differs(written.simulated.rms, plan.residual.rms, kSimulationTolerance)) {
     plan.limits.push_back(fmt::format("the simulated program leaves {:.4g} nm RMS, the solver expected {:.4g} nm",
@@ -95,8 +100,8 @@ WrittenPlan write_plan(Plan& plan, const OutputFolder& folder, const RunHooks& h
   hooks.check();
 
   hooks.report("write: pictures and arrays");
-  write_pictures(plan, residual, written.simulated, folder);
-  write_map(folder.path("residual.npy"), residual);
+  write_pictures(plan, written.residual, written.simulated, folder);
+  write_map(folder.path("residual.npy"), written.residual);
   folder.write("dwell.npy", npy_bytes(std::span<const double>(plan.table.dwell_s)));
   if (plan.search) folder.write("search.csv", search_table_text(*plan.search));
   written.summary = plan_summary_text(plan, written);

@@ -1,0 +1,89 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+
+#include "cli/commands.h"
+#include "cli/job_arguments.h"
+#include "cli/terminal.h"
+#include "core/errors.h"
+#include "paths/path_spec.h"
+#include "runs/path_comparison_output.h"
+
+namespace dwell::cli {
+namespace {
+
+struct PathsArguments {
+  std::unique_ptr<JobArguments> job;
+  std::string list;
+  std::optional<double> pitch;
+  bool json = false, kinds = false;
+};
+
+void print_kinds() {
+  for (const PathKind& kind : path_kinds()) {
+    fmt::print("{}:{}\n    {}\n", kind.name, kind.usage, kind.about);
+  }
+}
+
+int run_paths(const PathsArguments& arguments) {
+  if (arguments.kinds) {
+    print_kinds();
+    return kDone;
+  }
+  if (arguments.list.empty())
+    throw InputError("--paths: required; for instance raster,spiral,random (--kinds lists all)");
+  if (arguments.pitch && !(*arguments.pitch > 0.0)) {
+    throw InputError(fmt::format("--pitch: {}; required a number > 0, in mm", *arguments.pitch));
+  }
+  const JobOptions options = arguments.job->options();
+  OutputFolder folder(options.out, path_comparison_files());
+  const PathComparison comparison = compare_paths(options, arguments.list, arguments.pitch, folder, terminal_hooks());
+  const std::string json = write_path_comparison(comparison, folder);
+  folder.commit();
+  finish_progress();
+  if (arguments.json) {
+    fmt::print("{}", json);
+  } else {
+    fmt::print("{}written   {}, a plan a folder\n", path_comparison_text(comparison), options.out);
+  }
+  for (const std::string& limit : comparison.limits) fmt::print(stderr, "dwell: limit reached: {}\n", limit);
+  return comparison.limits.empty() ? kDone : kLimitReached;
+}
+
+std::vector<std::string> flags_but_path() {
+  std::vector<std::string> flags = every_flag();
+  std::erase(flags, "path");
+  return flags;
+}
+
+}  // namespace
+
+void add_paths_command(CLI::App& program, int& exit_code) {
+  CLI::App* command =
+      program.add_subcommand("paths", "compare paths on a part: plan all, one table, the Pareto set marked");
+  auto arguments = std::make_shared<PathsArguments>();
+  arguments->job = std::make_unique<JobArguments>(*command, flags_but_path(), true);
+  command
+      ->add_option("--paths", arguments->list,
+                   "paths as --path of dwell plan takes them, separated by commas, or by semicolons where names of "
+                   "files hold commas; a path that says no pitch gets --pitch")
+      ->type_name("PATH,...");
+  command
+      ->add_option("--pitch", arguments->pitch,
+                   "pitch in mm of the paths that say none (default a quarter of the removal function's FWHM)")
+      ->type_name("MM");
+  command->add_flag("--json", arguments->json, "print paths.json on standard output instead of the table");
+  command->add_flag("--kinds", arguments->kinds, "list the kinds of path with their options, and stop");
+  command->footer(
+      "Example:\n"
+      "  dwell paths --map mirror.csv --map-pixel 0.0938 --tif spot.csv --tif-pixel 0.0938 \\\n"
+      "              --paths raster,spiral,raster:pitch=0.5,angle=45 --max-feed 3000 --out paths/\n"
+      "Each path's plan is whole, in a folder of its name. A job file's path is not used.\n"
+      "Exit codes: 0 done, 1 internal fault, 2 bad usage or input, 3 done but a limit was reached or a path could not "
+      "be planned, 130 interrupted.");
+  command->callback([arguments, &exit_code] { exit_code = run_paths(*arguments); });
+}
+
+}  // namespace dwell::cli

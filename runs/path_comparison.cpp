@@ -1,0 +1,125 @@
+#include "runs/path_comparison.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+#include "core/errors.h"
+#include "core/units.h"
+#include "runs/plan_output.h"
+#include "runs/wavelength_bands.h"
+
+namespace dwell {
+namespace {
+
+/// Hooks whose lines begin with the path they are about.
+RunHooks named(const RunHooks& hooks, const std::string& stage) {
+  return {[hooks, stage](const std::string& line) { hooks.report(stage + ": " + line); }, hooks.stop};
+}
+
+double lift_time(const PathMetrics& metrics, const JobOptions& o) {
+  const double up_and_down = 2.0 * o.lift_height_mm * static_cast<double>(metrics.lifts);
+  return (metrics.lifted_length + up_and_down) / units::mm_per_s(o.max_feed_mm_per_min);
+}
+
+ArealPsd spectrum_of(const HeightMap& map, int threads) {
+  PsdOptions options;
+  options.threads = threads;
+  return areal_psd(map, options);
+}
+
+void plan_one(const Plan& job, ComparedPath& path, const OutputFolder& folder, const RunHooks& hooks) {
+  Plan plan = job;
+  plan.options.path = path.listed.text;
+  lay_path(plan, hooks);
+  path.metrics = plan.metrics;
+  path.notes = plan.path.notes;
+  find_dwell(plan, hooks);
+  OutputFolder own(folder.path(path.listed.name));
+  const WrittenPlan written = write_plan(plan, own, hooks);
+  own.commit();
+  path.limits = plan.limits;
+  path.residual_rms = written.simulated.rms;
+  path.residual_pv = written.simulated.pv;
+  const ArealPsd psd = spectrum_of(written.residual, plan.threads);
+  path.mid_rms = band_rms(psd, {33.0, 0.12}).bands[1].rms;
+  path.spectrum = radial_psd(psd);
+  path.dwell_total = plan.dwell.sum();
+  path.step_rms = plan.step_rms;
+  path.lift_time = lift_time(plan.metrics, plan.options);
+  path.total_time = written.program_seconds + path.lift_time;
+  path.solver = plan.solver;
+}
+
+std::array<double, 3> costs(const ComparedPath& p) { return {p.residual_rms, p.mid_rms.value_or(0.0), p.total_time}; }
+
+bool dominates(const ComparedPath& a, const ComparedPath& b) {
+  const std::array<double, 3> x = costs(a), y = costs(b);
+  bool better = false;
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    if (!(x[k] <= y[k])) return false;
+    better = better || x[k] < y[k];
+  }
+  return better;
+}
+
+void collect_limits(PathComparison& comparison) {
+  for (const ComparedPath& p : comparison.paths) {
+    if (!p.failure.empty()) comparison.limits.push_back(fmt::format("{}: no plan: {}", p.listed.name, p.failure));
+    for (const std::string& limit : p.limits) comparison.limits.push_back(fmt::format("{}: {}", p.listed.name, limit));
+  }
+}
+
+}  // namespace
+
+double default_pitch(const RemovalFunction& tif) {
+  const double quarter = 0.25 * tif.fwhm;
+  const double digit = std::pow(10.0, std::floor(std::log10(quarter)) - 1.0);
+  return std::floor(quarter / digit) * digit;
+}
+
+void mark_front(std::vector<ComparedPath>& paths) {
+  for (ComparedPath& p : paths) {
+    p.on_front = p.failure.empty() && std::none_of(paths.begin(), paths.end(), [&](const ComparedPath& other) {
+                   return other.failure.empty() && dominates(other, p);
+                 });
+  }
+}
+
+PathComparison compare_paths(const JobOptions& options, const std::string& list, std::optional<double> pitch,
+                             const OutputFolder& folder, const RunHooks& hooks) {
+  const auto started = std::chrono::steady_clock::now();
+  parse_path_list(list, pitch.value_or(1.0));  // refuses a wrong list before any work is done
+  PathComparison comparison;
+  comparison.job = read_inputs(options, hooks);
+  comparison.pitch_given = pitch.has_value();
+  comparison.pitch = pitch.value_or(default_pitch(comparison.job.tif));
+  comparison.before = radial_psd(spectrum_of(comparison.job.figure, comparison.job.threads));
+  for (ListedPath& listed : parse_path_list(list, comparison.pitch)) {
+    comparison.paths.emplace_back().listed = std::move(listed);
+  }
+  for (std::size_t k = 0; k < comparison.paths.size(); ++k) {
+    ComparedPath& path = comparison.paths[k];
+    const std::string stage = fmt::format("path {} of {}, {}", k + 1, comparison.paths.size(), path.listed.text);
+    hooks.report(stage);
+    try {
+      plan_one(comparison.job, path, folder, named(hooks, stage));
+    } catch (const InputError& error) {
+      path.failure = error.what();
+      hooks.report(stage + ": " + path.failure);
+    }
+  }
+  const bool none = std::none_of(comparison.paths.begin(), comparison.paths.end(),
+                                 [](const ComparedPath& p) { return p.failure.empty(); });
+  if (none) throw InputError("--paths: none can be planned; the first: " + comparison.paths.front().failure);
+  mark_front(comparison.paths);
+  collect_limits(comparison);
+  comparison.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  return comparison;
+}
+
+}  // namespace dwell

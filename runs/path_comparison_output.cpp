@@ -1,0 +1,161 @@
+#include "runs/path_comparison_output.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+#include "core/version.h"
+#include "runs/inputs_json.h"
+#include "runs/line_chart.h"
+#include "runs/options_json.h"
+
+namespace dwell {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json json_of(const ComparedPath& p) {
+  Json json = {{"path", p.listed.text}, {"folder", p.listed.name}};
+  if (!p.failure.empty()) {
+    json["failure"] = p.failure;
+    return json;
+  }
+  json.update({{"front", p.on_front},
+               {"residual_rms_nm", p.residual_rms},
+               {"residual_pv_nm", p.residual_pv},
+               {"mid_rms_nm", p.mid_rms ? Json(*p.mid_rms) : Json(nullptr)},
+               {"total_s", p.total_time},
+               {"dwell_s", p.dwell_total},
+               {"lift_s", p.lift_time},
+               {"step_rms_s", p.step_rms},
+               {"points", p.metrics.points},
+               {"length_mm", p.metrics.length},
+               {"lifts", p.metrics.lifts},
+               {"lifted_length_mm", p.metrics.lifted_length},
+               {"longest_jump_mm", p.metrics.longest_jump},
+               {"solver_status", to_string(p.solver.status)},
+               {"operator_applications", p.solver.operator_applications},
+               {"notes", p.notes},
+               {"limits", p.limits}});
+  return json;
+}
+
+Colour colour_of(std::size_t k) {
+  static constexpr Colour kColours[] = {{33, 102, 172}, {214, 96, 20},  {27, 120, 55}, {118, 42, 131},
+                                        {200, 30, 90},  {140, 100, 20}, {0, 150, 160}, {90, 90, 90},
+                                        {170, 170, 0},  {110, 60, 40},  {60, 60, 200}, {240, 130, 180}};
+  return kColours[k % std::size(kColours)];
+}
+
+std::string comparison_picture(const PathComparison& comparison) {
+  ChartPanel residual{"total time [s]", "residual RMS [nm]", {}}, mid{"total time [s]", "mid-band RMS [nm]", {}};
+  for (std::size_t k = 0; k < comparison.paths.size(); ++k) {
+    const ComparedPath& p = comparison.paths[k];
+    if (!p.failure.empty()) continue;
+    residual.lines.push_back({p.listed.name, colour_of(k), {{p.total_time, p.residual_rms, p.on_front}}});
+    if (p.mid_rms) mid.lines.push_back({p.listed.name, colour_of(k), {{p.total_time, *p.mid_rms, p.on_front}}});
+  }
+  std::vector<ChartPanel> panels{residual};
+  if (!mid.lines.empty()) panels.push_back(mid);
+  return draw_line_charts("Paths: what they leave against what they take", "on the Pareto front", panels);
+}
+
+ChartLine spectrum_line(const std::string& label, Colour colour, const PsdCurve& curve) {
+  ChartLine line{label, colour, {}, false, false};
+  for (std::size_t k = 0; k < curve.frequency.size(); ++k) {
+    if (curve.density[k] > 0.0) line.points.push_back({curve.frequency[k], curve.density[k], false});
+  }
+  return line;
+}
+
+std::string spectra_picture(const PathComparison& comparison) {
+  ChartPanel panel{"frequency [1/mm]", "radial PSD [nm^2 mm^2]", {}};
+  panel.width = 900;
+  panel.lines.push_back(spectrum_line("before", {24, 24, 24}, comparison.before));
+  panel.lines.back().dashed = true;
+  for (std::size_t k = 0; k < comparison.paths.size(); ++k) {
+    const ComparedPath& p = comparison.paths[k];
+    if (p.failure.empty()) panel.lines.push_back(spectrum_line(p.listed.name, colour_of(k), p.spectrum));
+  }
+  return draw_line_charts("Spectra before, and of what the simulated programs leave", "", {panel});
+}
+
+/// A field of a CSV file.
+std::string quoted(std::string text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  for (std::size_t at = text.find('"'); at != std::string::npos; at = text.find('"', at + 2)) text.insert(at, 1, '"');
+  return '"' + text + '"';
+}
+
+}  // namespace
+
+std::string path_table_text(const PathComparison& comparison) {
+  std::string text =
+      "folder,path,front,residual_rms_nm,residual_pv_nm,mid_rms_nm,total_s,dwell_s,lift_s,step_rms_s,points,length_mm,"
+      "lifts,lifted_length_mm,longest_jump_mm,solver_status,failure\n";
+  for (const ComparedPath& p : comparison.paths) {
+    text += fmt::format("{},{},", p.listed.name, quoted(p.listed.text));
+    if (!p.failure.empty()) {
+      text += fmt::format("no,,,,,,,,,,,,,,{}\n", quoted(p.failure));
+      continue;
+    }
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},\n", p.on_front ? "yes" : "no", p.residual_rms,
+                        p.residual_pv, p.mid_rms ? fmt::format("{}", *p.mid_rms) : "", p.total_time, p.dwell_total,
+                        p.lift_time, p.step_rms, p.metrics.points, p.metrics.length, p.metrics.lifts,
+                        p.metrics.lifted_length, p.metrics.longest_jump, to_string(p.solver.status));
+  }
+  return text;
+}
+
+std::string path_comparison_json(const PathComparison& comparison) {
+  Json paths = Json::array();
+  for (const ComparedPath& p : comparison.paths) paths.push_back(json_of(p));
+  Json options = options_json(comparison.job);
+  options.erase("path");
+  const Json summary = {{"schema", 1},
+                        {"version", version()},
+                        {"before_rms_nm", comparison.job.before.rms},
+                        {"pitch_mm", comparison.pitch},
+                        {"pitch_given", comparison.pitch_given},
+                        {"paths", paths},
+                        {"limits", comparison.limits},
+                        {"options", options},
+                        {"inputs", inputs_json(comparison.job.inputs)}};
+  return summary.dump(2) + "\n";
+}
+
+std::string path_comparison_text(const PathComparison& comparison) {
+  std::size_t widest = 4;
+  for (const ComparedPath& p : comparison.paths) widest = std::max(widest, p.listed.name.size());
+  std::string text = fmt::format("before    RMS {:.4g} nm, PV {:.4g} nm; pitch {:.6g} mm where a path says none ({})\n",
+                                 comparison.job.before.rms, comparison.job.before.pv, comparison.pitch,
+                                 comparison.pitch_given ? "given" : "a quarter of the removal function's FWHM");
+  text +=
+      fmt::format("  {:<{}} {:>12} {:>12} {:>10} {:>10} {:>11} {:>9} {:>11} {:>7}\n", "path", widest, "residual[nm]",
+                  "mid RMS[nm]", "PV[nm]", "total[s]", "step RMS[s]", "points", "length[mm]", "lifts");
+  std::string below;
+  for (const ComparedPath& p : comparison.paths) {
+    if (!p.failure.empty()) {
+      below += fmt::format("{}: no plan: {}\n", p.listed.name, p.failure);
+      continue;
+    }
+    text += fmt::format("{} {:<{}} {:>12.4g} {:>12} {:>10.4g} {:>10.2f} {:>11.4g} {:>9} {:>11.6g} {:>7}\n",
+                        p.on_front ? '*' : ' ', p.listed.name, widest, p.residual_rms,
+                        p.mid_rms ? fmt::format("{:.4g}", *p.mid_rms) : "-", p.residual_pv, p.total_time, p.step_rms,
+                        p.metrics.points, p.metrics.length, p.metrics.lifts);
+    for (const std::string& note : p.notes) below += fmt::format("{}: {}\n", p.listed.name, note);
+  }
+  return text + "* on the Pareto front of residual, mid-band RMS (33 to 0.12 mm) and total time\n" + below;
+}
+
+std::string write_path_comparison(const PathComparison& comparison, const OutputFolder& folder) {
+  folder.write("paths.csv", path_table_text(comparison));
+  folder.write("paths.png", comparison_picture(comparison));
+  folder.write("psd.png", spectra_picture(comparison));
+  std::string json = path_comparison_json(comparison);
+  folder.write("paths.json", json);
+  return json;
+}
+
+}  // namespace dwell
