@@ -12,9 +12,10 @@ using test::ProgramResult;
 using test::SmallInputs;
 
 std::vector<std::string> paths(const std::vector<std::string>& more) {
-  std::vector<std::string> words{"paths",       "--map", "map.csv",   "--map-pixel", "0.5",   "--tif", "tif.csv",
-                                 "--tif-pixel", "0.5",   "--threads", "1",           "--out", "paths"};
-  words.insert(words.end(), more.begin(), more.end());
+  std::vector<std::string> words = SmallInputs::plan(more);
+  words[0] = "paths";
+  const auto path = std::find(words.begin(), words.end(), "--path");
+  if (std::find(more.begin(), more.end(), "--path") == more.end()) words.erase(path, path + 2);
   return words;
 }
 
@@ -23,17 +24,17 @@ TEST(PathsCommand, PrintsATableAndWritesAPlanAFolder) {
   const ProgramResult result = inputs.run(paths({"--paths", "raster,raster:angle=90,pitch=2", "--pitch", "1"}));
   ASSERT_EQ(result.exit_code, 0) << result.err;
   for (const char* part : {"residual[nm]", "total[s]", "length[mm]", "raster-2", "* on the Pareto front",
-                           "pitch 1 mm where a path says none (given)", "written   paths"}) {
+                           "pitch 1 mm where a path says none (given)", "written   plan"}) {
     expect_has(result.out, part);
   }
   for (const char* file : {"paths.csv", "paths.json", "paths.png", "psd.png", "raster/program.nc", "raster/path.png",
                            "raster-2/feed.csv", "raster-2/residual.npy"}) {
-    EXPECT_TRUE(std::filesystem::exists(inputs / ("paths/" + std::string(file)))) << file;
+    EXPECT_TRUE(std::filesystem::exists(inputs / ("plan/" + std::string(file)))) << file;
   }
   const ProgramResult again = inputs.run(paths({"--paths", "raster", "--json"}));
   ASSERT_EQ(again.exit_code, 0) << again.err;
-  EXPECT_EQ(again.out, read_whole_file(inputs / "paths/paths.json"));
-  EXPECT_FALSE(std::filesystem::exists(inputs / "paths/raster-2"));
+  EXPECT_EQ(again.out, read_whole_file(inputs / "plan/paths.json"));
+  EXPECT_FALSE(std::filesystem::exists(inputs / "plan/raster-2"));
 }
 
 TEST(PathsCommand, ListsTheKinds) {
@@ -49,7 +50,7 @@ TEST(PathsCommand, RefusesWhatIsWrongAndLeavesNothing) {
     const ProgramResult result = inputs.run(paths(more));
     EXPECT_EQ(result.exit_code, 2);
     for (const std::string& part : parts) expect_has(result.err, part);
-    EXPECT_FALSE(std::filesystem::exists(inputs / "paths"));
+    EXPECT_FALSE(std::filesystem::exists(inputs / "plan"));
   };
   refused({}, {"--paths: required", "--kinds"});
   refused({"--paths", "raster,zigzag"}, {"unknown kind \"zigzag\"", "accepted: raster"});

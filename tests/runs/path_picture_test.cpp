@@ -6,7 +6,6 @@
 
 #include "tests/core/expect_error.h"
 #include "tests/runs/decoded_png.h"
-#include "tests/runs/small_job.h"
 
 namespace dwell {
 namespace {
