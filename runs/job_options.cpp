@@ -123,7 +123,8 @@ std::vector<JobOptionRecord> make_table() {
        [](Options& o, const std::string& t) { parse_flip(t), o.tif_flip = t; },
        [](const Options& o) { return o.tif_flip; }},
       {"path", "path", "PATH",
-       "raster:pitch=MM[,step=,angle=,overrun=,order=], nearest:cell=MM[,critical=,lift=,start=X/Y] or file:PATH.csv",
+       "KIND:OPTIONS, for instance raster:pitch=1, random:pitch=1,seed=2 or file:PATH.csv; dwell paths --kinds lists "
+       "them all",
        false, false, [](Options& o, const std::string& t) { parse_path_spec(t), o.path = t; },
        [](const Options& o) { return o.path; }},
       {"motion", "motion", "HOW", "moving: the tool runs through; stop: it halts at every dwell point", false, false,
