@@ -9,6 +9,7 @@
 
 #include "bench/certificate_run.h"
 #include "bench/plan_run.h"
+#include "bench/planner_run.h"
 #include "bench/reference.h"
 #include "bench/report.h"
 #include "bench/results.h"
@@ -20,9 +21,9 @@
 namespace dwell::bench {
 namespace {
 
-const std::vector<std::string> kParts{"plans", "micro", "certificates", "scenarios"};
+const std::vector<std::string> kParts{"plans", "planners", "micro", "certificates", "scenarios"};
 constexpr double kQuickBudget = 112.0, kFullBudget = 880.0;  // 2 and 15 minutes, less what ends a run [s]
-constexpr double kMicroShare = 0.35, kCertificateShare = 0.5;
+constexpr double kPlannerShare = 0.3, kMicroShare = 0.4, kCertificateShare = 0.5;
 
 struct Options {
   bool quick = false;
@@ -95,6 +96,7 @@ void measure(const Options& options) {
     all["seconds"][name] = budget.spent() - before;
   };
   part("plans", [&] { all["plans"] = plans(options, budget); });
+  part("planners", [&] { all["planners"] = run_planners(options.quick, budget, kPlannerShare); });
   part("micro", [&] { all["micro"] = micro(options, budget); });
   part("certificates", [&] { all["certificates"] = certificates(options, budget); });
   part("scenarios", [&] {

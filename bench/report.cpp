@@ -4,6 +4,7 @@
 
 #include "bench/chart.h"
 #include "bench/json_access.h"
+#include "bench/planner_run.h"
 #include "bench/results.h"
 #include "bench/solver_tables.h"
 #include "bench/targets.h"
@@ -71,6 +72,13 @@ std::string markdown_report(const Json& all, const std::string& picture) {
         "\n## Whole plans\n\n`dwell plan` as a process, from files to feed table, program, simulation of the program, "
         "pictures and arrays: wall clock and peak of resident memory.\n\n" +
         plan_table(all.at("plans"));
+  }
+  if (all.contains("planners")) {
+    text +=
+        "\n## Planners\n\nOne thread, a square part of 512 x 512 pixels of 1 mm: from the map to the ordered path. "
+        "Points "
+        "a second are those of the fastest repetition.\n\n" +
+        planner_table(all.at("planners"));
   }
   if (all.contains("micro")) {
     text +=

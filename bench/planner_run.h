@@ -1,0 +1,19 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "bench/budget.h"
+
+namespace dwell::bench {
+
+/// Times every planner on one thread. Each line of the result has "path" (as --path takes it), "points", "repetitions",
+/// "seconds" (median), "fastest" and "slowest", "lifts", "length_ratio" (length from point to point over that of as
+/// many steps of a pitch), "notes"; or "skipped" where there was no time. Maps are of 512^2 pixels, paths of about 10^6
+/// points, `quick`: 10^5. The last line shortens a nearest-neighbour path of about 10^5 cells that a critical value
+/// keeps of a random map; "length_ratio" is what is left of it. Starts none after `share` of the budget.
+nlohmann::json run_planners(bool quick, const Budget& budget, double share);
+
+/// As a Markdown table.
+std::string planner_table(const nlohmann::json& planners);
+
+}  // namespace dwell::bench
