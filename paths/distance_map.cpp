@@ -120,6 +120,14 @@ double DistanceMap::distance_to_grid(Point p) const {
   return std::hypot(dx, dy);
 }
 
+DistanceMap::Bounds DistanceMap::bounds(Point p) const {
+  const Bound b = bound(p);
+  const double rounding = 1e-9 * (b.node + b.gap);
+  double low = std::max(b.node - b.gap - rounding, 0.0);
+  if (b.gap > nodes_.pitch_x + nodes_.pitch_y) low = std::max(low, distance_to_grid(p));  // beyond the nodes
+  return {low, b.node + b.gap + rounding};
+}
+
 bool DistanceMap::within(Point p, double reach) const {
   if (distance_to_grid(p) > reach) return false;
   const Bound b = bound(p);
