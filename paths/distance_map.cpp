@@ -95,7 +95,8 @@ double DistanceMap::squared_in_row(Index row, double x) const {
 DistanceMap::Bound DistanceMap::bound(Point p) const {
   const Index row = nearest_index(p.y - nodes_.origin.y, nodes_.pitch_y, nodes_.rows);
   const Index col = nearest_index(p.x - nodes_.origin.x, nodes_.pitch_x, nodes_.cols);
-  return {at_node(row, col), distance(p, nodes_.centre(row, col))};
+  const Point gap = p - nodes_.centre(row, col);
+  return {at_node(row, col), std::sqrt(gap.x * gap.x + gap.y * gap.y)};  // hypot takes as long as all the rest
 }
 
 double DistanceMap::operator()(Point p) const {
@@ -120,12 +121,18 @@ double DistanceMap::distance_to_grid(Point p) const {
   return std::hypot(dx, dy);
 }
 
-bool DistanceMap::within(Point p, double reach) const {
-  if (distance_to_grid(p) > reach) return false;
+DistanceMap::Bounds DistanceMap::bounds(Point p) const {
   const Bound b = bound(p);
   const double rounding = 1e-9 * (b.node + b.gap);
-  if (b.node + b.gap + rounding <= reach) return true;
-  if (b.node - b.gap - rounding > reach) return false;
+  double low = std::max(b.node - b.gap - rounding, 0.0);
+  if (b.gap > nodes_.pitch_x + nodes_.pitch_y) low = std::max(low, distance_to_grid(p));  // beyond the nodes
+  return {low, b.node + b.gap + rounding};
+}
+
+bool DistanceMap::within(Point p, double reach) const {
+  const Bounds b = bounds(p);
+  if (b.high <= reach) return true;
+  if (b.low > reach || distance_to_grid(p) > reach) return false;
   return (*this)(p) <= reach;
 }
 

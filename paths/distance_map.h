@@ -26,6 +26,12 @@ class DistanceMap {
   /// Whether operator()(p) <= reach. Cost O(1) except for points about as far as `reach` (to a pixel's diagonal).
   bool within(Point p, double reach) const;
 
+  struct Bounds {
+    double low, high;
+  };
+  /// Two numbers between which operator()(p) lies, at most about a node's diagonal apart near the part. Cost O(1).
+  Bounds bounds(Point p) const;
+
   /// The extended grid, and the distance at its nodes.
   const Grid& nodes() const { return nodes_; }
   double at_node(Index row, Index col) const {

@@ -33,6 +33,13 @@ PathDomain::PathDomain(const HeightMap& map, double reach, const char* planner, 
       box_(box_of_pixels(map, planner)),
       distance_(map, padded_) {}
 
+DomainView PathDomain::look(Point p) const {
+  const DistanceMap::Bounds b = distance_.bounds(p);
+  if (b.high <= padded_) return {true, padded_ - b.high};
+  if (b.low > padded_) return {false, b.low - padded_};
+  return {contains(p), 0.0};
+}
+
 double PathDomain::checked(double reach, const char* planner, const char* option) {
   if (std::isfinite(reach) && reach >= 0.0) return reach;
   throw InputError(fmt::format("{}: {} = {} mm; required finite and >= 0", planner, option, reach));

@@ -47,6 +47,31 @@ ToolPath planned(RasterOptions options, const PathJob& job) {
   return raster_path(job.target, options);
 }
 
+ToolPath planned(CrossHatchOptions options, const PathJob& job) {
+  if (!options.overrun) options.overrun = job.tif.radius;
+  return cross_hatch_path(job.target, options);
+}
+
+ToolPath planned(RandomRasterOptions options, const PathJob& job) {
+  if (!options.overrun) options.overrun = job.tif.radius;
+  return random_raster_path(job.target, options);
+}
+
+ToolPath planned(SpiralOptions options, const PathJob& job) {
+  if (!options.overrun) options.overrun = job.tif.radius;
+  return spiral_path(job.target, options);
+}
+
+ToolPath planned(CirclesOptions options, const PathJob& job) {
+  if (!options.overrun) options.overrun = job.tif.radius;
+  return circles_path(job.target, options);
+}
+
+ToolPath planned(FibonacciOptions options, const PathJob& job) {
+  if (!options.overrun) options.overrun = job.tif.radius;
+  return fibonacci_path(job.target, options);
+}
+
 ToolPath planned(const NearestOptions& options, const PathJob& job) { return nearest_path(job.target, options).path; }
 
 ToolPath planned(const PathFromFile& spec, const PathJob& job) {
@@ -68,8 +93,27 @@ struct KnownKind {
 
 const std::vector<KnownKind>& known_kinds() {
   static const std::vector<KnownKind> kinds{
-      {{"raster", "pitch=MM[,step=MM][,angle=DEGREES][,overrun=MM][,order=serpentine|one-way]", "straight lines"},
+      {{"raster",
+        "pitch=MM[,step=MM][,angle=DEGREES][,overrun=MM][,order=serpentine|one-way][,turn=square|arc|lift][,corner=MM]",
+        "straight lines"},
        [](const SpecText& spec) -> PathSpec { return parse_raster_options(spec); }},
+      {{"cross-hatch",
+        "pitch=MM[,step=MM][,angle=DEGREES][,crossing=DEGREES][,overrun=MM][,turn=square|arc|lift][,corner=MM]",
+        "two rasters that cross, one after the other"},
+       [](const SpecText& spec) -> PathSpec { return parse_cross_hatch_options(spec); }},
+      {{"random-raster",
+        "pitch=MM[,spread=MM|N%][,step=MM][,angle=DEGREES][,overrun=MM][,order=serpentine|one-way]"
+        "[,turn=square|arc|lift][,corner=MM][,seed=N]",
+        "straight lines at random distances about the pitch"},
+       [](const SpecText& spec) -> PathSpec { return parse_random_raster_options(spec); }},
+      {{"spiral", "pitch=MM[,step=MM][,overrun=MM][,centre=X/Y][,from=centre|edge][,turn=ccw|cw]",
+        "Archimedean spiral, dwell points at equal arc lengths"},
+       [](const SpecText& spec) -> PathSpec { return parse_spiral_options(spec); }},
+      {{"circles", "pitch=MM[,step=MM][,overrun=MM][,centre=X/Y][,from=centre|edge][,turn=ccw|cw]",
+        "concentric circles"},
+       [](const SpecText& spec) -> PathSpec { return parse_circles_options(spec); }},
+      {{"fibonacci", "pitch=MM[,overrun=MM][,centre=X/Y]", "phyllotaxis lattice, along its spiral arms"},
+       [](const SpecText& spec) -> PathSpec { return parse_fibonacci_options(spec); }},
       {{"nearest", "cell=MM[,critical=NM][,lift=CELLS|inf][,start=X/Y]",
         "from cell to nearest cell, only where the map is above the critical value", "cell"},
        [](const SpecText& spec) -> PathSpec { return parse_nearest_options(spec); }},

@@ -9,8 +9,13 @@
 #include "core/height_map.h"
 #include "core/removal_function.h"
 #include "core/tool_path.h"
+#include "paths/circles.h"
+#include "paths/cross_hatch.h"
+#include "paths/fibonacci.h"
 #include "paths/nearest_neighbour.h"
+#include "paths/random_raster.h"
 #include "paths/raster.h"
+#include "paths/spiral.h"
 
 namespace dwell {
 
@@ -20,7 +25,8 @@ struct PathFromFile {
 };
 
 /// Which planner, and its options.
-using PathSpec = std::variant<RasterOptions, NearestOptions, PathFromFile>;
+using PathSpec = std::variant<RasterOptions, CrossHatchOptions, RandomRasterOptions, SpiralOptions, CirclesOptions,
+                              FibonacciOptions, NearestOptions, PathFromFile>;
 
 /// A kind of path as a user names it.
 struct PathKind {

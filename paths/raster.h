@@ -5,6 +5,7 @@
 #include "core/height_map.h"
 #include "core/spec_text.h"
 #include "core/tool_path.h"
+#include "paths/turnarounds.h"
 
 namespace dwell {
 
@@ -15,6 +16,7 @@ struct RasterOptions {
   std::optional<double>
       overrun;             // how far lines go on beyond the valid pixels [mm], >= 0; default 0 (plan_path: TIF radius)
   bool serpentine = true;  // every other line backwards; false = one-way, each line entered lifted
+  TurnOptions turns;       // how lines are joined, and whether corners are rounded; default: straight, not
 };
 
 /// From "raster:pitch=MM,..."; throws InputError as SpecText does.
@@ -30,9 +32,9 @@ RasterOptions parse_raster_options(const SpecText& spec);
 /// valid pixel is within pitch/2 of a line, whatever the overrun.
 ///
 /// Lines follow each other in the direction 90 degrees counter-clockwise from theirs (angle 0: upwards). A
-/// serpentine joins neighbouring lines on the part and is lifted where a line between them was left out.
-/// Throws InputError naming the option, its value and what is required; also above 50 million lattice points.
-/// Cost O(pixels + lattice points).
+/// serpentine joins neighbouring lines on the part (turnarounds.h) and is lifted where a line between them was left
+/// out. Throws InputError naming the option, its value and what is required; also above 50 million lattice points. Cost
+/// O(pixels + lattice points).
 ToolPath raster_path(const HeightMap& map, const RasterOptions& options);
 
 }  // namespace dwell

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
 #include "tests/paths/path_test_util.h"
@@ -32,13 +33,39 @@ TEST(PathDomain, HoldsPointsExactlyAtItsReach) {
   EXPECT_FALSE(domain.contains({-1e-6, 0.7}));
 }
 
+TEST(PathDomain, LooksAroundAPoint) {
+  const HeightMap map = test::map_from_picture({"..11...", ".111...", "......1"}, 0.5, {-1.0, 3.0});
+  const PathDomain domain(map, 1.1, "raster");
+  std::mt19937 random(9);
+  std::uniform_real_distribution<double> x(-9.0, 12.0), y(-7.0, 14.0), turn(0.0, 6.3), share(0.0, 1.0);
+  int inside = 0, sure_outside = 0;
+  for (int k = 0; k < 4000; ++k) {
+    const Point p = k % 2 == 0 ? Point{x(random), y(random)} : Point{0.1 * x(random), 4.0 + 0.1 * y(random)};
+    const DomainView view = domain.look(p);
+    EXPECT_EQ(view.inside, domain.contains(p));
+    ASSERT_GE(view.holds_for, 0.0);
+    for (int i = 0; i < 20; ++i) {
+      const double angle = turn(random), away = 0.999 * view.holds_for * share(random);
+      const Point q = p + away * Point{std::cos(angle), std::sin(angle)};
+      EXPECT_EQ(test::brute_force_distance(map, q) <= 1.1, view.inside);
+    }
+    inside += view.inside && view.holds_for > 0.5;
+    // Far away the answer is sure nearly as far as the part: to the rectangle of the pixels' centres at least.
+    if (test::brute_force_distance(map, p) > 6.0 && view.holds_for > 3.0) ++sure_outside;
+  }
+  EXPECT_GT(inside, 50);
+  EXPECT_GT(sure_outside, 300);
+}
+
 TEST(PathDomain, RefusesWhatIsNone) {
   const HeightMap map = test::full_map(2, 3);
   EXPECT_EQ(test::message_of([&] { PathDomain(map, -1.0, "spiral"); }),
             "spiral: overrun = -1 mm; required finite and >= 0");
   EXPECT_EQ(test::message_of([&] { PathDomain(map, test::kNaN, "spiral", "reach"); }),
             "spiral: reach = nan mm; required finite and >= 0");
-  EXPECT_EQ(test::message_of([&] { PathDomain(test::map_from_picture({"...", "..."}), 1.0, "spiral"); }),
+  EXPECT_EQ(test::message_of([&] {
+              PathDomain(test::map_from_picture({"...", "..."}), 1.0, "spiral");
+            }),
             "spiral: the map has no finite pixel; at least one is required");
 }
 

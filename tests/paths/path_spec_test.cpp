@@ -32,6 +32,75 @@ TEST(PathSpec, ParsesARaster) {
   EXPECT_TRUE(std::get<RasterOptions>(parse_path_spec("raster:pitch=2,order=serpentine")).serpentine);
 }
 
+TEST(PathSpec, ParsesTurnarounds) {
+  const auto turns = [](const std::string& text) {
+    return std::get<RasterOptions>(parse_path_spec("raster:pitch=1" + text)).turns;
+  };
+  EXPECT_EQ(turns("").turn, Turn::Square);
+  EXPECT_EQ(turns("").corner, 0.0);
+  EXPECT_EQ(turns(",turn=arc,corner=0.3").turn, Turn::Arc);
+  EXPECT_EQ(turns(",turn=arc,corner=0.3").corner, 0.3);
+  EXPECT_EQ(turns(",turn=lift").turn, Turn::Lift);
+  EXPECT_EQ(parse_message("raster:pitch=1,turn=u"),
+            "path \"raster:pitch=1,turn=u\": turn = \"u\"; accepted: square, arc, lift");
+}
+
+TEST(PathSpec, ParsesCrossHatchAndRandomRaster) {
+  const auto cross = std::get<CrossHatchOptions>(
+      parse_path_spec("cross-hatch:pitch=1,step=0.5,angle=30,crossing=60,overrun=5,turn=arc,corner=0.1"));
+  EXPECT_EQ(cross.pitch, 1.0);
+  EXPECT_EQ(cross.step, 0.5);
+  EXPECT_EQ(cross.angle_deg, 30.0);
+  EXPECT_EQ(cross.crossing_deg, 60.0);
+  EXPECT_EQ(cross.overrun, 5.0);
+  EXPECT_EQ(cross.turns.turn, Turn::Arc);
+  EXPECT_EQ(cross.turns.corner, 0.1);
+  EXPECT_EQ(std::get<CrossHatchOptions>(parse_path_spec("cross-hatch:pitch=1")).crossing_deg, 90.0);
+  const auto random = std::get<RandomRasterOptions>(parse_path_spec(
+      "random-raster:pitch=1,spread=0.2,step=0.5,angle=30,overrun=5,order=one-way,turn=lift,corner=0.1,seed=7"));
+  EXPECT_EQ(random.spread, 0.2);
+  EXPECT_EQ(random.step, 0.5);
+  EXPECT_EQ(random.angle_deg, 30.0);
+  EXPECT_EQ(random.overrun, 5.0);
+  EXPECT_FALSE(random.serpentine);
+  EXPECT_EQ(random.turns.turn, Turn::Lift);
+  EXPECT_EQ(random.turns.corner, 0.1);
+  EXPECT_EQ(random.seed, 7u);
+  EXPECT_EQ(std::get<RandomRasterOptions>(parse_path_spec("random-raster:pitch=1")).seed, 1u);
+}
+
+TEST(PathSpec, ParsesCurves) {
+  const auto spiral =
+      std::get<SpiralOptions>(parse_path_spec("spiral:pitch=2,step=0.5,overrun=5,centre=-1/2.5,from=edge,turn=cw"));
+  EXPECT_EQ(spiral.pitch, 2.0);
+  EXPECT_EQ(spiral.step, 0.5);
+  EXPECT_EQ(spiral.overrun, 5.0);
+  EXPECT_EQ(spiral.centre, (Point{-1.0, 2.5}));
+  EXPECT_TRUE(spiral.from_edge);
+  EXPECT_TRUE(spiral.clockwise);
+  const auto circles = std::get<CirclesOptions>(parse_path_spec("circles:pitch=2"));
+  EXPECT_FALSE(circles.step || circles.overrun || circles.centre || circles.from_edge || circles.clockwise);
+  const auto fibonacci = std::get<FibonacciOptions>(parse_path_spec("fibonacci:pitch=2,overrun=3,centre=4/5"));
+  EXPECT_EQ(fibonacci.pitch, 2.0);
+  EXPECT_EQ(fibonacci.overrun, 3.0);
+  EXPECT_EQ(fibonacci.centre, (Point{4.0, 5.0}));
+  EXPECT_EQ(parse_message("spiral:pitch=1,turn=left"),
+            "path \"spiral:pitch=1,turn=left\": turn = \"left\"; accepted: ccw, cw");
+  EXPECT_EQ(parse_message("fibonacci:pitch=1,seed=1"),
+            "path \"fibonacci:pitch=1,seed=1\": unknown key \"seed\"; accepted for fibonacci: pitch, overrun, centre");
+}
+
+TEST(PathSpec, EveryPlannerTakesTheTifRadiusAsOverrun) {
+  const HeightMap map = test::full_map(5, 9, 1.0, 1.0, {3.0, -2.0});
+  for (const char* kind : {"raster", "cross-hatch", "random-raster", "spiral", "circles", "fibonacci"}) {
+    const std::string text = std::string(kind) + ":pitch=1";
+    const ToolPath path = plan_path(parse_path_spec(text), {map, tool(3.0)});
+    EXPECT_EQ(path.kind, kind);
+    EXPECT_EQ(path.size(), plan_path(parse_path_spec(text + ",overrun=3"), {map, tool(1.0)}).size());
+    EXPECT_GT(path.size(), plan_path(parse_path_spec(text + ",overrun=0"), {map, tool(3.0)}).size());
+  }
+}
+
 TEST(PathSpec, ParsesNearestAndFile) {
   const auto full = std::get<NearestOptions>(parse_path_spec("nearest:cell=1,critical=-3,lift=inf,start=-1.5/2e1"));
   EXPECT_EQ(full.cell, 1.0);
@@ -47,7 +116,8 @@ TEST(PathSpec, ParsesNearestAndFile) {
 
 TEST(PathSpec, NamesWhatItDoesNotKnow) {
   EXPECT_EQ(parse_message("raster:ptich=1"),
-            "path \"raster:ptich=1\": unknown key \"ptich\"; accepted for raster: pitch, step, angle, overrun, order");
+            "path \"raster:ptich=1\": unknown key \"ptich\"; accepted for raster: pitch, step, angle, overrun, order, "
+            "turn, corner");
   EXPECT_EQ(
       parse_message("nearest:cell=1,pitch=1"),
       "path \"nearest:cell=1,pitch=1\": unknown key \"pitch\"; accepted for nearest: cell, critical, lift, start");
@@ -57,7 +127,8 @@ TEST(PathSpec, NamesWhatItDoesNotKnow) {
   EXPECT_EQ(parse_message("raster:pitch=1,order=zigzag"),
             "path \"raster:pitch=1,order=zigzag\": order = \"zigzag\"; accepted: serpentine, one-way");
   EXPECT_EQ(parse_message("zigzag:pitch=1"),
-            "path \"zigzag:pitch=1\": unknown kind \"zigzag\"; accepted: raster, nearest, file");
+            "path \"zigzag:pitch=1\": unknown kind \"zigzag\"; accepted: raster, cross-hatch, random-raster, spiral, "
+            "circles, fibonacci, nearest, file");
   EXPECT_EQ(parse_message("file:"), "path \"file:\": the name of a file is missing; required: file:PATH.csv");
   for (const char* start : {"5", "5/", "/5", "a/b", "1/2/3"}) {
     const std::string text = std::string("nearest:cell=1,start=") + start;
