@@ -35,7 +35,7 @@ SparseRemoval exact_removal(const Grid& map, const std::vector<Index>& pixels, c
   }
   SparseRemoval::Matrix a(static_cast<Index>(pixels.size()), static_cast<Index>(strokes.size()));
   a.setFromTriplets(entries.begin(), entries.end());
-  return {std::move(a), threads};
+  return {a, threads};
 }
 
 Vector exact_removal_once(const Grid& map, const std::vector<Index>& pixels, const RemovalFunction& tif,
