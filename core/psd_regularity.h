@@ -12,8 +12,8 @@ struct PsdRegularity {
   Point frequency;          // where, fx >= 0 [1/mm]
   double rms = 0.0;         // of the band [nm]
   double anisotropy = 0.0;  // |sum S exp(2 i phi)| / sum S over the band: 0 none or fourfold .. 1 one direction
-  double sector_over_mean =
-      0.0;  // of 12 directions of 15 degrees, the strongest one's mean density over `mean`, 1 to about 12
+  /// Of 12 directions of 15 degrees, the mean density of the strongest over `mean`: 1 no direction .. about 12 one.
+  double sector_over_mean = 0.0;
 
   double peak_over_mean() const { return peak / mean; }
   double wavelength() const { return 1.0 / length(frequency); }  // of the peak [mm]
