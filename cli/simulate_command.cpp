@@ -18,7 +18,7 @@ namespace {
 struct SimulateArguments {
   std::unique_ptr<JobArguments> job;
   std::string program, gcode, residual, png;
-  bool json = false;
+  bool json = false, exact = false;
 };
 
 void check_outputs(const SimulateArguments& a, const JobOptions& options) {
@@ -30,11 +30,17 @@ void check_outputs(const SimulateArguments& a, const JobOptions& options) {
 }
 
 std::string told(const Simulation& s) {
+  const std::string exact = s.spline_error
+                                ? fmt::format(
+                                      "exact     the spline on the map's pixels would differ by RMS {:.3g} nm, at most "
+                                      "{:.3g} nm\n",
+                                      s.spline_error->rms, s.spline_error->largest)
+                                : "";
   return fmt::format("program   {}: {} steps, {:.6g} mm with removal, {:.2f} s\n", s.program.file,
                      s.program.steps.size(), s.program.removing_length(), s.program.total_seconds()) +
          fmt::format("before    RMS {:.4g} nm, PV {:.4g} nm ({} removed, {} pixels)\n", s.before.rms, s.before.pv,
                      to_string(s.terms), s.before.valid_pixels) +
-         fmt::format("after     RMS {:.4g} nm, PV {:.4g} nm\n", s.after.rms, s.after.pv);
+         fmt::format("after     RMS {:.4g} nm, PV {:.4g} nm\n", s.after.rms, s.after.pv) + exact;
 }
 
 int run_simulate(const SimulateArguments& arguments) {
@@ -42,7 +48,7 @@ int run_simulate(const SimulateArguments& arguments) {
   if (!arguments.gcode.empty()) dialect = parse_gcode_dialect(arguments.gcode);
   const JobOptions options = arguments.job->options();
   check_outputs(arguments, options);
-  const Simulation s = simulate_file(arguments.program, dialect, options, terminal_hooks());
+  const Simulation s = simulate_file(arguments.program, dialect, options, terminal_hooks(), arguments.exact);
   finish_progress();
   const std::string text = arguments.json ? simulation_json(s) : told(s);
   PendingFiles files;
@@ -78,6 +84,9 @@ void add_simulate_command(CLI::App& program, int& exit_code) {
   command->add_option("--residual", arguments->residual, "write the residual map [nm]: " + written_map_extensions())
       ->type_name("FILE");
   command->add_option("--png", arguments->png, "draw the residual map")->type_name("FILE");
+  command->add_flag("--exact", arguments->exact,
+                    "integrate the removal function itself, not its spline on the map's pixels: slow; says how far the "
+                    "two are apart");
   command->add_flag("--json", arguments->json, "print the result as JSON");
   command->footer(
       "Example:\n  dwell simulate --program plan/program.nc --map mirror.csv --map-pixel 0.0938 --tif spot.csv "

@@ -1,33 +1,21 @@
 #include "core/sparse_removal.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "core/stroke_quadrature.h"
+#include "core/touched_pixels.h"
 
 namespace dwell {
 namespace {
-
-/// First and last map index whose distance from [low, high] is below `reach`, clipped to 0 .. n-1.
-std::pair<Index, Index> touched_range(double low, double high, double reach, double origin, double pitch, Index n) {
-  const double first = std::clamp(std::ceil((low - reach - origin) / pitch), 0.0, static_cast<double>(n));
-  const double last = std::clamp(std::floor((high + reach - origin) / pitch), -1.0, static_cast<double>(n - 1));
-  return {static_cast<Index>(first), static_cast<Index>(last)};
-}
 
 /// Appends column j: the average rate of the stroke at every pixel it reaches. row_of[pixel] is -1 outside.
 void append_column(const Grid& map, const std::vector<Index>& row_of, const RemovalKernel& kernel, const Stroke& s,
                    Index j, std::vector<QuadraturePoint>& points, std::vector<Eigen::Triplet<double, Index>>& entries) {
   points.clear();
   append_stroke_quadrature(s, map, points);
-  const double reach_x = map.pitch_x * static_cast<double>(kernel.half_cols + 2);
-  const double reach_y = map.pitch_y * static_cast<double>(kernel.half_rows + 2);
-  const auto [x_low, x_high] = std::minmax({s.start.x, s.via.x, s.finish.x});
-  const auto [y_low, y_high] = std::minmax({s.start.y, s.via.y, s.finish.y});
-  const auto [col0, col1] = touched_range(x_low, x_high, reach_x, map.origin.x, map.pitch_x, map.cols);
-  const auto [row0, row1] = touched_range(y_low, y_high, reach_y, map.origin.y, map.pitch_y, map.rows);
-  for (Index r = row0; r <= row1; ++r) {
-    for (Index c = col0; c <= col1; ++c) {
+  const Point reach{map.pitch_x * static_cast<double>(kernel.half_cols + 2),
+                    map.pitch_y * static_cast<double>(kernel.half_rows + 2)};
+  const PixelRange range = touched_pixels(map, s, -1.0 * reach, reach);
+  for (Index r = range.first_row; r <= range.last_row; ++r) {
+    for (Index c = range.first_col; c <= range.last_col; ++c) {
       const Index row = row_of[static_cast<std::size_t>(map.index(r, c))];
       if (row < 0) continue;
       double sum = 0.0;

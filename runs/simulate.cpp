@@ -1,8 +1,24 @@
 #include "runs/simulate.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/exact_removal.h"
 #include "core/scattered_removal.h"
 
 namespace dwell {
+namespace {
+
+/// A map from the values of its finite pixels, NaN elsewhere.
+HeightMap on_pixels(const Grid& grid, const std::vector<Index>& pixels, const Vector& values) {
+  HeightMap result(grid);
+  for (std::size_t i = 0; i < pixels.size(); ++i)
+    result.values[static_cast<std::size_t>(pixels[i])] = values[static_cast<Index>(i)];
+  return result;
+}
+
+}  // namespace
 
 RemovingSteps removing_steps(const Program& program) {
   RemovingSteps removing;
@@ -18,11 +34,25 @@ HeightMap simulate(const Program& program, const HeightMap& map, const RemovalKe
   const RemovingSteps removing = removing_steps(program);
   const std::vector<Index> pixels = finite_pixels(map);
   const Vector seconds = Vector::Map(removing.seconds.data(), static_cast<Index>(removing.seconds.size()));
-  const Vector at_pixels = removal_once(map.grid, pixels, kernel, removing.strokes, seconds, threads);
-  HeightMap result(map.grid);
-  for (std::size_t i = 0; i < pixels.size(); ++i)
-    result.values[static_cast<std::size_t>(pixels[i])] = at_pixels[static_cast<Index>(i)];
-  return result;
+  return on_pixels(map.grid, pixels, removal_once(map.grid, pixels, kernel, removing.strokes, seconds, threads));
+}
+
+HeightMap simulate_exactly(const Program& program, const HeightMap& map, const RemovalFunction& tif, int threads,
+                           const Progress& progress) {
+  constexpr std::size_t kRun = 500;  // steps between two reports
+  const RemovingSteps removing = removing_steps(program);
+  const std::vector<Index> pixels = finite_pixels(map);
+  Vector removal = Vector::Zero(static_cast<Index>(pixels.size()));
+  const std::size_t count = removing.strokes.size();
+  for (std::size_t first = 0; first < count; first += kRun) {
+    tell(progress, fmt::format("{:.0f} %", 100.0 * static_cast<double>(first) / static_cast<double>(count)));
+    const std::size_t size = std::min(kRun, count - first);
+    const std::vector<Stroke> run(removing.strokes.begin() + static_cast<std::ptrdiff_t>(first),
+                                  removing.strokes.begin() + static_cast<std::ptrdiff_t>(first + size));
+    const Vector seconds = Vector::Map(removing.seconds.data() + first, static_cast<Index>(size));
+    removal += exact_removal_once(map.grid, pixels, tif, run, seconds, threads);
+  }
+  return on_pixels(map.grid, pixels, removal);
 }
 
 HeightMap surface_after(const HeightMap& map, const HeightMap& removal) {

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/aperture.h"
 #include "core/removal_kernel.h"
 #include "core/version.h"
@@ -13,9 +16,24 @@
 #include "runs/simulate.h"
 
 namespace dwell {
+namespace {
+
+SplineError spline_error(const HeightMap& spline, const HeightMap& exact) {
+  SplineError error;
+  const std::vector<Index> pixels = finite_pixels(exact);
+  for (const Index i : pixels) {
+    const double d = spline.values[static_cast<std::size_t>(i)] - exact.values[static_cast<std::size_t>(i)];
+    error.rms += d * d / static_cast<double>(pixels.size());
+    error.largest = std::max(error.largest, std::abs(d));
+  }
+  error.rms = std::sqrt(error.rms);
+  return error;
+}
+
+}  // namespace
 
 Simulation simulate_file(const std::filesystem::path& program, std::optional<GcodeDialect> dialect,
-                         const JobOptions& options, const RunHooks& hooks) {
+                         const JobOptions& options, const RunHooks& hooks, bool exact) {
   Simulation s;
   hooks.report("read: program, map and removal function");
   s.program = read_program(program, dialect);
@@ -29,6 +47,16 @@ Simulation simulate_file(const std::filesystem::path& program, std::optional<Gco
   hooks.check();
   hooks.report(fmt::format("simulate: {} steps", s.program.steps.size()));
   s.removal = simulate(s.program, map, kernel, thread_count(options.threads));
+  if (exact) {
+    HeightMap removal =
+        simulate_exactly(s.program, map, tif, thread_count(options.threads), [&](const std::string& line) {
+          hooks.report("simulate exactly: " + line);
+          hooks.check();
+          return true;
+        });
+    s.spline_error = spline_error(s.removal, removal);
+    s.removal = std::move(removal);
+  }
   hooks.check();
   s.residual = without_form(surface_after(map, s.removal), s.terms, thread_count(options.threads));
   s.after = map_statistics(s.residual, {}, thread_count(options.threads));
@@ -37,17 +65,19 @@ Simulation simulate_file(const std::filesystem::path& program, std::optional<Gco
 
 std::string simulation_json(const Simulation& s) {
   using Json = nlohmann::ordered_json;
-  const Json json = {
-      {"schema", 1},
-      {"version", version()},
-      {"program",
-       {{"file", s.program.file},
-        {"steps", s.program.steps.size()},
-        {"total_s", s.program.total_seconds()},
-        {"removing_length_mm", s.program.removing_length()}}},
-      {"map", {{"valid_pixels", s.before.valid_pixels}, {"pv_nm", s.before.pv}, {"rms_nm", s.before.rms}}},
-      {"residual", {{"removed", to_string(s.terms)}, {"rms_nm", s.after.rms}, {"pv_nm", s.after.pv}}},
-      {"inputs", inputs_json(s.inputs)}};
+  Json json = {{"schema", 1},
+               {"version", version()},
+               {"program",
+                {{"file", s.program.file},
+                 {"steps", s.program.steps.size()},
+                 {"total_s", s.program.total_seconds()},
+                 {"removing_length_mm", s.program.removing_length()}}},
+               {"map", {{"valid_pixels", s.before.valid_pixels}, {"pv_nm", s.before.pv}, {"rms_nm", s.before.rms}}},
+               {"residual", {{"removed", to_string(s.terms)}, {"rms_nm", s.after.rms}, {"pv_nm", s.after.pv}}},
+               {"inputs", inputs_json(s.inputs)}};
+  if (s.spline_error) {
+    json["spline_error"] = {{"rms_nm", s.spline_error->rms}, {"largest_nm", s.spline_error->largest}};
+  }
   return json.dump(2) + "\n";
 }
 

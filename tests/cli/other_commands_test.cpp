@@ -192,6 +192,27 @@ TEST(SimulateCommand, PrintsBeforeAndAfterWithUnits) {
   EXPECT_EQ(read_whole_file(inputs / "left.png").substr(1, 3), "PNG");
 }
 
+TEST(SimulateCommand, SaysHowFarTheSplineIsFromTheRemovalFunction) {
+  const SmallInputs inputs;
+  ASSERT_EQ(inputs.run(SmallInputs::plan()).exit_code, 0);
+  const auto simulate = [&](const std::string& tif, std::vector<std::string> more) {
+    std::vector<std::string> words{"simulate",    "--program", "plan/program.nc", "--map", "map.csv",
+                                   "--map-pixel", "0.5",       "--tif",           tif};
+    words.insert(words.end(), more.begin(), more.end());
+    return inputs.run(words);
+  };
+  const std::string disc = "disc:slope=1,radius=2";
+  const ProgramResult told = simulate(disc, {"--exact"});
+  ASSERT_EQ(told.exit_code, 0) << told.err;
+  expect_has(told.out, "exact     the spline on the map's pixels would differ by RMS ");
+  const json exact = json::parse(simulate(disc, {"--exact", "--json"}).out),
+             fast = json::parse(simulate(disc, {"--json"}).out);
+  EXPECT_FALSE(fast.contains("spline_error"));
+  EXPECT_GT(exact["spline_error"]["rms_nm"], 0.0);
+  EXPECT_GE(exact["spline_error"]["largest_nm"], exact["spline_error"]["rms_nm"]);
+  EXPECT_NE(exact["residual"]["rms_nm"], fast["residual"]["rms_nm"]);
+}
+
 TEST(ExampleCommand, MakesAJobThatPlans) {
   const SmallInputs inputs;
   const ProgramResult made =
