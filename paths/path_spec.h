@@ -9,6 +9,7 @@
 #include "core/height_map.h"
 #include "core/removal_function.h"
 #include "core/tool_path.h"
+#include "paths/multi_pitch.h"
 #include "paths/nearest_neighbour.h"
 #include "paths/raster.h"
 
@@ -20,7 +21,7 @@ struct PathFromFile {
 };
 
 /// Which planner, and its options.
-using PathSpec = std::variant<RasterOptions, NearestOptions, PathFromFile>;
+using PathSpec = std::variant<RasterOptions, NearestOptions, MultiPitchOptions, PathFromFile>;
 
 /// A kind of path as a user names it.
 struct PathKind {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/errors.h"
+#include "core/number_text.h"
 #include "paths/distance_map.h"
 
 namespace dwell {
@@ -140,9 +141,14 @@ std::vector<Run> wanted_runs(const HeightMap& map, const std::vector<Index>& pix
 }  // namespace
 
 RasterOptions parse_raster_options(const SpecText& spec) {
-  spec.accept_only({"pitch", "step", "angle", "overrun", "order"});
+  spec.accept_only({"pitch", "ripple", "step", "angle", "overrun", "order"});
   RasterOptions options;
-  options.pitch = spec.number("pitch");
+  const std::optional<std::string> pitch = spec.word("pitch");
+  options.auto_pitch = pitch == "auto";
+  if (pitch && !options.auto_pitch && !parse_number(*pitch)) spec.reject("pitch", "a number in mm, or auto");
+  if (!options.auto_pitch) options.pitch = spec.number("pitch");
+  if (!options.auto_pitch && spec.has("ripple")) spec.reject("ripple", "pitch=auto with it");
+  options.ripple = spec.number("ripple", options.ripple);
   options.step = spec.optional_number("step");
   options.angle_deg = spec.number("angle", options.angle_deg);
   options.overrun = spec.optional_number("overrun");
