@@ -27,8 +27,10 @@ void check(const ToolPath& path, const std::vector<double>& pitch, const DepthFe
   if (!std::isfinite(job.lowest)) {
     throw InputError(fmt::format("depth feed: lowest = {} nm; required finite", job.lowest));
   }
-  if (!(job.max_feed > 0.0))
+  if (!(job.step > 0.0)) throw InputError(fmt::format("depth feed: step = {} mm; required > 0", job.step));
+  if (!(job.max_feed > 0.0)) {
     throw InputError(fmt::format("depth feed: max_feed = {} mm/s; required > 0", job.max_feed));
+  }
 }
 
 /// A map whose pixels all have the height of the nearest one with data.
@@ -67,12 +69,13 @@ DepthFeed depth_feed(const HeightMap& target, const ToolPath& path, const std::v
   feed.dwell = Eigen::VectorXd::Zero(static_cast<Index>(strokes.size()));
   for (std::size_t j = 0; j < strokes.size(); ++j) {
     const double length = strokes[j].length();
-    if (!(length > 0.0)) continue;
+    const double stands_for = std::isfinite(job.step) ? job.step : length;
     const double depth = std::max(0.0, bilinear(heights, path.points[j]) - job.lowest);
-    const double wanted = job.volume / (pitch[j] * depth);  // infinite at depth 0
-    if (wanted > job.max_feed) ++feed.limited;
-    feed.speed[j] = std::min(wanted, job.max_feed);
-    feed.dwell[static_cast<Index>(j)] = length / feed.speed[j];
+    const double wanted = depth * pitch[j] * stands_for / job.volume;
+    const double least = length / job.max_feed;
+    if (wanted < least) ++feed.limited;
+    feed.dwell[static_cast<Index>(j)] = std::max(wanted, least);
+    if (length > 0.0) feed.speed[j] = length / feed.dwell[static_cast<Index>(j)];  // infinite for no dwell
   }
   feed.total_seconds = feed.dwell.sum();
   return feed;

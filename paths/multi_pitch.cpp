@@ -11,6 +11,7 @@
 #include "core/errors.h"
 #include "core/number_text.h"
 #include "paths/box_mean.h"
+#include "paths/feed_direction.h"
 #include "paths/region_raster.h"
 
 namespace dwell {
@@ -173,6 +174,19 @@ std::string note_of(const MultiPitchPath& result, std::size_t ranges) {
       fmt::join(parts, "; "));
 }
 
+/// The middle of the valid pixels' centres along the lines.
+double middle_along(const Grid& grid, const std::vector<std::int32_t>& region_of, double angle_deg) {
+  const Point along = feed_direction(angle_deg);
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (std::size_t i = 0; i < region_of.size(); ++i) {
+    if (region_of[i] == 0) continue;
+    const Point p = grid.centre(static_cast<Index>(i));
+    low = std::min(low, p.x * along.x + p.y * along.y);
+    high = std::max(high, p.x * along.x + p.y * along.y);
+  }
+  return 0.5 * (low + high);
+}
+
 void raster_regions(const HeightMap& map, const MultiPitchOptions& options, const Settings& s,
                     const std::vector<std::int32_t>& region_of, MultiPitchPath& result) {
   std::vector<double> reaches;
@@ -185,6 +199,7 @@ void raster_regions(const HeightMap& map, const MultiPitchOptions& options, cons
   for (std::size_t i = 0; i < region_of.size(); ++i) {
     if (region_of[i] > 0) pixels[static_cast<std::size_t>(region_of[i] - 1)].push_back(static_cast<Index>(i));
   }
+  const double anchor = middle_along(map.grid, region_of, options.angle_deg);
   for (std::size_t k = 0; k < result.regions.size(); ++k) {
     PitchRegion& region = result.regions[k];
     region.first_point = result.path.size();
@@ -193,6 +208,7 @@ void raster_regions(const HeightMap& map, const MultiPitchOptions& options, cons
                             region.pitch,
                             s.step,
                             options.angle_deg,
+                            anchor,
                             reaches[k],
                             link,
                             kMostPoints - static_cast<double>(result.path.size())};

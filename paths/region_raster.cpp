@@ -18,21 +18,29 @@ constexpr double kMostPathPoints = 50e6;  // of any path
 
 double dot(Point a, Point b) { return a.x * b.x + a.y * b.y; }
 
-/// Equidistant positions symmetric about a middle.
+/// Equidistant positions.
 struct Ticks {
   double first = 0.0;
   double step = 1.0;
   double count = 1.0;  // integral
 
-  Ticks(double low, double high, double reach, double tick) : step(tick) {
-    count = std::floor((high - low + 2.0 * reach) / step + kRounding) + 1.0;
-    first = 0.5 * (low + high) - 0.5 * step * (count - 1.0);
-  }
   double at(Index i) const { return first + step * static_cast<double>(i); }
   Index nearest(double v) const {
     return static_cast<Index>(std::clamp(std::floor((v - first) / step + 0.5), 0.0, count - 1.0));
   }
 };
+
+/// As many as fit between two places, symmetric about their middle.
+Ticks symmetric_ticks(double low, double high, double step) {
+  const double count = std::floor((high - low) / step + kRounding) + 1.0;
+  return {0.5 * (low + high) - 0.5 * step * (count - 1.0), step, count};
+}
+
+/// All between two places that are whole steps from the anchor; at least one.
+Ticks anchored_ticks(double low, double high, double step, double anchor) {
+  const double from = std::ceil((low - anchor) / step - kRounding);
+  return {anchor + step * from, step, std::max(0.0, std::floor((high - anchor) / step + kRounding) - from) + 1.0};
+}
 
 struct Lattice {
   Point along, across;
@@ -51,7 +59,9 @@ Lattice lattice_of(const Grid& grid, const std::vector<Index>& pixels, const Reg
     low = {std::min(low.x, u), std::min(low.y, v)};
     high = {std::max(high.x, u), std::max(high.y, v)};
   }
-  return {along, across, Ticks(low.x, high.x, lines.reach, lines.step), Ticks(low.y, high.y, lines.reach, lines.pitch)};
+  const double reach = lines.reach;
+  return {along, across, anchored_ticks(low.x - reach, high.x + reach, lines.step, lines.anchor),
+          symmetric_ticks(low.y - reach, high.y + reach, lines.pitch)};
 }
 
 [[noreturn]] void refuse_points(const RegionLines& lines, double points) {

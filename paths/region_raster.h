@@ -14,6 +14,7 @@ struct RegionLines {
   double pitch = 1.0;      // between lines [mm]
   double step = 1.0;       // between the points of a line [mm]
   double angle_deg = 0.0;  // of the lines
+  double anchor = 0.0;     // points lie whole steps from here along the lines [mm]: the same for neighbouring regions
   double reach = 0.0;      // of the region beyond the part, as given to RegionLabels; >= hypot(pitch, step) / 2 [mm]
   double link = 0.0;       // longest move that is made on the part [mm]
   double most_points = 0;  // refused beyond
