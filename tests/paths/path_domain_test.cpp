@@ -38,9 +38,7 @@ TEST(PathDomain, RefusesWhatIsNone) {
             "spiral: overrun = -1 mm; required finite and >= 0");
   EXPECT_EQ(test::message_of([&] { PathDomain(map, test::kNaN, "spiral", "reach"); }),
             "spiral: reach = nan mm; required finite and >= 0");
-  EXPECT_EQ(test::message_of([&] {
-              PathDomain(test::map_from_picture({"...", "..."}), 1.0, "spiral");
-            }),
+  EXPECT_EQ(test::message_of([&] { PathDomain(test::map_from_picture({"...", "..."}), 1.0, "spiral"); }),
             "spiral: the map has no finite pixel; at least one is required");
 }
 
