@@ -30,7 +30,9 @@ struct PathRipple {
 
 /// Removal of any path at constant feed, by the moving-tool operator (core/scattered_removal.h) on a fine grid: what
 /// raster_ripple is for straight lines, for spirals, Hilbert curves or random walks. The dwell of a stroke is its
-/// length over the feed; halts have none. The removal function is the spline of its samples on the patch's pixels.
+/// length over the feed; halts have none. The removal function is the spline of its samples on the patch's pixels,
+/// which blurs a sharp rim: a spinning disc shows about two thirds of its exact PVe at the default pixel, all of its
+/// RMS.
 ///
 /// Default side: four sizes (2 radius) of the removal function, at most what the path's bounding box leaves when it is
 /// narrowed by the radius on every side (the path's own edge must not reach the patch). Default pixel: an eighth of the

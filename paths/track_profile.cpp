@@ -17,7 +17,7 @@
 namespace dwell {
 namespace {
 
-constexpr double kQuarter = 0.25;  // of a sample: step of the quadrature and of its table
+constexpr double kHalf = 0.5;  // of a sample: step of the quadrature and of its table
 
 Point checked_direction(double angle_deg) {
   if (std::isfinite(angle_deg)) return feed_direction(angle_deg);
@@ -83,7 +83,7 @@ std::array<double, 2> projection(const Grid& g, Point direction) {
 
 TrackProfile integrated(const SplineSurface& surface, Point along, Point across) {
   const Grid& g = surface.grid();
-  const double step = kQuarter * std::min(g.pitch_x, g.pitch_y);
+  const double step = kHalf * std::min(g.pitch_x, g.pitch_y);
   const auto [low, high] = projection(g, across);
   const auto [start, finish] = projection(g, along);
   const auto count = static_cast<Index>(std::ceil((high - low) / step)) + 1;

@@ -20,8 +20,8 @@ struct TrackProfile {
 ///
 /// gaussian: closed form, the cut at its radius included; disc: slope (R w + v^2 ln((R + w) / |v|)), w = sqrt(R^2 -
 /// v^2) (Lin et al. 2014, eq. 5; no jump at the rim). Measured and model removal functions are the cubic spline through
-/// their own samples: exact for feeds along x and y, else by quadrature at a quarter of a sample. Independent of any
-/// map's pixels. Throws InputError if the angle is not finite. Cost: none but for the last; O(64 samples) there.
+/// their own samples: exact for feeds along x and y, else by quadrature at half a sample. Independent of any
+/// map's pixels. Throws InputError if the angle is not finite. Cost: none but for the last; O(16 samples) there.
 TrackProfile line_profile(const RemovalFunction& tif, double angle_deg);
 
 /// Section through the tool at rest, across the same direction: b(0, v) [nm/s]. Errors as line_profile.

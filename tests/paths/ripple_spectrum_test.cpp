@@ -71,6 +71,16 @@ TEST(RippleSpectrum, FindsWavesWithTheirDirections) {
   }
 }
 
+TEST(RippleSpectrum, CrestsAlongXHaveOneName) {
+  for (const double wavelength : {1.3, 2.0, 3.1, 4.7}) {
+    for (const double direction : {90.0, -90.0}) {
+      const RippleSpectrum spectrum = ripple_spectrum(waves({{1.0, wavelength, direction}}));
+      ASSERT_FALSE(spectrum.peaks.empty());
+      EXPECT_NEAR(spectrum.peaks[0].direction_deg, 90.0, 0.1);
+    }
+  }
+}
+
 TEST(RippleSpectrum, FindsWavesOnARoundPartWithAHole) {
   HeightMap map = waves({{4.0, 3.0, -35.0}});
   for (Index i = 0; i < map.grid.size(); ++i) {
