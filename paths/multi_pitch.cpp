@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kMostPoints = 50e6;
 constexpr int kMostRanges = 100;
-constexpr double kPositioning = 0.01;  // [mm]
+constexpr double kPositioning = 0.01;  // what a machine positions [mm]
 
 [[noreturn]] void refuse(const char* option, double value, const char* unit, const char* required) {
   throw InputError(fmt::format("multi-pitch: {} = {}{}; required {}", option, value, unit, required));
@@ -74,7 +74,7 @@ Settings settings_of(const MultiPitchOptions& o, const RemovalFunction& tif, dou
   }
   s.max_pitch = o.max_pitch.value_or(size / 6.0);
   check_positive("max-pitch", s.max_pitch, " mm");
-  s.min_pitch = o.min_pitch.value_or(std::min(kPositioning, s.max_pitch));
+  s.min_pitch = o.min_pitch.value_or(std::min(std::max(kPositioning, size / 60.0), s.max_pitch));
   check_positive("min-pitch", s.min_pitch, " mm");
   if (s.min_pitch > s.max_pitch) {
     throw InputError(

@@ -12,10 +12,12 @@
 namespace dwell {
 
 struct MultiPitchOptions {
-  int ranges = 4;                   // of removal depth, 1 .. 100 (3 to 6 in the paper); not with pitches or depths
-  std::vector<double> pitches;      // of the ranges, shallowest first [mm], finite and > 0; default: by eq. 10
-  std::vector<double> depths;       // between the ranges [nm above the lowest], ascending, > 0; default: equal ranges
-  std::optional<double> min_pitch;  // narrowest [mm], > 0; default 0.01: what a machine positions; not with pitches
+  int ranges = 4;               // of removal depth, 1 .. 100 (3 to 6 in the paper); not with pitches or depths
+  std::vector<double> pitches;  // of the ranges, shallowest first [mm], finite and > 0; default: by eq. 10
+  std::vector<double> depths;   // between the ranges [nm above the lowest], ascending, > 0; default: equal ranges
+  /// Narrowest [mm], > 0; not with pitches. Default: a sixtieth of the TIF's size, below which there is hardly any
+  /// ripple left to spare while the path grows without bound, and at least 0.01: what a machine positions.
+  std::optional<double> min_pitch;
   std::optional<double> max_pitch;  // widest [mm], >= min_pitch; default: a sixth of the TIF's size; not with pitches
   std::optional<double> step;       // between dwell points of a line [mm], > 0; default: a twelfth of the TIF's size
   double angle_deg = 0.0;           // direction of the lines, counter-clockwise from +x; finite

@@ -31,7 +31,7 @@ struct AutoPitch {
   TrackOverlap track;   // likewise, of the line profile
 };
 /// line: of line_profile; most: PVn, 0 < most < 1, else InputError; also if 1/50 of the diameter leaves more than
-/// that. Cost: about 400 times that of periodic_sum, 50 ms.
+/// that. Cost: about 400 times that of periodic_sum, 10 to 100 ms.
 AutoPitch widest_pitch(const TrackProfile& line, double diameter, double most);
 
 }  // namespace dwell

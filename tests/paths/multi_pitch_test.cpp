@@ -130,6 +130,10 @@ TEST(MultiPitch, TakesItsDefaultsFromTheToolAndTheFeed) {
   EXPECT_DOUBLE_EQ(result.regions[3].pitch, 0.3);
   EXPECT_DOUBLE_EQ(result.step, 0.5);
   EXPECT_NE(result.path.notes[0].find("0 to 10 nm, pitch 1 mm (widest accepted)"), std::string::npos);
+  const MultiPitchPath fast = multi_pitch_path(stairs(), tif, 1e3 * feed, o);
+  ASSERT_EQ(fast.regions.size(), 1u);
+  EXPECT_DOUBLE_EQ(fast.regions[0].pitch, 0.1) << "a sixtieth of the size";
+  EXPECT_EQ(fast.regions[0].limit, PitchRegion::Limit::Narrowest);
   double low = kInf;
   for (const Point p : result.path.points) low = std::min(low, p.y);
   EXPECT_LT(low, -2.0 - 2.0) << "overrun: the tool's radius";
