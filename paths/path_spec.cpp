@@ -10,6 +10,8 @@
 #include "core/spec_text.h"
 #include "paths/distance_map.h"
 #include "paths/path_file.h"
+#include "paths/track_overlap.h"
+#include "paths/track_profile.h"
 
 namespace dwell {
 namespace {
@@ -44,7 +46,21 @@ void refuse_outside(const ToolPath& path, const HeightMap& target, double tif_ra
 
 ToolPath planned(RasterOptions options, const PathJob& job) {
   if (!options.overrun) options.overrun = job.tif.radius;
-  return raster_path(job.target, options);
+  if (!options.auto_pitch) return raster_path(job.target, options);
+  const double size = 2.0 * job.tif.radius;
+  const AutoPitch chosen = widest_pitch(line_profile(job.tif, options.angle_deg), size, options.ripple);
+  options.pitch = chosen.ripple.pitch;
+  ToolPath path = raster_path(job.target, options);
+  path.notes.push_back(fmt::format(
+      "pitch {:.4g} mm, chosen as the widest that leaves a ripple of at most {:.3g} % of the removal: {:.3g} % peak to "
+      "valley, tracks overlapping by {:.3g} %, deviation of their sum {:.2g} of one track's peak",
+      options.pitch, 100.0 * options.ripple, 100.0 * chosen.ripple.pvn, 100.0 * chosen.track.overlap,
+      chosen.track.deviation));
+  return path;
+}
+
+ToolPath planned(const MultiPitchOptions& options, const PathJob& job) {
+  return multi_pitch_path(job.target, job.tif, job.max_feed, options).path;
 }
 
 ToolPath planned(CrossHatchOptions options, const PathJob& job) {
@@ -94,7 +110,8 @@ struct KnownKind {
 const std::vector<KnownKind>& known_kinds() {
   static const std::vector<KnownKind> kinds{
       {{"raster",
-        "pitch=MM[,step=MM][,angle=DEGREES][,overrun=MM][,order=serpentine|one-way][,turn=square|arc|lift][,corner=MM]",
+        "pitch=MM|auto[,ripple=SHARE][,step=MM][,angle=DEGREES][,overrun=MM][,order=serpentine|one-way][,turn=square|"
+        "arc|lift][,corner=MM]",
         "straight lines"},
        [](const SpecText& spec) -> PathSpec { return parse_raster_options(spec); }},
       {{"cross-hatch",
@@ -117,6 +134,11 @@ const std::vector<KnownKind>& known_kinds() {
       {{"nearest", "cell=MM[,critical=NM][,lift=CELLS|inf][,start=X/Y]",
         "from cell to nearest cell, only where the map is above the critical value", "cell"},
        [](const SpecText& spec) -> PathSpec { return parse_nearest_options(spec); }},
+      {{"multi-pitch",
+        "[ranges=N][,pitches=MM/MM/...][,depths=NM/NM/...][,min-pitch=MM][,max-pitch=MM][,step=MM][,angle=DEGREES]"
+        "[,overrun=MM][,lift=PITCHES|inf][,smooth=MM]",
+        "straight lines, closer together where more is to be removed", ""},
+       [](const SpecText& spec) -> PathSpec { return parse_multi_pitch_options(spec); }},
       {{"file", "PATH.csv", "dwell points in the order of a file", ""}, parse_file},
   };
   return kinds;

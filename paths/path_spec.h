@@ -12,6 +12,7 @@
 #include "paths/circles.h"
 #include "paths/cross_hatch.h"
 #include "paths/fibonacci.h"
+#include "paths/multi_pitch.h"
 #include "paths/nearest_neighbour.h"
 #include "paths/random_raster.h"
 #include "paths/raster.h"
@@ -25,8 +26,8 @@ struct PathFromFile {
 };
 
 /// Which planner, and its options.
-using PathSpec = std::variant<RasterOptions, CrossHatchOptions, RandomRasterOptions, SpiralOptions, CirclesOptions,
-                              FibonacciOptions, NearestOptions, PathFromFile>;
+using PathSpec = std::variant<RasterOptions, CrossHatchOptions, RandomRasterOptions, MultiPitchOptions, SpiralOptions,
+                              CirclesOptions, FibonacciOptions, NearestOptions, PathFromFile>;
 
 /// A kind of path as a user names it.
 struct PathKind {

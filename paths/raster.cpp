@@ -1,15 +1,21 @@
 #include "paths/raster.h"
 
 #include "core/errors.h"
+#include "core/number_text.h"
 #include "paths/corner_rounding.h"
 #include "paths/scan_lines.h"
 
 namespace dwell {
 
 RasterOptions parse_raster_options(const SpecText& spec) {
-  spec.accept_only({"pitch", "step", "angle", "overrun", "order", "turn", "corner"});
+  spec.accept_only({"pitch", "ripple", "step", "angle", "overrun", "order", "turn", "corner"});
   RasterOptions options;
-  options.pitch = spec.number("pitch");
+  const std::optional<std::string> pitch = spec.word("pitch");
+  options.auto_pitch = pitch == "auto";
+  if (pitch && !options.auto_pitch && !parse_number(*pitch)) spec.reject("pitch", "a number in mm, or auto");
+  if (!options.auto_pitch) options.pitch = spec.number("pitch");
+  if (!options.auto_pitch && spec.has("ripple")) spec.reject("ripple", "pitch=auto with it");
+  options.ripple = spec.number("ripple", options.ripple);
   options.step = spec.optional_number("step");
   options.angle_deg = spec.number("angle", options.angle_deg);
   options.overrun = spec.optional_number("overrun");

@@ -11,6 +11,8 @@ namespace dwell {
 
 struct RasterOptions {
   double pitch = 0.0;          // distance between neighbouring lines [mm], finite and > 0; required
+  bool auto_pitch = false;     // plan_path finds the pitch: the widest whose ripple is at most the following
+  double ripple = 0.01;        // peak to valley over removal, > 0 and < 1; used with auto_pitch only
   std::optional<double> step;  // distance between dwell points of a line [mm], > 0; default = pitch
   double angle_deg = 0.0;      // direction of the lines, counter-clockwise from +x; finite
   std::optional<double>

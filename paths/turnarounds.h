@@ -41,9 +41,8 @@ struct LineOrder {
 /// Turn::Arc joins a line to the next by a half circle whose diameter is their distance, level with that of the two
 /// ends which lies farther out; the other line goes straight on up to there. Straight on, dwell points are the line's
 /// own positions; on the half circle they lie in the middles of equal parts of it, as near to the step as divides it
-/// but at least six, so that the tool turns by at most 30 degrees at a time and no move of a link is longer than 13/12 of
-/// the step. A link goes beyond the ends of the two
-/// lines by half of their distance.
+/// but at least six, so that the tool turns by at most 30 degrees at a time and no move of a link is longer than 13/12
+/// of the step. A link goes beyond the ends of the two lines by half of their distance.
 void append_lines(ToolPath& path, const ScanLines& lines, const LineOrder& order, const TurnOptions& turns);
 
 }  // namespace dwell

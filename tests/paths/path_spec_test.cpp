@@ -116,8 +116,8 @@ TEST(PathSpec, ParsesNearestAndFile) {
 
 TEST(PathSpec, NamesWhatItDoesNotKnow) {
   EXPECT_EQ(parse_message("raster:ptich=1"),
-            "path \"raster:ptich=1\": unknown key \"ptich\"; accepted for raster: pitch, step, angle, overrun, order, "
-            "turn, corner");
+            "path \"raster:ptich=1\": unknown key \"ptich\"; accepted for raster: pitch, ripple, step, angle, overrun, "
+            "order, turn, corner");
   EXPECT_EQ(
       parse_message("nearest:cell=1,pitch=1"),
       "path \"nearest:cell=1,pitch=1\": unknown key \"pitch\"; accepted for nearest: cell, critical, lift, start");
@@ -128,7 +128,7 @@ TEST(PathSpec, NamesWhatItDoesNotKnow) {
             "path \"raster:pitch=1,order=zigzag\": order = \"zigzag\"; accepted: serpentine, one-way");
   EXPECT_EQ(parse_message("zigzag:pitch=1"),
             "path \"zigzag:pitch=1\": unknown kind \"zigzag\"; accepted: raster, cross-hatch, random-raster, spiral, "
-            "circles, fibonacci, nearest, file");
+            "circles, fibonacci, nearest, multi-pitch, file");
   EXPECT_EQ(parse_message("file:"), "path \"file:\": the name of a file is missing; required: file:PATH.csv");
   for (const char* start : {"5", "5/", "/5", "a/b", "1/2/3"}) {
     const std::string text = std::string("nearest:cell=1,start=") + start;
@@ -146,6 +146,40 @@ TEST(PathSpec, PlansWithTheTifRadiusAsOverrunUnlessGiven) {
               plan_path(parse_path_spec("raster:pitch=-1"), {map, tool(3.0)});
             }),
             "raster: pitch = -1 mm; required > 0");
+}
+
+TEST(PathSpec, FindsThePitchOfARaster) {
+  const auto options = std::get<RasterOptions>(parse_path_spec("raster:pitch=auto,ripple=0.02"));
+  EXPECT_TRUE(options.auto_pitch);
+  EXPECT_EQ(options.ripple, 0.02);
+  EXPECT_FALSE(std::get<RasterOptions>(parse_path_spec("raster:pitch=1")).auto_pitch);
+  const HeightMap map = test::full_map(30, 41);
+  const ToolPath path = plan_path(parse_path_spec("raster:pitch=auto,step=1,overrun=0"), {map, tool(6.0)});
+  ASSERT_EQ(path.notes.size(), 1u);
+  // FWHM 3 mm: the widest pitch with 4 exp(-2 (pi sigma / d)^2) <= 1 % is 1.8 sigma = 2.3 mm.
+  EXPECT_NE(path.notes[0].find("chosen as the widest that leaves a ripple of at most 1 % of the removal"),
+            std::string::npos);
+  EXPECT_NEAR(path.points[41].y - path.points[0].y, 2.31, 0.02);
+  EXPECT_EQ(parse_message("raster:pitch=automatic"),
+            "path \"raster:pitch=automatic\": pitch = \"automatic\"; required a number in mm, or auto");
+  EXPECT_EQ(parse_message("raster:pitch=1,ripple=0.1"),
+            "path \"raster:pitch=1,ripple=0.1\": ripple = \"0.1\"; required pitch=auto with it");
+  EXPECT_EQ(test::message_of([&] {
+              plan_path(parse_path_spec("raster:pitch=auto,ripple=2"), {map, tool(6.0)});
+            }),
+            "raster: ripple = 2; required > 0 and < 1 (peak to valley over removal)");
+}
+
+TEST(PathSpec, PlansAMultiPitchRasterForTheFeed) {
+  HeightMap map = test::full_map(20, 21);
+  for (std::size_t i = 0; i < map.values.size(); ++i) map.values[i] = static_cast<double>(i % 21);
+  EXPECT_NE(test::message_of([&] {
+              plan_path(parse_path_spec("multi-pitch"), {map, tool(3.0)});
+            }).find("required: a fastest feed"),
+            std::string::npos);
+  const ToolPath path = plan_path(parse_path_spec("multi-pitch:ranges=3"), {map, tool(3.0), 1.0});
+  EXPECT_EQ(path.kind, "multi-pitch");
+  EXPECT_EQ(path.notes.size(), 1u);
 }
 
 TEST(PathSpec, RefusesAFileWhollyOutsideThePart) {
