@@ -9,7 +9,10 @@
 #include "core/height_map.h"
 #include "core/removal_function.h"
 #include "core/tool_path.h"
+#include "paths/hilbert.h"
 #include "paths/nearest_neighbour.h"
+#include "paths/peano.h"
+#include "paths/random_path.h"
 #include "paths/raster.h"
 
 namespace dwell {
@@ -20,7 +23,7 @@ struct PathFromFile {
 };
 
 /// Which planner, and its options.
-using PathSpec = std::variant<RasterOptions, NearestOptions, PathFromFile>;
+using PathSpec = std::variant<RasterOptions, NearestOptions, RandomOptions, HilbertOptions, PeanoOptions, PathFromFile>;
 
 /// A kind of path as a user names it.
 struct PathKind {
