@@ -86,7 +86,7 @@ std::vector<char> in_parts(const Cover& c) {
 
 /// Where a piece does not make one chain: with ends peeled off, then with more and more of its corners left out.
 Cover best_cover(const CellLattice& lattice, Dice& dice) {
-  constexpr Index kPointsForALift = 64;  // points worth leaving out to save one
+  constexpr Index kPointsForALift = 64;
   const CellLinks bare(lattice);
   const LatticePieces pieces = find_pieces(bare);
   Cover best{bare, pieces, {}};
