@@ -40,7 +40,8 @@ Chains cut_to_chains(CellLinks& links) {
     for (Cell c = links.first(); c < links.end(); ++c) {
       if (!links.kept(c) || seen[static_cast<std::size_t>(c)] != 0) continue;
       if (!loops && links.degree(c) == 2) continue;
-      if (loops) links.toggle(c, links.link_direction(c));
+      const int cut = links.link_direction(c);
+      if (loops && cut >= 0) links.toggle(c, cut);
       chains.emplace_back(c, other_end(c));
     }
   }

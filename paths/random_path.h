@@ -39,8 +39,8 @@ struct RandomPath {
 /// does not do, the piece gets several paths with lifts between (corridors one point wide), or points at its convex
 /// corners are left out too (staircase rims), at most 64 for each lift that this saves.
 ///
-/// Throws InputError as cell_lattice does. Cost about O(points of the box): 10^6 points in about a second, several times that
-/// on ragged parts, where up to four covers are tried; memory about 60 bytes a point.
+/// Throws InputError as cell_lattice does. Cost about O(points of the box): 10^6 points in about a second, several
+/// times that on ragged parts, where up to four covers are tried; memory about 60 bytes a point.
 RandomPath random_path(const HeightMap& map, const RandomOptions& options);
 
 }  // namespace dwell
