@@ -33,7 +33,7 @@ struct RandomPath {
 /// The paper grows the path at its end and backs up at dead ends, which costs the length of the path each time and a
 /// very long search for the last points. Here the whole lattice is covered with random loops (link_cover.h), which
 /// are then merged into one (loop_merge.h); so the path has no end that could get stuck, and usually ends beside its
-/// beginning. It starts at the lowest, leftmost point it can.
+/// beginning. It starts at its lower end; several paths begin with the end nearest to the lattice's lower left.
 ///
 /// Points are left out where the lattice admits no such path: isolated ones, nearly always beside the path. Where that
 /// does not do, the piece gets several paths with lifts between (corridors one point wide), or points at its convex
