@@ -90,6 +90,24 @@ ToolPath planned(FibonacciOptions options, const PathJob& job) {
 
 ToolPath planned(const NearestOptions& options, const PathJob& job) { return nearest_path(job.target, options).path; }
 
+template <class OptionsOverLattice>
+OptionsOverLattice with_overrun(OptionsOverLattice options, const PathJob& job) {
+  if (!options.lattice.overrun) options.lattice.overrun = job.tif.radius;
+  return options;
+}
+
+ToolPath planned(const RandomOptions& options, const PathJob& job) {
+  return random_path(job.target, with_overrun(options, job)).path;
+}
+
+ToolPath planned(const HilbertOptions& options, const PathJob& job) {
+  return hilbert_path(job.target, with_overrun(options, job));
+}
+
+ToolPath planned(const PeanoOptions& options, const PathJob& job) {
+  return peano_path(job.target, with_overrun(options, job));
+}
+
 ToolPath planned(const PathFromFile& spec, const PathJob& job) {
   ToolPath path = read_path_file(spec.file);
   refuse_outside(path, job.target, job.tif.radius, spec.file.string());
@@ -134,6 +152,13 @@ const std::vector<KnownKind>& known_kinds() {
       {{"nearest", "cell=MM[,critical=NM][,lift=CELLS|inf][,start=X/Y]",
         "from cell to nearest cell, only where the map is above the critical value", "cell"},
        [](const SpecText& spec) -> PathSpec { return parse_nearest_options(spec); }},
+      {{"random", "pitch=MM[,overrun=MM][,angle=DEGREES][,seed=N]",
+        "pseudo-random: through every point of a square lattice once, from neighbour to neighbour"},
+       [](const SpecText& spec) -> PathSpec { return parse_random_options(spec); }},
+      {{"hilbert", "pitch=MM[,overrun=MM][,angle=DEGREES][,gaps=link|lift]", "Hilbert's curve over a square lattice"},
+       [](const SpecText& spec) -> PathSpec { return parse_hilbert_options(spec); }},
+      {{"peano", "pitch=MM[,overrun=MM][,angle=DEGREES][,gaps=link|lift]", "Peano's curve over a square lattice"},
+       [](const SpecText& spec) -> PathSpec { return parse_peano_options(spec); }},
       {{"multi-pitch",
         "[ranges=N][,pitches=MM/MM/...][,depths=NM/NM/...][,min-pitch=MM][,max-pitch=MM][,step=MM][,angle=DEGREES]"
         "[,overrun=MM][,lift=PITCHES|inf][,smooth=MM]",

@@ -12,8 +12,11 @@
 #include "paths/circles.h"
 #include "paths/cross_hatch.h"
 #include "paths/fibonacci.h"
+#include "paths/hilbert.h"
 #include "paths/multi_pitch.h"
 #include "paths/nearest_neighbour.h"
+#include "paths/peano.h"
+#include "paths/random_path.h"
 #include "paths/random_raster.h"
 #include "paths/raster.h"
 #include "paths/spiral.h"
@@ -27,7 +30,8 @@ struct PathFromFile {
 
 /// Which planner, and its options.
 using PathSpec = std::variant<RasterOptions, CrossHatchOptions, RandomRasterOptions, MultiPitchOptions, SpiralOptions,
-                              CirclesOptions, FibonacciOptions, NearestOptions, PathFromFile>;
+                              CirclesOptions, FibonacciOptions, RandomOptions, HilbertOptions, PeanoOptions,
+                              NearestOptions, PathFromFile>;
 
 /// A kind of path as a user names it.
 struct PathKind {

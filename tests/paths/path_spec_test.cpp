@@ -128,7 +128,7 @@ TEST(PathSpec, NamesWhatItDoesNotKnow) {
             "path \"raster:pitch=1,order=zigzag\": order = \"zigzag\"; accepted: serpentine, one-way");
   EXPECT_EQ(parse_message("zigzag:pitch=1"),
             "path \"zigzag:pitch=1\": unknown kind \"zigzag\"; accepted: raster, cross-hatch, random-raster, spiral, "
-            "circles, fibonacci, nearest, multi-pitch, file");
+            "circles, fibonacci, nearest, random, hilbert, peano, multi-pitch, file");
   EXPECT_EQ(parse_message("file:"), "path \"file:\": the name of a file is missing; required: file:PATH.csv");
   for (const char* start : {"5", "5/", "/5", "a/b", "1/2/3"}) {
     const std::string text = std::string("nearest:cell=1,start=") + start;
@@ -142,6 +142,13 @@ TEST(PathSpec, PlansWithTheTifRadiusAsOverrunUnlessGiven) {
   EXPECT_EQ(plan_path(parse_path_spec("raster:pitch=1"), {map, tool(3.0)}).points.front().y, -3.0);
   EXPECT_EQ(plan_path(parse_path_spec("raster:pitch=1,overrun=0"), {map, tool(3.0)}).size(), 11u);
   EXPECT_EQ(plan_path(parse_path_spec("nearest:cell=1"), {map, tool(3.0)}).kind, "nearest");
+  for (const char* kind : {"random", "hilbert", "peano"}) {
+    const std::string text = std::string(kind) + ":pitch=1";
+    const ToolPath path = plan_path(parse_path_spec(text), {map, tool(3.0)});
+    EXPECT_EQ(path.kind, kind);
+    EXPECT_GT(path.size(), 80u) << "seven rows of 11 and the ends";
+    EXPECT_EQ(plan_path(parse_path_spec(text + ",overrun=0"), {map, tool(3.0)}).size(), 11u);
+  }
   EXPECT_EQ(test::message_of([&] {
               plan_path(parse_path_spec("raster:pitch=-1"), {map, tool(3.0)});
             }),

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <random>
+#include <utility>
+#include <vector>
+
+namespace dwell {
+
+/// Random numbers that are the same with every standard library (whose distributions and shuffles differ).
+class Dice {
+ public:
+  explicit Dice(std::uint64_t seed) : generator_(seed) {}
+
+  std::uint64_t bits() { return generator_(); }
+
+  /// From 0 to count - 1, count >= 1; even to count / 2^32.
+  std::uint32_t below(std::uint32_t count) {
+    return static_cast<std::uint32_t>(((generator_() >> 32) * static_cast<std::uint64_t>(count)) >> 32);
+  }
+
+  /// Fisher and Yates; at most 2^32 - 1 values.
+  template <class T>
+  void shuffle(std::vector<T>& values) {
+    for (std::size_t i = values.size(); i > 1; --i) {
+      std::swap(values[i - 1], values[below(static_cast<std::uint32_t>(i))]);
+    }
+  }
+
+ private:
+  std::mt19937_64 generator_;
+};
+
+}  // namespace dwell
