@@ -70,7 +70,7 @@ const std::vector<KnownKind>& known_kinds() {
   static const std::vector<KnownKind> kinds{
       {{"raster", "pitch=MM[,step=MM][,angle=DEGREES][,overrun=MM][,order=serpentine|one-way]", "straight lines"},
        [](const SpecText& spec) -> PathSpec { return parse_raster_options(spec); }},
-      {{"nearest", "cell=MM[,critical=NM][,lift=CELLS|inf][,start=X/Y]",
+      {{"nearest", "cell=MM[,critical=NM][,lift=CELLS|inf][,start=X/Y][,improve=none|2opt]",
         "from cell to nearest cell, only where the map is above the critical value"},
        [](const SpecText& spec) -> PathSpec { return parse_nearest_options(spec); }},
       {{"file", "PATH.csv", "dwell points in the order of a file"}, parse_file},
