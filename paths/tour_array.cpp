@@ -7,7 +7,8 @@
 namespace dwell {
 namespace {
 
-constexpr double kUnits = 68719476736.0;                         // 2^36
+constexpr double kUnits = 68719476736.0;  // 2^36
+constexpr double kHalf = 0.5;
 constexpr TourArray::Length kBond = TourArray::Length{1} << 40;  // more than any gain of one move
 
 }  // namespace
@@ -36,7 +37,7 @@ TourArray::TourArray(const std::vector<Point>& path, bool fixed_start)
 TourArray::Length TourArray::distance(City a, City b) const {
   if (a == dummy_ || b == dummy_) return fixed_start_ && std::min(a, b) == 0 ? -kBond : 0;
   const Point d = places_[index(a)] - places_[index(b)];
-  return static_cast<Length>(std::sqrt(d.x * d.x + d.y * d.y) + 0.5);
+  return static_cast<Length>(std::sqrt(d.x * d.x + d.y * d.y) + kHalf);  // std::llround costs more than the square root
 }
 
 void TourArray::turn(City i, City j) {

@@ -29,14 +29,14 @@ struct ImprovedTour {
 
 /// Shortens an open path through given points by local search.
 ///
-/// Moves are chains of up to five 2-opt moves whose partial gains stay positive (Lin and Kernighan 1973; the step of
-/// Johnson and McGeoch 1997, "The traveling salesman problem: a case study", section 5) and the insertion of up to 12
-/// consecutive points elsewhere, either way round (Or 1976), between points that are among each other's 8 nearest, with
-/// a queue of the points whose neighbourhood has changed (don't-look bits). When no move shortens the path any more, it
-/// is kicked: two neighbouring stretches of up to 50 points change places, the search mends what it can nearby, and
-/// what came out longer is undone (iterated local search with a segment insertion; equally long is kept, because on a
-/// lattice most moves tie and only drift leads out of a plateau). Kicks begin at moves that are longer than the
-/// distance to a nearest neighbour, if a few draws find one: all others cannot be bettered.
+/// Moves are chains of up to five 2-opt moves whose partial gains stay positive (Lin and Kernighan 1973), and the
+/// insertion of up to 12 consecutive points elsewhere, either way round (Or 1976). They join points to one of their 8
+/// nearest, from a queue of the points whose neighbourhood has changed (Bentley's don't-look bits; Johnson and McGeoch
+/// 1997, "The traveling salesman problem: a case study in local optimization"). When no move shortens the path any
+/// more, it is kicked: two neighbouring stretches of up to 50 points change places, the search mends what it can
+/// nearby, and what came out longer is undone. Equally long is kept, because on a lattice most moves tie and only drift
+/// leads off a plateau. Kicks begin at moves that are longer than the distance to a nearest neighbour, if a few draws
+/// find one: no others are too long in themselves.
 ///
 /// Lengths are compared as integers (2^-36 of the extent of the points), so that gains cannot cycle by rounding and the
 /// search ends; the same points, order, options and kicks give the same result. NaN, infinite points and an order that
