@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "core/errors.h"
 #include "paths/cell_pyramid.h"
+#include "paths/spanning_tree.h"
+#include "paths/tour_improvement.h"
 
 namespace dwell {
 namespace {
@@ -125,15 +128,51 @@ Index start_cell(const Cells& cells, const std::optional<Point>& start) {
   return best;
 }
 
+/// Reorders the cells; returns what to say of it. Works in cells, so that lattice distances are exact.
+std::vector<std::string> shorten(std::vector<Index>& order, const Cells& cells, bool fixed_start) {
+  std::vector<Point> points;
+  points.reserve(order.size());
+  for (const Index k : order) {
+    points.push_back({static_cast<double>(k % cells.cols), static_cast<double>(k / cells.cols)});
+  }
+  std::vector<Index> identity(order.size());
+  std::iota(identity.begin(), identity.end(), Index{0});
+  TourOptions options;
+  options.fixed_start = fixed_start;
+  const ImprovedTour tour = improve_tour(points, identity, options);
+  const std::vector<Index> greedy = order;
+  for (std::size_t j = 0; j < order.size(); ++j) order[j] = greedy[static_cast<std::size_t>(tour.order[j])];
+  const double side = cells.x.side;
+  return {
+      fmt::format("2-opt and Or-opt moves shortened the nearest-neighbour path from {:.6g} to {:.6g} mm; no path "
+                  "through its points "
+                  "is shorter than their minimum spanning tree, {:.6g} mm",
+                  side * tour.length_before, side * tour.length_after, side * spanning_tree_length(points))};
+}
+
+void append_points(const std::vector<Index>& order, const Cells& cells, double lift, NearestPath& result) {
+  Index before = order.front();
+  for (const Index k : order) {
+    const double dr = static_cast<double>(k / cells.cols - before / cells.cols);
+    const double dc = static_cast<double>(k % cells.cols - before % cells.cols);
+    const bool first = result.path.points.empty();
+    result.path.points.push_back(cells.centre(k));
+    result.path.lifted.push_back(first || dr * dr + dc * dc > lift * lift ? 1 : 0);
+    result.eigenvalues.push_back(cells.mean[static_cast<std::size_t>(k)]);
+    before = k;
+  }
+}
+
 }  // namespace
 
 NearestOptions parse_nearest_options(const SpecText& spec) {
-  spec.accept_only({"cell", "critical", "lift", "start"});
+  spec.accept_only({"cell", "critical", "lift", "start", "improve"});
   NearestOptions options;
   options.cell = spec.number("cell");
   options.critical = spec.number("critical", options.critical);
   options.lift = spec.number("lift", options.lift);
   options.start = spec.optional_point("start");
+  options.improve = spec.choice("improve", {"none", "2opt"}) == "2opt";
   return options;
 }
 
@@ -148,19 +187,17 @@ NearestPath nearest_path(const HeightMap& map, const NearestOptions& options) {
   result.path.kind = "nearest";
   result.cells_total = cells.with_pixels;
   CellPyramid unvisited(cells.rows, cells.cols, cells.mean);
-  const double lift2 = options.lift * options.lift;
+  std::vector<Index> order;
   Index row = 0, col = 0;
   for (Index k = start_cell(cells, options.start); k >= 0; k = unvisited.nearest(row, col)) {
-    const double dr = static_cast<double>(k / cells.cols - row), dc = static_cast<double>(k % cells.cols - col);
-    const bool first = result.path.points.empty();
-    result.path.points.push_back(cells.centre(k));
-    result.path.lifted.push_back(first || dr * dr + dc * dc > lift2 ? 1 : 0);
-    result.eigenvalues.push_back(cells.mean[static_cast<std::size_t>(k)]);
+    order.push_back(k);
     row = k / cells.cols;
     col = k % cells.cols;
     unvisited.remove(k);
   }
   result.blocks_searched = unvisited.blocks_searched();
+  if (options.improve) result.path.notes = shorten(order, cells, options.start.has_value());
+  append_points(order, cells, options.lift, result);
   return result;
 }
 

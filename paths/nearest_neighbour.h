@@ -14,6 +14,7 @@ struct NearestOptions {
   double critical = 0.0;       // cells of mean below this [nm] are left alone; finite, or -infinity to keep every cell
   double lift = 1.5;           // moves longer than lift * cell are made lifted, > 0; infinity = never
   std::optional<Point> start;  // the path starts at the dwell point nearest to it; default: lowest row, leftmost cell
+  bool improve = false;        // shorten the path by improve_tour ("improve=2opt"); it keeps a start that was given
 };
 
 struct NearestPath {
@@ -34,9 +35,13 @@ NearestOptions parse_nearest_options(const SpecText& spec);
 /// one). The eigenvalue of a cell is the mean of its valid pixels; its centre is a dwell point if it has one and the
 /// eigenvalue is >= critical. Distances are compared as integers, so that ties are exact.
 ///
+/// Greedy leaves long moves back to cells that it passed by. `improve` shortens the whole path afterwards by 2-opt and
+/// Or-opt moves (tour_improvement.h, its default work and seed); its ends are then free unless the start is given. The
+/// path's notes say both lengths and that of the minimum spanning tree, which no path through the points can undercut.
+///
 /// Throws InputError naming the option, its value and what is required, or the largest eigenvalue if no cell reaches
 /// the critical value. Memory O(cells of the box); about O(n log n) time: each search descends a pyramid of blocks in
-/// which finished areas are empty at every scale.
+/// which finished areas are empty at every scale. With `improve` as improve_tour: 16 to 45 s for 10^5 points.
 NearestPath nearest_path(const HeightMap& map, const NearestOptions& options);
 
 }  // namespace dwell

@@ -149,7 +149,7 @@ const std::vector<KnownKind>& known_kinds() {
        [](const SpecText& spec) -> PathSpec { return parse_circles_options(spec); }},
       {{"fibonacci", "pitch=MM[,overrun=MM][,centre=X/Y]", "phyllotaxis lattice, along its spiral arms"},
        [](const SpecText& spec) -> PathSpec { return parse_fibonacci_options(spec); }},
-      {{"nearest", "cell=MM[,critical=NM][,lift=CELLS|inf][,start=X/Y]",
+      {{"nearest", "cell=MM[,critical=NM][,lift=CELLS|inf][,start=X/Y][,improve=none|2opt]",
         "from cell to nearest cell, only where the map is above the critical value", "cell"},
        [](const SpecText& spec) -> PathSpec { return parse_nearest_options(spec); }},
       {{"random", "pitch=MM[,overrun=MM][,angle=DEGREES][,seed=N]",

@@ -1,5 +1,6 @@
 #include "paths/nearest_neighbour.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 #include <set>
 
 #include "paths/path_metrics.h"
+#include "paths/spanning_tree.h"
 #include "tests/paths/path_test_util.h"
 
 namespace dwell {
@@ -227,6 +229,55 @@ TEST(Nearest, StartsNearestToTheGivenPointElseLowestAndLeftmost) {
   EXPECT_EQ(nearest_path(map, o).path.points[0], (Point{1, 0}));
   o.start = Point{-50.0, 80.0};
   EXPECT_EQ(nearest_path(map, o).path.points[0], (Point{0, 1}));
+}
+
+TEST(Nearest, ImprovementReordersTheSameCellsWithTheirEigenvaluesAndLifts) {
+  HeightMap map = full_map(40, 55, 0.6, 0.6, {-9.0, 4.0});
+  for (Index row = 0; row < 40; ++row) {
+    for (Index col = 0; col < 55; ++col) {
+      const double x = static_cast<double>(col), y = static_cast<double>(row);
+      map.at(row, col) = std::sin(0.5 * x + 0.2 * y) * std::cos(0.45 * y) + 0.3 * std::sin(2.3 * x * y);
+    }
+  }
+  NearestOptions o;
+  o.cell = 0.6;
+  const NearestPath greedy = nearest_path(map, o);
+  EXPECT_TRUE(greedy.path.notes.empty());
+  o.improve = true;
+  const NearestPath better = nearest_path(map, o);
+  const double before = path_metrics(greedy.path).point_length, after = path_metrics(better.path).point_length;
+  EXPECT_LT(after, 0.95 * before);
+  const double least = spanning_tree_length(better.path.points);
+  EXPECT_GE(after, least);
+  ASSERT_EQ(better.path.notes.size(), 1u);
+  EXPECT_EQ(better.path.notes[0],
+            fmt::format("2-opt and Or-opt moves shortened the nearest-neighbour path from {:.6g} to {:.6g} mm; no path "
+                        "through its points is shorter than their minimum spanning tree, {:.6g} mm",
+                        before, after, least));
+  std::set<std::pair<double, double>> places;
+  for (std::size_t j = 0; j < better.path.size(); ++j) {
+    const Point p = better.path.points[j];
+    places.emplace(p.x, p.y);
+    const Index col = std::lround((p.x + 9.0) / 0.6), row = std::lround((p.y - 4.0) / 0.6);
+    ASSERT_EQ(better.eigenvalues[j], map.at(row, col));
+    const bool far = j == 0 || distance(better.path.points[j - 1], p) > 0.6 * 1.5;
+    ASSERT_EQ(better.path.lifted[j] != 0, far) << j;
+  }
+  for (const Point p : greedy.path.points) EXPECT_EQ(places.count({p.x, p.y}), 1u);
+  EXPECT_EQ(places.size(), greedy.path.size());
+  EXPECT_EQ(nearest_path(map, o).path.points, better.path.points);
+}
+
+TEST(Nearest, ImprovementKeepsAStartThatIsGiven) {
+  const HeightMap map = full_map(9, 14);
+  NearestOptions o = options(1.0);
+  o.improve = true;
+  o.start = Point{6.2, 4.4};
+  const NearestPath result = nearest_path(map, o);
+  EXPECT_EQ(result.path.points.front(), (Point{6, 4}));
+  EXPECT_EQ(result.path.size(), 126u);
+  const NearestPath one = nearest_path(map_from_picture({".7."}), o);
+  EXPECT_EQ(one.path.size(), 1u);
 }
 
 TEST(Nearest, RefusesBadOptions) {

@@ -102,15 +102,19 @@ TEST(PathSpec, EveryPlannerTakesTheTifRadiusAsOverrun) {
 }
 
 TEST(PathSpec, ParsesNearestAndFile) {
-  const auto full = std::get<NearestOptions>(parse_path_spec("nearest:cell=1,critical=-3,lift=inf,start=-1.5/2e1"));
+  const auto full =
+      std::get<NearestOptions>(parse_path_spec("nearest:cell=1,critical=-3,lift=inf,start=-1.5/2e1,improve=2opt"));
   EXPECT_EQ(full.cell, 1.0);
   EXPECT_EQ(full.critical, -3.0);
   EXPECT_EQ(full.lift, test::kInf);
   EXPECT_EQ(full.start, (Point{-1.5, 20.0}));
+  EXPECT_TRUE(full.improve);
   const auto least = std::get<NearestOptions>(parse_path_spec("nearest:cell=2"));
   EXPECT_EQ(least.critical, 0.0);
   EXPECT_EQ(least.lift, 1.5);
   EXPECT_FALSE(least.start.has_value());
+  EXPECT_FALSE(least.improve);
+  EXPECT_FALSE(std::get<NearestOptions>(parse_path_spec("nearest:cell=2,improve=none")).improve);
   EXPECT_EQ(std::get<PathFromFile>(parse_path_spec("file:a=1,b:c.csv")).file, "a=1,b:c.csv");
 }
 
@@ -118,14 +122,16 @@ TEST(PathSpec, NamesWhatItDoesNotKnow) {
   EXPECT_EQ(parse_message("raster:ptich=1"),
             "path \"raster:ptich=1\": unknown key \"ptich\"; accepted for raster: pitch, ripple, step, angle, overrun, "
             "order, turn, corner");
-  EXPECT_EQ(
-      parse_message("nearest:cell=1,pitch=1"),
-      "path \"nearest:cell=1,pitch=1\": unknown key \"pitch\"; accepted for nearest: cell, critical, lift, start");
+  EXPECT_EQ(parse_message("nearest:cell=1,pitch=1"),
+            "path \"nearest:cell=1,pitch=1\": unknown key \"pitch\"; accepted for nearest: cell, critical, lift, "
+            "start, improve");
   EXPECT_EQ(parse_message("raster"), "path \"raster\": pitch is missing; raster:pitch=NUMBER is required");
   EXPECT_EQ(parse_message("nearest:critical=1"),
             "path \"nearest:critical=1\": cell is missing; nearest:cell=NUMBER is required");
   EXPECT_EQ(parse_message("raster:pitch=1,order=zigzag"),
             "path \"raster:pitch=1,order=zigzag\": order = \"zigzag\"; accepted: serpentine, one-way");
+  EXPECT_EQ(parse_message("nearest:cell=1,improve=3opt"),
+            "path \"nearest:cell=1,improve=3opt\": improve = \"3opt\"; accepted: none, 2opt");
   EXPECT_EQ(parse_message("zigzag:pitch=1"),
             "path \"zigzag:pitch=1\": unknown kind \"zigzag\"; accepted: raster, cross-hatch, random-raster, spiral, "
             "circles, fibonacci, nearest, random, hilbert, peano, multi-pitch, file");
