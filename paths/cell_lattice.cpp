@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "core/errors.h"
+#include "paths/feed_direction.h"
 
 namespace dwell {
 namespace {
@@ -25,17 +26,6 @@ void check(const LatticeOptions& o, double overrun, const char* planner) {
   if (!(overrun >= 0.0)) refuse("overrun", overrun, " mm", ">= 0");
   if (!std::isfinite(overrun)) refuse("overrun", overrun, " mm", "finite");
   if (!std::isfinite(o.angle_deg)) refuse("angle", o.angle_deg, " degrees", "finite");
-}
-
-/// (cos, sin), exact for multiples of 90 degrees.
-Point direction(double angle_deg) {
-  const double angle = std::remainder(angle_deg, 360.0);
-  if (angle == 0.0) return {1.0, 0.0};
-  if (angle == 90.0) return {0.0, 1.0};
-  if (angle == -90.0) return {0.0, -1.0};
-  if (std::abs(angle) == 180.0) return {-1.0, 0.0};
-  const double radians = angle * std::numbers::pi / 180.0;
-  return {std::cos(radians), std::sin(radians)};
 }
 
 double dot(Point a, Point b) { return a.x * b.x + a.y * b.y; }
@@ -131,7 +121,7 @@ CellLattice cell_lattice(const HeightMap& map, const LatticeOptions& options, co
   check(options, overrun, planner);
   CellLattice lattice;
   lattice.pitch = options.pitch;
-  lattice.along = direction(options.angle_deg);
+  lattice.along = feed_direction(options.angle_deg);
   lattice.across = {-lattice.along.y, lattice.along.x};
   lay_out(lattice, turned_box(map, lattice, planner), overrun, planner);
   const double between_pixels = 0.5 * std::hypot(map.grid.pitch_x, map.grid.pitch_y);

@@ -129,7 +129,7 @@ Index start_cell(const Cells& cells, const std::optional<Point>& start) {
 }
 
 /// Reorders the cells; returns what to say of it. Works in cells, so that lattice distances are exact.
-std::vector<std::string> shorten(std::vector<Index>& order, const Cells& cells, bool fixed_start) {
+std::vector<std::string> shorten(std::vector<Index>& order, const Cells& cells, const NearestOptions& nearest) {
   std::vector<Point> points;
   points.reserve(order.size());
   for (const Index k : order) {
@@ -138,16 +138,17 @@ std::vector<std::string> shorten(std::vector<Index>& order, const Cells& cells, 
   std::vector<Index> identity(order.size());
   std::iota(identity.begin(), identity.end(), Index{0});
   TourOptions options;
-  options.fixed_start = fixed_start;
+  options.fixed_start = nearest.start.has_value();
+  options.stop = nearest.stop;
   const ImprovedTour tour = improve_tour(points, identity, options);
   const std::vector<Index> greedy = order;
   for (std::size_t j = 0; j < order.size(); ++j) order[j] = greedy[static_cast<std::size_t>(tour.order[j])];
   const double side = cells.x.side;
   return {
-      fmt::format("2-opt and Or-opt moves shortened the nearest-neighbour path from {:.6g} to {:.6g} mm; no path "
-                  "through its points "
-                  "is shorter than their minimum spanning tree, {:.6g} mm",
-                  side * tour.length_before, side * tour.length_after, side * spanning_tree_length(points))};
+      fmt::format("2-opt and Or-opt moves{} shortened the nearest-neighbour path from {:.6g} to {:.6g} mm; no path "
+                  "through its points is shorter than their minimum spanning tree, {:.6g} mm",
+                  tour.stopped ? ", stopped early," : "", side * tour.length_before, side * tour.length_after,
+                  side * spanning_tree_length(points))};
 }
 
 void append_points(const std::vector<Index>& order, const Cells& cells, double lift, NearestPath& result) {
@@ -196,7 +197,7 @@ NearestPath nearest_path(const HeightMap& map, const NearestOptions& options) {
     unvisited.remove(k);
   }
   result.blocks_searched = unvisited.blocks_searched();
-  if (options.improve) result.path.notes = shorten(order, cells, options.start.has_value());
+  if (options.improve) result.path.notes = shorten(order, cells, options);
   append_points(order, cells, options.lift, result);
   return result;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -15,6 +16,7 @@ struct NearestOptions {
   double lift = 1.5;           // moves longer than lift * cell are made lifted, > 0; infinity = never
   std::optional<Point> start;  // the path starts at the dwell point nearest to it; default: lowest row, leftmost cell
   bool improve = false;        // shorten the path by improve_tour ("improve=2opt"); it keeps a start that was given
+  std::function<bool()> stop;  // of improve_tour; "stopped early" is said in the notes
 };
 
 struct NearestPath {

@@ -63,49 +63,38 @@ ToolPath planned(const MultiPitchOptions& options, const PathJob& job) {
   return multi_pitch_path(job.target, job.tif, job.max_feed, options).path;
 }
 
-ToolPath planned(CrossHatchOptions options, const PathJob& job) {
+/// The planners that need nothing of the tool but how far to go beyond the part.
+template <class Options>
+ToolPath with_overrun(Options options, const PathJob& job, ToolPath (*plan)(const HeightMap&, const Options&)) {
   if (!options.overrun) options.overrun = job.tif.radius;
-  return cross_hatch_path(job.target, options);
+  return plan(job.target, options);
 }
 
-ToolPath planned(RandomRasterOptions options, const PathJob& job) {
-  if (!options.overrun) options.overrun = job.tif.radius;
-  return random_raster_path(job.target, options);
+ToolPath planned(const CrossHatchOptions& o, const PathJob& job) { return with_overrun(o, job, cross_hatch_path); }
+ToolPath planned(const RandomRasterOptions& o, const PathJob& job) { return with_overrun(o, job, random_raster_path); }
+ToolPath planned(const SpiralOptions& o, const PathJob& job) { return with_overrun(o, job, spiral_path); }
+ToolPath planned(const CirclesOptions& o, const PathJob& job) { return with_overrun(o, job, circles_path); }
+ToolPath planned(const FibonacciOptions& o, const PathJob& job) { return with_overrun(o, job, fibonacci_path); }
+
+ToolPath planned(NearestOptions options, const PathJob& job) {
+  options.stop = job.stop;
+  return nearest_path(job.target, options).path;
 }
 
-ToolPath planned(SpiralOptions options, const PathJob& job) {
-  if (!options.overrun) options.overrun = job.tif.radius;
-  return spiral_path(job.target, options);
-}
-
-ToolPath planned(CirclesOptions options, const PathJob& job) {
-  if (!options.overrun) options.overrun = job.tif.radius;
-  return circles_path(job.target, options);
-}
-
-ToolPath planned(FibonacciOptions options, const PathJob& job) {
-  if (!options.overrun) options.overrun = job.tif.radius;
-  return fibonacci_path(job.target, options);
-}
-
-ToolPath planned(const NearestOptions& options, const PathJob& job) { return nearest_path(job.target, options).path; }
-
-template <class OptionsOverLattice>
-OptionsOverLattice with_overrun(OptionsOverLattice options, const PathJob& job) {
+template <class Options>
+Options with_lattice_overrun(Options options, const PathJob& job) {
   if (!options.lattice.overrun) options.lattice.overrun = job.tif.radius;
   return options;
 }
 
-ToolPath planned(const RandomOptions& options, const PathJob& job) {
-  return random_path(job.target, with_overrun(options, job)).path;
+ToolPath planned(const RandomOptions& o, const PathJob& job) {
+  return random_path(job.target, with_lattice_overrun(o, job)).path;
 }
-
-ToolPath planned(const HilbertOptions& options, const PathJob& job) {
-  return hilbert_path(job.target, with_overrun(options, job));
+ToolPath planned(const HilbertOptions& o, const PathJob& job) {
+  return hilbert_path(job.target, with_lattice_overrun(o, job));
 }
-
-ToolPath planned(const PeanoOptions& options, const PathJob& job) {
-  return peano_path(job.target, with_overrun(options, job));
+ToolPath planned(const PeanoOptions& o, const PathJob& job) {
+  return peano_path(job.target, with_lattice_overrun(o, job));
 }
 
 ToolPath planned(const PathFromFile& spec, const PathJob& job) {

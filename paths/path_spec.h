@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <limits>
 #include <string>
 #include <variant>
@@ -55,6 +56,8 @@ struct PathJob {
   const HeightMap& target;                                    // removal wanted [nm], NaN = outside
   const RemovalFunction& tif;                                 // its radius is the default overrun
   double max_feed = std::numeric_limits<double>::infinity();  // [mm/s]
+  /// Asked now and then by the improvement of paths, which takes long; true ends it with what has been reached.
+  std::function<bool()> stop{};
 };
 
 /// Runs the planner. A path from a file that comes nowhere within the TIF's reach of a valid pixel is refused. Throws

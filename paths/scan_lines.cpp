@@ -3,27 +3,16 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "core/errors.h"
 #include "paths/distance_map.h"
+#include "paths/feed_direction.h"
 #include "paths/point_limit.h"
 
 namespace dwell {
 namespace {
 
 constexpr double kRounding = 1e-9;  // of a lattice step: points exactly `overrun` away must not depend on rounding
-
-/// (cos, sin), exact for multiples of 90 degrees.
-Point direction(double angle_deg) {
-  const double angle = std::remainder(angle_deg, 360.0);
-  if (angle == 0.0) return {1.0, 0.0};
-  if (angle == 90.0) return {0.0, 1.0};
-  if (angle == -90.0) return {0.0, -1.0};
-  if (std::abs(angle) == 180.0) return {-1.0, 0.0};
-  const double radians = angle * std::numbers::pi / 180.0;
-  return {std::cos(radians), std::sin(radians)};
-}
 
 double dot(Point a, Point b) { return a.x * b.x + a.y * b.y; }
 
@@ -73,7 +62,7 @@ void check_scan_options(const ScanOptions& options, const char* planner) {
 
 ScanFrame scan_frame(const HeightMap& map, double angle_deg, const char* planner) {
   ScanFrame frame;
-  frame.along = direction(angle_deg);
+  frame.along = feed_direction(angle_deg);
   frame.across = {-frame.along.y, frame.along.x};
   const Grid& grid = map.grid;
   for (Index row = 0; row < grid.rows; ++row) {

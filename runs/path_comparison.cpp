@@ -10,8 +10,9 @@
 
 #include "core/errors.h"
 #include "core/units.h"
+#include "paths/path_coverage.h"
+#include "paths/spanning_tree.h"
 #include "runs/plan_output.h"
-#include "runs/wavelength_bands.h"
 
 namespace dwell {
 namespace {
@@ -26,18 +27,47 @@ double lift_time(const PathMetrics& metrics, const JobOptions& o) {
   return (metrics.lifted_length + up_and_down) / units::mm_per_s(o.max_feed_mm_per_min);
 }
 
-ArealPsd spectrum_of(const HeightMap& map, int threads) {
+PsdCurve radial_spectrum(const HeightMap& map, int threads) {
   PsdOptions options;
   options.threads = threads;
-  return areal_psd(map, options);
+  return radial_psd(areal_psd(map, options));
 }
 
-void plan_one(const Plan& job, ComparedPath& path, const OutputFolder& folder, const RunHooks& hooks) {
+PathRipple constant_feed_ripple(const Plan& plan) {
+  PathRippleOptions options;
+  options.threads = plan.threads;
+  PathRipple ripple = path_ripple(plan.path, plan.tif, options);
+  ripple.removal = {};
+  return ripple;
+}
+
+/// A figure that not every part and path has.
+template <class Measure>
+auto if_possible(const Measure& measure) -> std::optional<decltype(measure())> {
+  try {
+    return measure();
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+}
+
+void measure(const Plan& plan, double pitch, ComparedPath& path, const RunHooks& hooks) {
+  hooks.report("path: spacing, coverage, spanning tree");
+  path.metrics = plan.metrics;
+  path.notes = plan.path.notes;
+  path.spacing = path_spacing(plan.path);
+  path.coverage = path_coverage(plan.path, plan.figure, pitch).share();
+  path.tree_length = spanning_tree_length(plan.path.points);
+  hooks.report("path: ripple at constant feed");
+  path.ripple = if_possible([&] { return constant_feed_ripple(plan); });
+  hooks.check();
+}
+
+void plan_one(const Plan& job, double pitch, ComparedPath& path, const OutputFolder& folder, const RunHooks& hooks) {
   Plan plan = job;
   plan.options.path = path.listed.text;
   lay_path(plan, hooks);
-  path.metrics = plan.metrics;
-  path.notes = plan.path.notes;
+  measure(plan, pitch, path, hooks);
   find_dwell(plan, hooks);
   OutputFolder own(folder.path(path.listed.name));
   const WrittenPlan written = write_plan(plan, own, hooks);
@@ -45,9 +75,8 @@ void plan_one(const Plan& job, ComparedPath& path, const OutputFolder& folder, c
   path.limits = plan.limits;
   path.residual_rms = written.simulated.rms;
   path.residual_pv = written.simulated.pv;
-  const ArealPsd psd = spectrum_of(written.residual, plan.threads);
-  path.mid_rms = band_rms(psd, {33.0, 0.12}).bands[1].rms;
-  path.spectrum = radial_psd(psd);
+  path.spectrum = radial_spectrum(written.residual, plan.threads);
+  path.residual_ripple = if_possible([&] { return ripple_spectrum(written.residual, {}, plan.threads); });
   path.dwell_total = plan.dwell.sum();
   path.step_rms = plan.step_rms;
   path.lift_time = lift_time(plan.metrics, plan.options);
@@ -55,7 +84,7 @@ void plan_one(const Plan& job, ComparedPath& path, const OutputFolder& folder, c
   path.solver = plan.solver;
 }
 
-std::array<double, 3> costs(const ComparedPath& p) { return {p.residual_rms, p.mid_rms.value_or(0.0), p.total_time}; }
+std::array<double, 3> costs(const ComparedPath& p) { return {p.residual_rms, p.mid_rms().value_or(0.0), p.total_time}; }
 
 bool dominates(const ComparedPath& a, const ComparedPath& b) {
   const std::array<double, 3> x = costs(a), y = costs(b);
@@ -98,7 +127,7 @@ PathComparison compare_paths(const JobOptions& options, const std::string& list,
   comparison.job = read_inputs(options, hooks);
   comparison.pitch_given = pitch.has_value();
   comparison.pitch = pitch.value_or(default_pitch(comparison.job.tif));
-  comparison.before = radial_psd(spectrum_of(comparison.job.figure, comparison.job.threads));
+  comparison.before = radial_spectrum(comparison.job.figure, comparison.job.threads);
   for (ListedPath& listed : parse_path_list(list, comparison.pitch)) {
     comparison.paths.emplace_back().listed = std::move(listed);
   }
@@ -107,7 +136,7 @@ PathComparison compare_paths(const JobOptions& options, const std::string& list,
     const std::string stage = fmt::format("path {} of {}, {}", k + 1, comparison.paths.size(), path.listed.text);
     hooks.report(stage);
     try {
-      plan_one(comparison.job, path, folder, named(hooks, stage));
+      plan_one(comparison.job, comparison.pitch, path, folder, named(hooks, stage));
     } catch (const InputError& error) {
       path.failure = error.what();
       hooks.report(stage + ": " + path.failure);

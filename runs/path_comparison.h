@@ -5,6 +5,9 @@
 #include <vector>
 
 #include "core/psd.h"
+#include "paths/path_ripple.h"
+#include "paths/path_spacing.h"
+#include "paths/ripple_spectrum.h"
 #include "runs/output_folder.h"
 #include "runs/path_list.h"
 #include "runs/plan.h"
@@ -17,16 +20,27 @@ struct ComparedPath {
   std::string failure;  // why there is no plan; empty if there is one, and only then is the rest filled
 
   PathMetrics metrics;
-  std::vector<std::string> notes, limits;  // of the planner; of the plan (Plan::limits)
-  double residual_rms = 0.0;               // of the program as read back, simulated [nm]
-  double residual_pv = 0.0;                // [nm]
-  std::optional<double> mid_rms;           // of the residual, wavelengths 33 to 0.12 mm as far as the map resolves [nm]
-  PsdCurve spectrum;                       // of the residual, radial
-  double dwell_total = 0.0;                // [s]
-  double step_rms = 0.0;                   // [s]
-  double lift_time = 0.0;                  // lifted moves, up and down included, at maximum feed [s]
-  double total_time = 0.0;                 // of the program, and lift_time [s]
+  PathSpacing spacing;       // to the neighbouring track
+  double coverage = 0.0;     // share of the valid pixels within a pitch of the path (PathComparison::pitch)
+  double tree_length = 0.0;  // no path through the points is shorter than their minimum spanning tree [mm]
+  std::vector<std::string> notes, limits;         // of the planner; of the plan (Plan::limits)
+  double residual_rms = 0.0;                      // of the program as read back, simulated [nm]
+  double residual_pv = 0.0;                       // [nm]
+  std::optional<RippleSpectrum> residual_ripple;  // of the residual; none where the map shows nothing of the band
+  /// At constant feed on a fine patch in the middle, whatever the map's pixels: its map is left empty. None where the
+  /// path leaves no room for the patch.
+  std::optional<PathRipple> ripple;
+  PsdCurve spectrum;         // of the residual, radial
+  double dwell_total = 0.0;  // [s]
+  double step_rms = 0.0;     // [s]
+  double lift_time = 0.0;    // lifted moves, up and down included, at maximum feed [s]
+  double total_time = 0.0;   // of the program, and lift_time [s]
   SolverSummary solver;
+
+  /// RMS of the residual between the wavelengths 33 and 0.12 mm, as far as the map resolves them [nm].
+  std::optional<double> mid_rms() const {
+    return residual_ripple ? std::optional<double>(residual_ripple->rms) : std::nullopt;
+  }
   bool on_front = false;  // no other path is as good in residual, mid_rms and total_time, and better in one
 };
 

@@ -15,6 +15,32 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+Json waves_json(const RippleSpectrum& spectrum) {
+  Json peaks = Json::array();
+  for (const RipplePeak& peak : spectrum.peaks) {
+    peaks.push_back({{"wavelength_mm", peak.wavelength},
+                     {"direction_deg", peak.direction_deg},
+                     {"rms_nm", peak.rms},
+                     {"share", peak.share}});
+  }
+  return {{"longest_mm", spectrum.resolved.longest},
+          {"shortest_mm", spectrum.resolved.shortest},
+          {"anisotropy", spectrum.anisotropy},
+          {"peaks", peaks}};
+}
+
+/// Relative to the mean removal: the depth of the patch is of no meaning.
+Json ripple_json(const PathRipple& ripple) {
+  return {{"pvn", ripple.pvn},
+          {"rms_over_removal", ripple.rms / PathRippleOptions().depth},
+          {"track_spacing_mm", ripple.spacing},
+          {"anisotropy", ripple.spectrum.anisotropy}};
+}
+
+Json spacing_json(const PathSpacing& s) {
+  return {{"least", s.min}, {"mean", s.mean}, {"deviation", s.deviation}, {"largest", s.max}, {"points", s.points}};
+}
+
 Json json_of(const ComparedPath& p) {
   Json json = {{"path", p.listed.text}, {"folder", p.listed.name}};
   if (!p.failure.empty()) {
@@ -24,7 +50,9 @@ Json json_of(const ComparedPath& p) {
   json.update({{"front", p.on_front},
                {"residual_rms_nm", p.residual_rms},
                {"residual_pv_nm", p.residual_pv},
-               {"mid_rms_nm", p.mid_rms ? Json(*p.mid_rms) : Json(nullptr)},
+               {"mid_rms_nm", p.residual_ripple ? Json(p.residual_ripple->rms) : Json(nullptr)},
+               {"residual_waves", p.residual_ripple ? waves_json(*p.residual_ripple) : Json(nullptr)},
+               {"ripple", p.ripple ? ripple_json(*p.ripple) : Json(nullptr)},
                {"total_s", p.total_time},
                {"dwell_s", p.dwell_total},
                {"lift_s", p.lift_time},
@@ -34,6 +62,15 @@ Json json_of(const ComparedPath& p) {
                {"lifts", p.metrics.lifts},
                {"lifted_length_mm", p.metrics.lifted_length},
                {"longest_jump_mm", p.metrics.longest_jump},
+               {"point_length_mm", p.metrics.point_length},
+               {"tree_length_mm", p.tree_length},
+               {"reversals", p.metrics.reversals},
+               {"sharpest_corner_deg", p.metrics.sharpest_corner},
+               {"directions", p.metrics.directions},
+               {"anisotropy", p.metrics.anisotropy},
+               {"lattice_anisotropy", p.metrics.lattice_anisotropy},
+               {"spacing_mm", spacing_json(p.spacing)},
+               {"coverage", p.coverage},
                {"solver_status", to_string(p.solver.status)},
                {"operator_applications", p.solver.operator_applications},
                {"notes", p.notes},
@@ -54,7 +91,7 @@ std::string comparison_picture(const PathComparison& comparison) {
     const ComparedPath& p = comparison.paths[k];
     if (!p.failure.empty()) continue;
     residual.lines.push_back({p.listed.name, colour_of(k), {{p.total_time, p.residual_rms, p.on_front}}});
-    if (p.mid_rms) mid.lines.push_back({p.listed.name, colour_of(k), {{p.total_time, *p.mid_rms, p.on_front}}});
+    if (p.mid_rms()) mid.lines.push_back({p.listed.name, colour_of(k), {{p.total_time, *p.mid_rms(), p.on_front}}});
   }
   std::vector<ChartPanel> panels{residual};
   if (!mid.lines.empty()) panels.push_back(mid);
@@ -88,22 +125,56 @@ std::string quoted(std::string text) {
   return '"' + text + '"';
 }
 
+struct Cell {
+  const char* column;
+  std::string text;
+};
+
+std::string number(double value) { return fmt::format("{}", value); }
+
+/// What of a path stands in paths.csv between its name and why it failed, for a path that did not.
+std::vector<Cell> cells_of(const ComparedPath& p) {
+  const PathMetrics& m = p.metrics;
+  const RippleSpectrum* waves = p.residual_ripple ? &*p.residual_ripple : nullptr;
+  const PathRipple* ripple = p.ripple ? &*p.ripple : nullptr;
+  return {{"front", p.on_front ? "yes" : "no"},
+          {"residual_rms_nm", number(p.residual_rms)},
+          {"residual_pv_nm", number(p.residual_pv)},
+          {"mid_rms_nm", waves ? number(waves->rms) : ""},
+          {"residual_anisotropy", waves ? number(waves->anisotropy) : ""},
+          {"total_s", number(p.total_time)},
+          {"dwell_s", number(p.dwell_total)},
+          {"lift_s", number(p.lift_time)},
+          {"step_rms_s", number(p.step_rms)},
+          {"points", fmt::format("{}", m.points)},
+          {"length_mm", number(m.length)},
+          {"lifts", fmt::format("{}", m.lifts)},
+          {"lifted_length_mm", number(m.lifted_length)},
+          {"longest_jump_mm", number(m.longest_jump)},
+          {"point_length_mm", number(m.point_length)},
+          {"tree_length_mm", number(p.tree_length)},
+          {"reversals", fmt::format("{}", m.reversals)},
+          {"sharpest_corner_deg", number(m.sharpest_corner)},
+          {"anisotropy", number(m.anisotropy)},
+          {"lattice_anisotropy", number(m.lattice_anisotropy)},
+          {"spacing_mean_mm", number(p.spacing.mean)},
+          {"spacing_deviation_mm", number(p.spacing.deviation)},
+          {"coverage", number(p.coverage)},
+          {"ripple_pvn", ripple ? number(ripple->pvn) : ""},
+          {"ripple_anisotropy", ripple ? number(ripple->spectrum.anisotropy) : ""},
+          {"solver_status", to_string(p.solver.status)}};
+}
+
 }  // namespace
 
 std::string path_table_text(const PathComparison& comparison) {
-  std::string text =
-      "folder,path,front,residual_rms_nm,residual_pv_nm,mid_rms_nm,total_s,dwell_s,lift_s,step_rms_s,points,length_mm,"
-      "lifts,lifted_length_mm,longest_jump_mm,solver_status,failure\n";
+  std::string text = "folder,path,";
+  for (const Cell& cell : cells_of({})) text += fmt::format("{},", cell.column);
+  text += "failure\n";
   for (const ComparedPath& p : comparison.paths) {
     text += fmt::format("{},{},", p.listed.name, quoted(p.listed.text));
-    if (!p.failure.empty()) {
-      text += fmt::format("no,,,,,,,,,,,,,,{}\n", quoted(p.failure));
-      continue;
-    }
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},\n", p.on_front ? "yes" : "no", p.residual_rms,
-                        p.residual_pv, p.mid_rms ? fmt::format("{}", *p.mid_rms) : "", p.total_time, p.dwell_total,
-                        p.lift_time, p.step_rms, p.metrics.points, p.metrics.length, p.metrics.lifts,
-                        p.metrics.lifted_length, p.metrics.longest_jump, to_string(p.solver.status));
+    for (const Cell& cell : cells_of(p)) text += (p.failure.empty() ? cell.text : "") + ",";
+    text += quoted(p.failure) + "\n";
   }
   return text;
 }
@@ -131,22 +202,26 @@ std::string path_comparison_text(const PathComparison& comparison) {
   std::string text = fmt::format("before    RMS {:.4g} nm, PV {:.4g} nm; pitch {:.6g} mm where a path says none ({})\n",
                                  comparison.job.before.rms, comparison.job.before.pv, comparison.pitch,
                                  comparison.pitch_given ? "given" : "a quarter of the removal function's FWHM");
-  text +=
-      fmt::format("  {:<{}} {:>12} {:>12} {:>10} {:>10} {:>11} {:>9} {:>11} {:>7}\n", "path", widest, "residual[nm]",
-                  "mid RMS[nm]", "PV[nm]", "total[s]", "step RMS[s]", "points", "length[mm]", "lifts");
+  text += fmt::format("  {:<{}} {:>12} {:>11} {:>9} {:>11} {:>8} {:>10} {:>6} {:>9} {:>10}\n", "path", widest,
+                      "residual[nm]", "mid RMS[nm]", "total[s]", "step RMS[s]", "points", "length[mm]", "lifts",
+                      "ripple[%]", "anisotropy");
   std::string below;
   for (const ComparedPath& p : comparison.paths) {
     if (!p.failure.empty()) {
       below += fmt::format("{}: no plan: {}\n", p.listed.name, p.failure);
       continue;
     }
-    text += fmt::format("{} {:<{}} {:>12.4g} {:>12} {:>10.4g} {:>10.2f} {:>11.4g} {:>9} {:>11.6g} {:>7}\n",
+    text += fmt::format("{} {:<{}} {:>12.4g} {:>11} {:>9.2f} {:>11.4g} {:>8} {:>10.6g} {:>6} {:>9} {:>10.2f}\n",
                         p.on_front ? '*' : ' ', p.listed.name, widest, p.residual_rms,
-                        p.mid_rms ? fmt::format("{:.4g}", *p.mid_rms) : "-", p.residual_pv, p.total_time, p.step_rms,
-                        p.metrics.points, p.metrics.length, p.metrics.lifts);
+                        p.mid_rms() ? fmt::format("{:.4g}", *p.mid_rms()) : "-", p.total_time, p.step_rms,
+                        p.metrics.points, p.metrics.length, p.metrics.lifts,
+                        p.ripple ? fmt::format("{:.3g}", 100.0 * p.ripple->pvn) : "-", p.metrics.anisotropy);
     for (const std::string& note : p.notes) below += fmt::format("{}: {}\n", p.listed.name, note);
   }
-  return text + "* on the Pareto front of residual, mid-band RMS (33 to 0.12 mm) and total time\n" + below;
+  return text +
+         "* on the Pareto front of residual, mid-band RMS (33 to 0.12 mm) and total time. Ripple: peak to valley over "
+         "the mean removal,\n  at constant feed. Anisotropy of the path's directions: 1 = all parallel.\n" +
+         below;
 }
 
 std::string write_path_comparison(const PathComparison& comparison, const OutputFolder& folder) {

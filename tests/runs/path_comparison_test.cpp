@@ -20,7 +20,7 @@ using test::expect_input_error;
 using test::SmallJob;
 
 bool better_or_equal(const ComparedPath& a, const ComparedPath& b) {
-  return a.residual_rms <= b.residual_rms && a.mid_rms.value_or(0.0) <= b.mid_rms.value_or(0.0) &&
+  return a.residual_rms <= b.residual_rms && a.mid_rms().value_or(0.0) <= b.mid_rms().value_or(0.0) &&
          a.total_time <= b.total_time;
 }
 
@@ -30,7 +30,7 @@ TEST(PathFront, IsWhatTheDefinitionSays) {
     std::vector<ComparedPath> paths(2 + seed % 9);
     for (ComparedPath& p : paths) {
       p.residual_rms = static_cast<double>(random() % 4);
-      if (seed % 3 != 0) p.mid_rms = static_cast<double>(random() % 4);
+      if (seed % 3 != 0) p.residual_ripple.emplace().rms = static_cast<double>(random() % 4);
       p.total_time = static_cast<double>(random() % 4);
       if (random() % 5 == 0) p.failure = "none";
     }
@@ -68,7 +68,9 @@ TEST(PathComparison, SaysOfEachPathWhatItsOwnProgramDoes) {
     const Simulation again = simulate_file(out / p.listed.name / "program.nc", {}, job.options, {});
     EXPECT_DOUBLE_EQ(again.after.rms, p.residual_rms) << p.listed.name;
     EXPECT_DOUBLE_EQ(again.program.total_seconds() + p.lift_time, p.total_time);
-    EXPECT_TRUE(p.mid_rms && *p.mid_rms > 0.0 && *p.mid_rms <= p.residual_rms * 1.5);
+    EXPECT_TRUE(p.mid_rms() && *p.mid_rms() > 0.0 && *p.mid_rms() <= p.residual_rms * 1.5);
+    EXPECT_TRUE(p.coverage > 0.9 && p.coverage <= 1.0) << p.coverage;
+    EXPECT_LE(p.tree_length, p.metrics.point_length * (1.0 + 1e-12));
     const auto summary = nlohmann::json::parse(read_whole_file(out / p.listed.name / "summary.json"));
     EXPECT_EQ(summary["options"]["path"], p.listed.text);
   }
@@ -102,7 +104,7 @@ TEST(PathComparison, GoesOnWhereAPathCannotBePlanned) {
   for (std::string line; std::getline(lines, line);) {
     const std::string bare = line.substr(0, line.find('"'));
     if (bare != line) continue;  // a comma in quotes is none
-    EXPECT_EQ(std::count(line.begin(), line.end(), ','), 16) << line;
+    EXPECT_EQ(std::count(line.begin(), line.end(), ','), 28) << line;
   }
   EXPECT_NE(path_comparison_text(comparison).find("nearest: no plan"), std::string::npos);
   expect_input_error([&] { compare_paths(job.options, "nearest:critical=1e9", {}, folder, {}); },
