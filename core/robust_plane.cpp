@@ -26,6 +26,7 @@ double residual(const Sample& s, const Eigen::Vector3d& c) { return s.z - c[0] -
 
 double scatter_of(const std::vector<Sample>& samples, const Eigen::Vector3d& c) {
   std::vector<double> sizes;
+  sizes.reserve(samples.size());
   for (const Sample& s : samples) sizes.push_back(std::abs(residual(s, c)));
   return 1.4826 * median_of(std::move(sizes));
 }

@@ -87,7 +87,7 @@ std::optional<Point> SpecText::optional_point(std::string_view key) const {
 }
 
 std::string SpecText::choice(std::string_view key, std::initializer_list<std::string_view> accepted) const {
-  const std::string value = word(key).value_or(std::string(*accepted.begin()));
+  std::string value = word(key).value_or(std::string(*accepted.begin()));
   if (std::find(accepted.begin(), accepted.end(), value) == accepted.end()) {
     fail(*this, fmt::format("{} = \"{}\"; accepted: {}", key, value, fmt::join(accepted, ", ")));
   }

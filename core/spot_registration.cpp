@@ -90,10 +90,12 @@ void register_spots(std::vector<SpotPatch>& patches, double radius, SpotRegistra
   for (SpotPatch& patch : patches) patch.centre = spot_centroid(patch, patch.centre, radius, kShare);
   if (how == SpotRegistration::Centroid || patches.size() < 2) return;
   std::vector<SpotPatch> soft;
+  soft.reserve(patches.size());
   for (const SpotPatch& patch : patches) soft.push_back(softened(patch));
   for (int round = 0; round < kRounds; ++round) {
     const HeightMap reference = mean_of_spots(soft).mean;
     std::vector<Point> shifts;
+    shifts.reserve(soft.size());
     for (const SpotPatch& patch : soft) shifts.push_back(shift_of(patch, reference, radius));
     for (std::size_t k = 1; k < soft.size(); ++k) soft[k].centre = soft[k].centre + shifts[k] - shifts[0];
   }

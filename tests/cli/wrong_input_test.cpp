@@ -110,7 +110,7 @@ const std::vector<Wrong>& cases() {
        file("path.csv", "1,2\n3,4\n"),
        {"--path", "file:path.csv"},
        {"path.csv", "x_mm", "y_mm"}},
-      {"unknown_path", none, {"--path", "spiral:pitch=1"}, {"--path", "spiral", "raster", "nearest"}},
+      {"unknown_path", none, {"--path", "zigzag:pitch=1"}, {"--path", "zigzag", "raster", "nearest"}},
       {"raster_without_pitch", none, {"--path", "raster:step=1"}, {"--path", "pitch"}},
       {"negative_raster_pitch", none, {"--path", "raster:pitch=-1"}, {"pitch", "-1", "> 0"}},
       {"aperture_outside_the_map", none, {"--aperture", "circle:100,100,3"}, {"aperture", "100", "mm"}},

@@ -102,7 +102,7 @@ TEST(JobOptionTable, RefusesUnknownWordsNamingTheAcceptedOnes) {
   refused("map-origin", "1", {"X,Y"});
   refused("map-origin", "1,nan", {"X,Y"});
   refused("tif-centre", "left", {"middle", "centroid", "X,Y"});
-  refused("path", "spiral:pitch=1", {"raster", "nearest", "file"});
+  refused("path", "zigzag:pitch=1", {"raster", "nearest", "file"});
   refused("motion", "go", {"moving", "stop"});
   refused("remove", "piston,coma", {"piston", "tilt", "power"});
   refused("aperture", "square:1", {"map", "rect", "circle", "ellipse", "annulus", "polygon"});

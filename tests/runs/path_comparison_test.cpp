@@ -69,11 +69,13 @@ TEST(PathComparison, SaysOfEachPathWhatItsOwnProgramDoes) {
     EXPECT_DOUBLE_EQ(again.after.rms, p.residual_rms) << p.listed.name;
     EXPECT_DOUBLE_EQ(again.program.total_seconds() + p.lift_time, p.total_time);
     EXPECT_TRUE(p.mid_rms() && *p.mid_rms() > 0.0 && *p.mid_rms() <= p.residual_rms * 1.5);
-    EXPECT_TRUE(p.coverage > 0.9 && p.coverage <= 1.0) << p.coverage;
     EXPECT_LE(p.tree_length, p.metrics.point_length * (1.0 + 1e-12));
     const auto summary = nlohmann::json::parse(read_whole_file(out / p.listed.name / "summary.json"));
     EXPECT_EQ(summary["options"]["path"], p.listed.text);
   }
+  // Within 0.62 mm of a raster of 0.62 mm everything lies, of one of 2 mm about 1.24 mm of every 2.
+  EXPECT_EQ(comparison.paths[0].coverage, 1.0);
+  EXPECT_NEAR(comparison.paths[1].coverage, 0.62, 0.12);
   // Lifted moves cost the way there and up and down at maximum feed: 3000 mm/min, 10 mm.
   const ComparedPath& nearest = comparison.paths[2];
   EXPECT_NEAR(nearest.lift_time,
