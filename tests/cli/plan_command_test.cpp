@@ -26,9 +26,9 @@ TEST(PlanCommand, WritesEveryFileAndPrintsWhatItDid) {
   const SmallInputs inputs;
   const ProgramResult result = inputs.run(SmallInputs::plan());
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_EQ(names_in(inputs / "plan"),
-            (std::set<std::string>{"after.png", "before.png", "dwell.npy", "dwell.png", "feed.csv", "path.png", "path_detail.png", "program.nc",
-                                   "residual.npy", "residual.npy.json", "summary.json"}));
+  EXPECT_EQ(names_in(inputs / "plan"), (std::set<std::string>{"after.png", "before.png", "dwell.npy", "dwell.png",
+                                                              "feed.csv", "path.png", "path_detail.png", "program.nc",
+                                                              "residual.npy", "residual.npy.json", "summary.json"}));
   EXPECT_EQ(names_in(inputs.folder.path()), (std::set<std::string>{"map.csv", "tif.csv", "plan"}));
   for (const char* line : {"map ", "before ", "tool ", "path ", "solver ", "dwell ", "feed ", "predicted ", "program ",
                            "written   plan\n"}) {
