@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "bench/json_access.h"
-#include "bench/mirror.h"
 #include "paths/path_metrics.h"
 #include "paths/path_spec.h"
+#include "runs/random_numbers.h"
 
 namespace dwell::bench {
 namespace {
@@ -20,13 +20,19 @@ using Json = nlohmann::json;
 constexpr Index kPixels = 512;
 constexpr int kRepetitions = 3;
 
-/// The path that makes about `points` points of a square part of 512 mm.
-struct PlannerCase {
-  const char* kind;
-  const char* options;  // {0} = pitch
-};
-
-constexpr PlannerCase kCases[] = {{"raster", "pitch={0}"}, {"nearest", "cell={0},critical=-inf"}};
+/// What makes about one point a pitch^2.
+constexpr const char* kCases[] = {"raster:pitch={0}",
+                                  "raster:pitch={0},turn=arc",
+                                  "random-raster:pitch={0}",
+                                  "cross-hatch:pitch={1}",
+                                  "spiral:pitch={0}",
+                                  "circles:pitch={0}",
+                                  "fibonacci:pitch={0}",
+                                  "hilbert:pitch={0}",
+                                  "peano:pitch={0}",
+                                  "random:pitch={0}",
+                                  "multi-pitch:pitches={2}/{0}/{3},step={0}",
+                                  "nearest:cell={0},critical=-inf"};
 
 Json run_case(const std::string& text, const PathJob& job, double pitch) {
   const PathSpec spec = parse_path_spec(text);
@@ -51,6 +57,32 @@ Json run_case(const std::string& text, const PathJob& job, double pitch) {
           {"notes", path.notes}};
 }
 
+/// A map of n x n pixels of 1 mm, correlated over some two of them.
+HeightMap kept_cells(Index n) {
+  constexpr int kReach = 6;
+  RandomNumbers random(7);
+  HeightMap noise(Grid{n + 2 * kReach, n + 2 * kReach, 1.0, 1.0, {}});
+  for (double& v : noise.values) v = random.uniform() - 0.5;
+  std::vector<double> bell;
+  for (int k = -kReach; k <= kReach; ++k) bell.push_back(std::exp(-k * k / 8.0));
+  HeightMap along(Grid{n + 2 * kReach, n, 1.0, 1.0, {}}), map(Grid{n, n, 1.0, 1.0, {}});
+  for (Index r = 0; r < along.grid.rows; ++r) {
+    for (Index c = 0; c < n; ++c) {
+      double sum = 0.0;
+      for (int k = 0; k <= 2 * kReach; ++k) sum += bell[static_cast<std::size_t>(k)] * noise.at(r, c + k);
+      along.at(r, c) = sum;
+    }
+  }
+  for (Index r = 0; r < n; ++r) {
+    for (Index c = 0; c < n; ++c) {
+      double sum = 0.0;
+      for (int k = 0; k <= 2 * kReach; ++k) sum += bell[static_cast<std::size_t>(k)] * along.at(r + k, c);
+      map.at(r, c) = sum;
+    }
+  }
+  return map;
+}
+
 }  // namespace
 
 Json run_planners(bool quick, const Budget& budget, double share) {
@@ -61,14 +93,20 @@ Json run_planners(bool quick, const Budget& budget, double share) {
   const double points = quick ? 1e5 : 1e6;
   const double pitch = static_cast<double>(kPixels) / std::sqrt(points);
   Json results = Json::array();
-  for (const PlannerCase& c : kCases) {
-    const std::string text = fmt::format("{}:{}", c.kind, fmt::format(fmt::runtime(c.options), pitch));
+  const auto add = [&](const std::string& text, const PathJob& on, double spacing) {
     if (budget.left(share) > 0.0) {
-      results.push_back(run_case(text, job, pitch));
+      results.push_back(run_case(text, on, spacing));
     } else {
       results.push_back({{"path", text}, {"skipped", "no time left"}});
     }
+  };
+  for (const char* planner : kCases) {
+    add(fmt::format(fmt::runtime(planner), pitch, std::sqrt(2.0) * pitch, 1.5 * pitch, 0.75 * pitch), job, pitch);
   }
+  // Half of the cells lie above zero, in islands of all sizes.
+  const HeightMap waves = kept_cells(quick ? 140 : 447);
+  add("nearest:cell=1", {waves, tif, 50.0}, 1.0);
+  add("nearest:cell=1,improve=2opt", {waves, tif, 50.0}, 1.0);
   return results;
 }
 

@@ -23,6 +23,9 @@ constexpr double kPlanSeconds = 20.0, kPlanGib = 6.0;
 constexpr double kReadSeconds = 0.1;
 constexpr double kReadRatio = 2.0;  // NPY, over its bytes: the map and its check are one more pass each
 constexpr double kVectors = 16.0;
+constexpr double kPlannerPoints = 5e5;                                       // fewer say nothing of 10^6
+constexpr double kPlannerRate = 2e7, kRandomRate = 5e4, kNearestRate = 2e5;  // [points/s]
+constexpr double kTourRatio = 1.08, kTourSeconds = 60.0, kTourPoints = 1e5;
 constexpr double kLargeVector = 0x1p17;  // below so many numbers, 1 MiB, fixed memory counts for more than vectors
 
 Verdict worse(Verdict a, Verdict b) {
@@ -222,6 +225,39 @@ TargetLine npy_line(const Json& all) {
           ratio ? fmt::format("{:.2f} ({:.3f} s)", *ratio, *map) : "", at_most(ratio, kReadRatio)};
 }
 
+/// The slowest of these planners [points/s]. A planner's path begins with its kind and a colon.
+TargetLine planner_line(const Json& all, const std::string& what, const std::vector<std::string>& kinds,
+                        double target) {
+  Worst worst;
+  bool whole = true;
+  for (const std::string& kind : kinds) {
+    bool seen = false;
+    for (const Json& r : list_of(all, "planners")) {
+      if (!text_of(r, "path").starts_with(kind + ":") || !r.contains("points")) continue;
+      seen = true;
+      if (r.at("points").get<double>() < kPlannerPoints) continue;
+      worst.see(r.at("points").get<double>() / number(r, "fastest"), text_of(r, "path"), false);
+    }
+    whole = whole && seen;
+  }
+  if (!whole) worst.value.reset();
+  return {"points a second, " + what, fmt::format(">= {:.0e}", target),
+          worst.value ? fmt::format("{:.1e} ({})", *worst.value, worst.where) : "", at_least(worst.value, target)};
+}
+
+TargetLine shortening_line(const Json& all) {
+  TargetLine line{"2-opt and Or-opt on 10^5 cells, length over (N - 1) pitch in 60 s",
+                  fmt::format("<= {:g}", kTourRatio), "", Verdict::NotMeasured};
+  for (const Json& r : list_of(all, "planners")) {
+    if (!text_of(r, "path").ends_with("improve=2opt") || !r.contains("points")) continue;
+    if (r.at("points").get<double>() < 0.5 * kTourPoints) continue;
+    const double ratio = number(r, "length_ratio"), seconds = number(r, "seconds");
+    line.seen = fmt::format("{:.3f}, {:.1f} s", ratio, seconds);
+    line.verdict = worse(at_most(ratio, kTourRatio), at_most(seconds, kTourSeconds));
+  }
+  return line;
+}
+
 TargetLine memory_line(const Json& all) {
   Worst worst;
   for (const Json& run : list_of(all, "results")) {
@@ -272,6 +308,11 @@ std::vector<TargetLine> target_lines(const Json& all) {
           plan_line(all, "4096-every-4-stop", kPlanSeconds, kPlanGib),
           plan_line(all, "4096-every-4-moving", kPlanSeconds, kPlanGib),
           memory_line(all),
+          planner_line(all, "raster, spiral, hilbert, multi-pitch", {"raster", "spiral", "hilbert", "multi-pitch"},
+                       kPlannerRate),
+          planner_line(all, "random", {"random"}, kRandomRate),
+          planner_line(all, "nearest", {"nearest"}, kNearestRate),
+          shortening_line(all),
           reading_line(all, "dat"),
           reading_line(all, "datx"),
           npy_line(all)};

@@ -49,6 +49,7 @@ TrackOverlap track_overlap(const TrackProfile& section, double diameter, double 
 TrackOverlap best_overlap(const TrackProfile& section, double diameter, const std::vector<double>& overlaps) {
   if (overlaps.empty()) throw InputError("overlap: none to choose from; at least one is required");
   std::vector<TrackOverlap> tracks;
+  tracks.reserve(overlaps.size());
   for (const double overlap : overlaps) tracks.push_back(track_overlap(section, diameter, overlap));
   return *std::min_element(tracks.begin(), tracks.end(),
                            [](const auto& a, const auto& b) { return a.deviation < b.deviation; });

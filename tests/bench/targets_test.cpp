@@ -242,6 +242,28 @@ TEST(Targets, MemoryIsThatOfLargeProblems) {
   EXPECT_EQ(line(results({small, large}), "memory").verdict, Verdict::Missed);
 }
 
+TEST(Targets, PlannersAreJudgedByTheSlowestAtAMillionPoints) {
+  const auto run = [](const std::string& path, double points, double seconds) {
+    return Json{
+        {"path", path}, {"points", points}, {"seconds", 1.2 * seconds}, {"fastest", seconds}, {"length_ratio", 1.05}};
+  };
+  Json all{{"planners",
+            {run("raster:pitch=1", 1e6, 0.02), run("raster:pitch=1,turn=arc", 1e6, 0.04),
+             run("spiral:pitch=1", 1e6, 0.03), run("hilbert:pitch=1", 1e6, 0.03)}}};
+  EXPECT_EQ(line(all, "points a second, raster").verdict, Verdict::NotMeasured);  // one of the four is missing
+  all["planners"].push_back(run("multi-pitch:pitches=1", 1e6, 0.03));
+  EXPECT_EQ(line(all, "points a second, raster").verdict, Verdict::Met);
+  all["planners"][1]["fastest"] = 0.06;
+  EXPECT_EQ(line(all, "points a second, raster").verdict, Verdict::Missed);
+  EXPECT_EQ(line(all, "points a second, random").verdict, Verdict::NotMeasured);  // not random-raster, nor raster
+  all["planners"].push_back(run("random:pitch=1", 1e5, 1e-3));
+  EXPECT_EQ(line(all, "points a second, random").verdict, Verdict::NotMeasured);  // too few points to say
+  all["planners"].push_back(run("nearest:cell=1,critical=0,improve=2opt", 1e5, 30.0));
+  EXPECT_EQ(line(all, "2-opt").verdict, Verdict::Met);
+  all["planners"].back()["length_ratio"] = 1.09;
+  EXPECT_EQ(line(all, "2-opt").verdict, Verdict::Missed);
+}
+
 TEST(Report, ShowsWhatWasSkippedAsSuch) {
   Json all = results({solve("b-512", "auto", 2),
                       {{"scenario", "b-512"},
