@@ -31,8 +31,7 @@ constexpr const char* kCases[] = {"raster:pitch={0}",
                                   "hilbert:pitch={0}",
                                   "peano:pitch={0}",
                                   "random:pitch={0}",
-                                  "multi-pitch:pitches={2}/{0}/{3},step={0}",
-                                  "nearest:cell={0},critical=-inf"};
+                                  "multi-pitch:pitches={2}/{0}/{3},step={0}"};
 
 Json run_case(const std::string& text, const PathJob& job, double pitch) {
   const PathSpec spec = parse_path_spec(text);
@@ -103,6 +102,9 @@ Json run_planners(bool quick, const Budget& budget, double share) {
   for (const char* planner : kCases) {
     add(fmt::format(fmt::runtime(planner), pitch, std::sqrt(2.0) * pitch, 1.5 * pitch, 0.75 * pitch), job, pitch);
   }
+  // Its cells are no smaller than the pixels.
+  const HeightMap cells = kept_cells(quick ? 316 : 1000);
+  add("nearest:cell=1,critical=-inf", {cells, tif, 50.0}, 1.0);
   // Half of the cells lie above zero, in islands of all sizes.
   const HeightMap waves = kept_cells(quick ? 140 : 447);
   add("nearest:cell=1", {waves, tif, 50.0}, 1.0);
