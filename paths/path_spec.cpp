@@ -8,6 +8,7 @@
 
 #include "core/errors.h"
 #include "core/spec_text.h"
+#include "paths/depth_feed.h"
 #include "paths/distance_map.h"
 #include "paths/path_file.h"
 #include "paths/track_overlap.h"
@@ -60,7 +61,14 @@ ToolPath planned(RasterOptions options, const PathJob& job) {
 }
 
 ToolPath planned(const MultiPitchOptions& options, const PathJob& job) {
-  return multi_pitch_path(job.target, job.tif, job.max_feed, options).path;
+  MultiPitchPath planned = multi_pitch_path(job.target, job.tif, job.max_feed, options);
+  const DepthFeedJob by_depth{job.tif.volume, planned.lowest, job.max_feed, planned.step};
+  const DepthFeed cheap = depth_feed(job.target, planned.path, planned.pitch_of_points(), by_depth);
+  planned.path.notes.push_back(
+      fmt::format("by the depth at each point alone (Hou et al. 2017, eq. 12) the dwell would be {:.5g} s, {} of {} "
+                  "points at the fastest feed",
+                  cheap.total_seconds, cheap.limited, planned.path.size()));
+  return std::move(planned.path);
 }
 
 /// The planners that need nothing of the tool but how far to go beyond the part.

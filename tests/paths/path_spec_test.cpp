@@ -192,7 +192,8 @@ TEST(PathSpec, PlansAMultiPitchRasterForTheFeed) {
             std::string::npos);
   const ToolPath path = plan_path(parse_path_spec("multi-pitch:ranges=3"), {map, tool(3.0), 1.0});
   EXPECT_EQ(path.kind, "multi-pitch");
-  EXPECT_EQ(path.notes.size(), 1u);
+  ASSERT_EQ(path.notes.size(), 2u);
+  EXPECT_NE(path.notes[1].find("eq. 12) the dwell would be "), std::string::npos);
 }
 
 TEST(PathSpec, RefusesAFileWhollyOutsideThePart) {
