@@ -34,9 +34,6 @@ int run_paths(const PathsArguments& arguments) {
   }
   if (arguments.list.empty())
     throw InputError("--paths: required; for instance raster,spiral,random (--kinds lists all)");
-  if (arguments.pitch && !(*arguments.pitch > 0.0)) {
-    throw InputError(fmt::format("--pitch: {}; required a number > 0, in mm", *arguments.pitch));
-  }
   const JobOptions options = arguments.job->options();
   OutputFolder folder(options.out, path_comparison_files());
   const PathComparison comparison = compare_paths(options, arguments.list, arguments.pitch, folder, terminal_hooks());

@@ -41,6 +41,9 @@ void check(const ToolPath& path, const SpacingOptions& options) {
   if (!(options.detour >= 1.0 && options.detour < kInfinity)) {
     throw InputError(fmt::format("path spacing: detour = {}; required finite and >= 1", options.detour));
   }
+  if (!(options.reach > 0.0)) {
+    throw InputError(fmt::format("path spacing: reach = {} mm; required > 0", options.reach));
+  }
 }
 
 }  // namespace
@@ -53,11 +56,11 @@ PathSpacing path_spacing(const ToolPath& path, const SpacingOptions& options) {
   spacing.min = kInfinity;
   double sum = 0.0, squares = 0.0, reference = 0.0;
   for (std::size_t i = 0; i < path.size(); ++i) {
-    double nearest2 = kInfinity, reach2 = kInfinity;
+    double nearest2 = kInfinity, reach2 = options.reach * options.reach;
     const auto take = [&](std::int32_t member) {
       const auto j = static_cast<std::size_t>(member);
       const double d2 = squared_distance(path.points[i], path.points[j]);
-      if (!(d2 < nearest2)) return;
+      if (!(d2 < nearest2 && d2 <= reach2)) return;
       if (std::abs(static_cast<Index>(i) - static_cast<Index>(j)) <= options.skip) return;
       const double detour = options.detour * std::sqrt(d2) * (1.0 - kRounding);
       if (station[i].piece == station[j].piece && !(std::abs(station[i].along - station[j].along) >= detour)) return;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "core/grid.h"
 #include "core/tool_path.h"
 
@@ -9,6 +11,8 @@ namespace dwell {
 struct SpacingOptions {
   Index skip = 1;       // the neighbours up to this many points before and after are never meant, >= 1
   double detour = 2.0;  // to a point of the same piece the path must run at least this many times the distance, >= 1
+  /// A track farther away is none [mm], > 0. Bounds the work where there is none: the whole path would be searched.
+  double reach = std::numeric_limits<double>::infinity();
 };
 
 /// Distances from dwell points to the neighbouring track [mm].

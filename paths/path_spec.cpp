@@ -45,6 +45,46 @@ void refuse_outside(const ToolPath& path, const HeightMap& target, double tif_ra
       tif_radius));
 }
 
+void check_distance(const char* option, double value, const PathJob& job) {
+  const double width = 2.0 * job.tif.radius;
+  if (!(value > width)) return;  // whatever else is wrong with it, the planner says
+  throw InputError(fmt::format(
+      "path: {} = {:.6g} mm; required at most {:.6g} mm, the removal function's diameter: farther apart, there are "
+      "places that the tool never touches",
+      option, value, width));
+}
+
+/// Refuses tracks or dwell points farther apart than the tool is wide.
+template <class Options>
+void check_distances(const Options& o, const PathJob& job) {
+  if constexpr (requires { o.pitch; }) check_distance("pitch", o.pitch, job);
+  if constexpr (requires { o.lattice; }) check_distance("pitch", o.lattice.pitch, job);
+  if constexpr (requires { o.cell; }) check_distance("cell", o.cell, job);
+  if constexpr (requires { *o.step; }) check_distance("step", o.step.value_or(0.0), job);
+  if constexpr (requires { *o.min_pitch; }) check_distance("min-pitch", o.min_pitch.value_or(0.0), job);
+  if constexpr (requires { *o.max_pitch; }) check_distance("max-pitch", o.max_pitch.value_or(0.0), job);
+  if constexpr (requires { o.pitches; }) {
+    for (const double pitch : o.pitches) check_distance("pitches", pitch, job);
+  }
+}
+
+/// Says of moves over the part that are longer than the tool is wide and made with it down.
+void note_long_moves(ToolPath& path, const PathJob& job) {
+  const double width = 2.0 * job.tif.radius;
+  Index moves = 0;
+  double longest = 0.0;
+  for (std::size_t j = 1; j < path.size(); ++j) {
+    const double move = path.lifted[j] ? 0.0 : distance(path.points[j - 1], path.points[j]);
+    if (move > width) ++moves;
+    longest = std::max(longest, move);
+  }
+  if (moves == 0) return;
+  path.notes.push_back(
+      fmt::format("{} moves are longer than the removal function is wide and made with the tool down, "
+                  "the longest {:.4g} mm: they remove where they pass",
+                  moves, longest));
+}
+
 ToolPath planned(RasterOptions options, const PathJob& job) {
   if (!options.overrun) options.overrun = job.tif.radius;
   if (!options.auto_pitch) return raster_path(job.target, options);
@@ -196,7 +236,14 @@ PathSpec parse_path_spec(const std::string& text) {
 }
 
 ToolPath plan_path(const PathSpec& spec, const PathJob& job) {
-  return std::visit([&](const auto& options) { return planned(options, job); }, spec);
+  ToolPath path = std::visit(
+      [&](const auto& options) {
+        check_distances(options, job);
+        return planned(options, job);
+      },
+      spec);
+  note_long_moves(path, job);
+  return path;
 }
 
 }  // namespace dwell

@@ -60,8 +60,9 @@ struct PathJob {
   std::function<bool()> stop{};
 };
 
-/// Runs the planner. A path from a file that comes nowhere within the TIF's reach of a valid pixel is refused. Throws
-/// InputError as the planners do.
+/// Runs the planner. A pitch, cell or step wider than the removal function is refused; moves longer than that with the
+/// tool down are in the notes. A path from a file that comes nowhere within the TIF's reach of a valid pixel is
+/// refused. Throws InputError as the planners do.
 ToolPath plan_path(const PathSpec& spec, const PathJob& job);
 
 }  // namespace dwell

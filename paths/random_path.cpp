@@ -180,7 +180,8 @@ void add_notes(RandomPath& r) {
         r.left_out, r.lattice_points, beside);
     if (unavoidable > 0) {
       note += fmt::format(
-          "{} because a path along the lattice takes black and white points of the chessboard in turn and has two ends",
+          "{} because a path along the lattice takes black and white points of the chessboard in turn and has two ends "
+          "(without lifts)",
           unavoidable);
     }
     if (r.left_out > unavoidable) {

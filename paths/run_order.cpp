@@ -61,9 +61,10 @@ class Orderer {
     while (order.size() < runs_.size()) {
       Candidate best;
       for (const Index line : {line_ + direction_, line_ - direction_, line_}) consider_line(line, best);
-      const bool lifted = !(best.squared <= link * link);
-      if (lifted) best = nearest_of_all();
-      take(best, lifted, order);
+      const double farthest = link * link;  // infinite: never lifted, and still there may be no run on these lines
+      const bool near = best.run >= 0 && best.squared <= farthest;
+      if (!near) best = nearest_of_all();
+      take(best, !near && std::isfinite(farthest), order);
     }
     return order;
   }

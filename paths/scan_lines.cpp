@@ -87,8 +87,9 @@ void check_scan_size(const ScanOptions& options, double lines, double points, co
   const double count = lines * points;
   if (count <= kMaxPathPoints) return;
   throw InputError(
-      fmt::format("{}: pitch = {} mm and step = {} mm make {:.0f} lines of {:.0f} points, {:.3g} in "
-                  "all; at most {:.0e} accepted, make pitch or step larger",
+      fmt::format("{}: pitch = {} mm and step = {} mm make {:.4g} lines of {:.4g} points, {:.3g} in "
+                  "all, over the part and its overrun; at most {:.0e} accepted, make pitch or step larger or overrun "
+                  "smaller",
                   planner, options.pitch, options.step, lines, points, count, kMaxPathPoints));
 }
 

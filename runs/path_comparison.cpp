@@ -6,12 +6,14 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "core/errors.h"
 #include "core/units.h"
 #include "paths/path_coverage.h"
 #include "paths/spanning_tree.h"
+#include "paths/widest_place.h"
 #include "runs/plan_output.h"
 
 namespace dwell {
@@ -22,9 +24,10 @@ RunHooks named(const RunHooks& hooks, const std::string& stage) {
   return {[hooks, stage](const std::string& line) { hooks.report(stage + ": " + line); }, hooks.stop};
 }
 
+/// The rapids, whose time the program does not say: up, and across. The way down is a feed move of the program.
 double lift_time(const PathMetrics& metrics, const JobOptions& o) {
-  const double up_and_down = 2.0 * o.lift_height_mm * static_cast<double>(metrics.lifts);
-  return (metrics.lifted_length + up_and_down) / units::mm_per_s(o.max_feed_mm_per_min);
+  const double up = o.lift_height_mm * static_cast<double>(metrics.lifts);
+  return (metrics.lifted_length + up) / units::mm_per_s(o.max_feed_mm_per_min);
 }
 
 PsdCurve radial_spectrum(const HeightMap& map, int threads) {
@@ -33,21 +36,26 @@ PsdCurve radial_spectrum(const HeightMap& map, int threads) {
   return radial_psd(areal_psd(map, options));
 }
 
-PathRipple constant_feed_ripple(const Plan& plan) {
+/// On a square where the part is widest; a corner may lie beyond the disc by what the path overruns.
+void find_ripple(const Plan& plan, ComparedPath& path) {
+  const WidestPlace place = widest_place(plan.figure);
   PathRippleOptions options;
   options.threads = plan.threads;
-  PathRipple ripple = path_ripple(plan.path, plan.tif, options);
-  ripple.removal = {};
-  return ripple;
+  options.centre = place.centre;
+  options.side = std::min(8.0 * plan.tif.radius, std::numbers::sqrt2 * place.radius);
+  try {
+    path.ripple = path_ripple(plan.path, plan.tif, options);
+    path.ripple->removal = {};
+  } catch (const InputError& error) {
+    path.no_ripple = error.what();
+  }
 }
 
-/// A figure that not every part and path has.
-template <class Measure>
-auto if_possible(const Measure& measure) -> std::optional<decltype(measure())> {
+std::optional<RippleSpectrum> waves_of(const HeightMap& residual, int threads) {
   try {
-    return measure();
+    return ripple_spectrum(residual, {}, threads);
   } catch (const InputError&) {
-    return std::nullopt;
+    return std::nullopt;  // the map shows nothing of the band
   }
 }
 
@@ -55,11 +63,14 @@ void measure(const Plan& plan, double pitch, ComparedPath& path, const RunHooks&
   hooks.report("path: spacing, coverage, spanning tree");
   path.metrics = plan.metrics;
   path.notes = plan.path.notes;
-  path.spacing = path_spacing(plan.path);
+  path.spacing = path_spacing(plan.path, {.reach = 4.0 * plan.tif.radius});
+  hooks.check();
   path.coverage = path_coverage(plan.path, plan.figure, pitch).share();
+  hooks.check();
   path.tree_length = spanning_tree_length(plan.path.points);
+  hooks.check();
   hooks.report("path: ripple at constant feed");
-  path.ripple = if_possible([&] { return constant_feed_ripple(plan); });
+  find_ripple(plan, path);
   hooks.check();
 }
 
@@ -76,7 +87,7 @@ void plan_one(const Plan& job, double pitch, ComparedPath& path, const OutputFol
   path.residual_rms = written.simulated.rms;
   path.residual_pv = written.simulated.pv;
   path.spectrum = radial_spectrum(written.residual, plan.threads);
-  path.residual_ripple = if_possible([&] { return ripple_spectrum(written.residual, {}, plan.threads); });
+  path.residual_ripple = waves_of(written.residual, plan.threads);
   path.dwell_total = plan.dwell.sum();
   path.step_rms = plan.step_rms;
   path.lift_time = lift_time(plan.metrics, plan.options);
@@ -113,8 +124,8 @@ double default_pitch(const RemovalFunction& tif) {
 
 void mark_front(std::vector<ComparedPath>& paths) {
   for (ComparedPath& p : paths) {
-    p.on_front = p.failure.empty() && std::none_of(paths.begin(), paths.end(), [&](const ComparedPath& other) {
-                   return other.failure.empty() && dominates(other, p);
+    p.on_front = p.whole() && std::none_of(paths.begin(), paths.end(), [&](const ComparedPath& other) {
+                   return other.whole() && dominates(other, p);
                  });
   }
 }
@@ -122,6 +133,9 @@ void mark_front(std::vector<ComparedPath>& paths) {
 PathComparison compare_paths(const JobOptions& options, const std::string& list, std::optional<double> pitch,
                              const OutputFolder& folder, const RunHooks& hooks) {
   const auto started = std::chrono::steady_clock::now();
+  if (pitch && !(*pitch > 0.0 && std::isfinite(*pitch))) {
+    throw InputError(fmt::format("--pitch: {}; required a finite number > 0, in mm", *pitch));
+  }
   parse_path_list(list, pitch.value_or(1.0));  // refuses a wrong list before any work is done
   PathComparison comparison;
   comparison.job = read_inputs(options, hooks);

@@ -27,21 +27,25 @@ struct ComparedPath {
   double residual_rms = 0.0;                      // of the program as read back, simulated [nm]
   double residual_pv = 0.0;                       // [nm]
   std::optional<RippleSpectrum> residual_ripple;  // of the residual; none where the map shows nothing of the band
-  /// At constant feed on a fine patch in the middle, whatever the map's pixels: its map is left empty. None where the
-  /// path leaves no room for the patch.
+  /// At constant feed on a fine patch where the part is widest, whatever the map's pixels: its map is left empty. None
+  /// where there is no room for the patch; `no_ripple` says why.
   std::optional<PathRipple> ripple;
+  std::string no_ripple;
   PsdCurve spectrum;         // of the residual, radial
   double dwell_total = 0.0;  // [s]
   double step_rms = 0.0;     // [s]
-  double lift_time = 0.0;    // lifted moves, up and down included, at maximum feed [s]
-  double total_time = 0.0;   // of the program, and lift_time [s]
+  double lift_time = 0.0;    // lifted moves and the way up to them, at maximum feed [s]
+  double total_time = 0.0;   // of the program, the way down after a lift included, and lift_time [s]
   SolverSummary solver;
 
   /// RMS of the residual between the wavelengths 33 and 0.12 mm, as far as the map resolves them [nm].
   std::optional<double> mid_rms() const {
     return residual_ripple ? std::optional<double>(residual_ripple->rms) : std::nullopt;
   }
-  bool on_front = false;  // no other path is as good in residual, mid_rms and total_time, and better in one
+  /// A plan that was cut short is not what the path can do.
+  bool whole() const { return failure.empty() && solver.converged(); }
+  bool on_front =
+      false;  // whole, and no other whole one is as good in residual, mid_rms and total_time, and better in one
 };
 
 struct PathComparison {
@@ -58,8 +62,8 @@ struct PathComparison {
 double default_pitch(const RemovalFunction& tif);
 
 /// Marks the paths that no other dominates in (residual_rms, mid_rms, total_time), all to be small; where the map does
-/// not resolve the mid band of some path it does not of any, and two remain. Failed paths are not on the front. Cost
-/// O(n^2).
+/// not resolve the mid band of some path it does not of any, and two remain. Paths that failed or whose
+/// solve did not converge are neither on the front nor do they keep others off it. Cost O(n^2).
 void mark_front(std::vector<ComparedPath>& paths);
 
 /// Plans every path of `list` for the job, each wholly (path, dwell, program, simulation of the program as read back)

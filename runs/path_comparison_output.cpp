@@ -31,10 +31,20 @@ Json waves_json(const RippleSpectrum& spectrum) {
 
 /// Relative to the mean removal: the depth of the patch is of no meaning.
 Json ripple_json(const PathRipple& ripple) {
+  const double depth = PathRippleOptions().depth;
+  Json peaks = Json::array();
+  for (const RipplePeak& peak : ripple.spectrum.peaks) {
+    peaks.push_back({{"wavelength_mm", peak.wavelength},
+                     {"direction_deg", peak.direction_deg},
+                     {"rms_over_removal", peak.rms / depth},
+                     {"share", peak.share}});
+  }
   return {{"pvn", ripple.pvn},
-          {"rms_over_removal", ripple.rms / PathRippleOptions().depth},
+          {"rms_over_removal", ripple.rms / depth},
+          {"mid_rms_over_removal", ripple.spectrum.rms / depth},
           {"track_spacing_mm", ripple.spacing},
-          {"anisotropy", ripple.spectrum.anisotropy}};
+          {"anisotropy", ripple.spectrum.anisotropy},
+          {"peaks", peaks}};
 }
 
 Json spacing_json(const PathSpacing& s) {
@@ -52,7 +62,7 @@ Json json_of(const ComparedPath& p) {
                {"residual_pv_nm", p.residual_pv},
                {"mid_rms_nm", p.residual_ripple ? Json(p.residual_ripple->rms) : Json(nullptr)},
                {"residual_waves", p.residual_ripple ? waves_json(*p.residual_ripple) : Json(nullptr)},
-               {"ripple", p.ripple ? ripple_json(*p.ripple) : Json(nullptr)},
+               {"ripple", p.ripple ? ripple_json(*p.ripple) : Json{{"missing", p.no_ripple}}},
                {"total_s", p.total_time},
                {"dwell_s", p.dwell_total},
                {"lift_s", p.lift_time},
@@ -125,6 +135,16 @@ std::string quoted(std::string text) {
   return '"' + text + '"';
 }
 
+/// The band as the map resolves it.
+std::string band_text(const PathComparison& comparison) {
+  for (const ComparedPath& p : comparison.paths) {
+    if (!p.residual_ripple) continue;
+    const RippleBand& band = p.residual_ripple->resolved;
+    return fmt::format("{:.4g} to {:.4g} mm, of 33 to 0.12 mm what the map resolves", band.longest, band.shortest);
+  }
+  return "33 to 0.12 mm, not resolved by the map";
+}
+
 struct Cell {
   const char* column;
   std::string text;
@@ -153,6 +173,7 @@ std::vector<Cell> cells_of(const ComparedPath& p) {
           {"longest_jump_mm", number(m.longest_jump)},
           {"point_length_mm", number(m.point_length)},
           {"tree_length_mm", number(p.tree_length)},
+          {"length_over_tree", p.tree_length > 0.0 ? number(m.point_length / p.tree_length) : ""},
           {"reversals", fmt::format("{}", m.reversals)},
           {"sharpest_corner_deg", number(m.sharpest_corner)},
           {"anisotropy", number(m.anisotropy)},
@@ -212,16 +233,21 @@ std::string path_comparison_text(const PathComparison& comparison) {
       continue;
     }
     text += fmt::format("{} {:<{}} {:>12.4g} {:>11} {:>9.2f} {:>11.4g} {:>8} {:>10.6g} {:>6} {:>9} {:>10.2f}\n",
-                        p.on_front ? '*' : ' ', p.listed.name, widest, p.residual_rms,
-                        p.mid_rms() ? fmt::format("{:.4g}", *p.mid_rms()) : "-", p.total_time, p.step_rms,
-                        p.metrics.points, p.metrics.length, p.metrics.lifts,
+                        p.on_front  ? '*'
+                        : p.whole() ? ' '
+                                    : '!',
+                        p.listed.name, widest, p.residual_rms, p.mid_rms() ? fmt::format("{:.4g}", *p.mid_rms()) : "-",
+                        p.total_time, p.step_rms, p.metrics.points, p.metrics.length, p.metrics.lifts,
                         p.ripple ? fmt::format("{:.3g}", 100.0 * p.ripple->pvn) : "-", p.metrics.anisotropy);
+    if (!p.no_ripple.empty()) below += fmt::format("{}: no ripple: {}\n", p.listed.name, p.no_ripple);
     for (const std::string& note : p.notes) below += fmt::format("{}: {}\n", p.listed.name, note);
   }
-  return text +
-         "* on the Pareto front of residual, mid-band RMS (33 to 0.12 mm) and total time. Ripple: peak to valley over "
-         "the mean removal,\n  at constant feed. Anisotropy of the path's directions: 1 = all parallel.\n" +
-         below;
+  text += fmt::format(
+      "* on the Pareto front of residual, mid-band RMS ({}) and total time; ! the solve did not converge.\n"
+      "  Ripple: peak to valley over the mean removal, at constant feed. Anisotropy of the path's directions: 1 = all "
+      "parallel.\n",
+      band_text(comparison));
+  return text + below;
 }
 
 std::string write_path_comparison(const PathComparison& comparison, const OutputFolder& folder) {

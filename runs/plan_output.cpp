@@ -95,6 +95,10 @@ WrittenPlan write_plan(Plan& plan, const OutputFolder& folder, const RunHooks& h
     plan.limits.push_back(fmt::format("the simulated program leaves {:.4g} nm RMS, the solver expected {:.4g} nm",
                                       written.simulated.rms, plan.residual.rms));
   }
+  if (!(written.simulated.rms <= plan.before.rms)) {
+    plan.limits.push_back(fmt::format("the program leaves more than there was: {:.4g} nm RMS, before {:.4g} nm",
+                                      written.simulated.rms, plan.before.rms));
+  }
   written.table_has_same_steps =
       compare_with_table(plan, program, written.simulated, program_of(read_feed_table(folder.path("feed.csv"))));
   hooks.check();

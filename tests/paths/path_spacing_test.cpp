@@ -118,6 +118,23 @@ TEST(PathSpacing, APathWithoutNeighbourHasNone) {
   EXPECT_EQ(path_spacing(line).alone, 1);
 }
 
+TEST(PathSpacing, LooksNoFartherThanItsReach) {
+  RasterOptions raster;
+  raster.pitch = 2.0;
+  raster.step = 0.5;
+  const ToolPath path = raster_path(test::full_map(13, 22, 0.5, 0.7, {40.0, -3.0}), raster);
+  SpacingOptions options;
+  options.reach = 1.9;
+  EXPECT_EQ(path_spacing(path, options).points, 0);
+  options.reach = 2.0 + 1e-9;
+  const PathSpacing within = path_spacing(path, options), all = path_spacing(path);
+  EXPECT_GT(within.points, all.points / 2);
+  EXPECT_NEAR(within.max, 2.0, 1e-9);
+  EXPECT_EQ(within.min, all.min);
+  options.reach = 0.0;
+  EXPECT_EQ(message_of([&] { path_spacing(path, options); }), "path spacing: reach = 0 mm; required > 0");
+}
+
 TEST(PathSpacing, RefusesBadOptionsAndPaths) {
   ToolPath path;
   path.points = {{0, 0}, {1, 0}};

@@ -196,6 +196,27 @@ TEST(PathSpec, PlansAMultiPitchRasterForTheFeed) {
   EXPECT_NE(path.notes[1].find("eq. 12) the dwell would be "), std::string::npos);
 }
 
+TEST(PathSpec, RefusesTracksFartherApartThanTheToolIsWide) {
+  const HeightMap map = test::full_map(20, 21);
+  for (const char* text : {"raster:pitch=6.1", "raster:pitch=1,step=7", "spiral:pitch=500", "random:pitch=1e9",
+                           "nearest:cell=6.5", "multi-pitch:pitches=1/9,depths=0.5", "circles:pitch=1,step=1e7"}) {
+    const std::string message = test::message_of([&] { plan_path(parse_path_spec(text), {map, tool(3.0), 1.0}); });
+    EXPECT_NE(message.find("required at most 6 mm, the removal function's diameter"), std::string::npos)
+        << text << ": " << message;
+  }
+  EXPECT_GT(plan_path(parse_path_spec("raster:pitch=6"), {map, tool(3.0)}).size(), 3u);
+}
+
+TEST(PathSpec, SaysOfLongMovesWithTheToolDown) {
+  const HeightMap map = test::map_from_picture({"11..........11", "11..........11"});
+  const ToolPath path = plan_path(parse_path_spec("nearest:cell=1,lift=inf"), {map, tool(3.0)});
+  ASSERT_EQ(path.notes.size(), 1u);
+  EXPECT_EQ(path.notes[0],
+            "1 moves are longer than the removal function is wide and made with the tool down, the longest 12 mm: they "
+            "remove where they pass");
+  EXPECT_TRUE(plan_path(parse_path_spec("nearest:cell=1"), {map, tool(3.0)}).notes.empty());
+}
+
 TEST(PathSpec, RefusesAFileWhollyOutsideThePart) {
   const std::filesystem::path file = std::filesystem::path(::testing::TempDir()) / "dwell_path_spec_outside.csv";
   std::ofstream(file) << "x_mm,y_mm\n100,200\n101,200\n";

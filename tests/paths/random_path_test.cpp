@@ -174,7 +174,7 @@ TEST(RandomPath, ChessboardWithoutTwoCornersOfAColourLeavesOneOut) {
     EXPECT_EQ(result.path.notes[0],
               "random: 1 of 62 lattice points left out, all of them a pitch from the path, so that it works on their "
               "surroundings: 1 because a path along the lattice takes black and white points of the chessboard in turn "
-              "and has two ends");
+              "and has two ends (without lifts)");
   }
   HeightMap fair = full_map(8, 8);
   fair.at(2, 3) = fair.at(5, 5) = test::kNaN;  // one of each colour

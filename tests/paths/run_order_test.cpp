@@ -35,6 +35,21 @@ Ends ends_of(const LineRun& run, bool backwards, double pitch, double step) {
   return backwards ? Ends{last, y, first, y} : Ends{first, y, last, y};
 }
 
+TEST(RunOrder, WithAnInfiniteLinkVisitsAllWithoutALift) {
+  std::mt19937_64 random(3);
+  for (int trial = 0; trial < 60; ++trial) {
+    const std::vector<LineRun> runs = random_runs(random, 2 + static_cast<Index>(random() % 14));
+    for (const double link : {test::kInf, 1e300}) {  // whose square is infinite as well
+      const std::vector<OrderedRun> order = order_runs(runs, 0.7, 0.4, link);
+      ASSERT_EQ(order.size(), runs.size());
+      std::vector<int> visits(runs.size(), 0);
+      for (const OrderedRun& o : order) ++visits.at(static_cast<std::size_t>(o.run));
+      EXPECT_EQ(std::count(visits.begin(), visits.end(), 1), static_cast<std::ptrdiff_t>(runs.size()));
+      for (std::size_t k = 1; k < order.size(); ++k) EXPECT_FALSE(order[k].lifted);
+    }
+  }
+}
+
 /// Every choice against all ends of all runs that are left.
 TEST(RunOrder, EveryMoveIsToTheNearestEnd) {
   std::mt19937_64 random(11);
