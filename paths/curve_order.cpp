@@ -92,9 +92,9 @@ class Gaps {
   void add_note(ToolPath& path) const {
     if (linked_ + lifted_ == 0) return;
     path.notes.push_back(fmt::format(
-        "{}: points outside the part break the curve in {} places; {} are linked by a straight move over the part, at "
+        "points outside the part break the curve in {} places; {} are linked by a straight move over the part, at "
         "{} the tool is lifted",
-        kind_, linked_ + lifted_, linked_, lifted_));
+        linked_ + lifted_, linked_, lifted_));
   }
 
  private:

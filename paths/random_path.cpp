@@ -175,7 +175,7 @@ void add_notes(RandomPath& r) {
     const std::string beside = r.left_out_beside == r.left_out ? "all" : std::to_string(r.left_out_beside);
     const Index unavoidable = std::min(r.left_out, r.must_leave_out);
     std::string note = fmt::format(
-        "random: {} of {} lattice points left out, {} of them a pitch from the path, so that it works on their "
+        "{} of {} lattice points left out, {} of them a pitch from the path, so that it works on their "
         "surroundings: ",
         r.left_out, r.lattice_points, beside);
     if (unavoidable > 0) {
@@ -192,11 +192,11 @@ void add_notes(RandomPath& r) {
   }
   if (r.pieces > 1) {
     r.path.notes.push_back(
-        fmt::format("random: the lattice points fall into {} pieces; the tool is lifted between them", r.pieces));
+        fmt::format("the lattice points fall into {} pieces; the tool is lifted between them", r.pieces));
   }
   if (r.lifts_in_pieces > 0) {
     r.path.notes.push_back(
-        fmt::format("random: the tool is lifted in {} more places, because no single path through all of a piece was "
+        fmt::format("the tool is lifted in {} more places, because no single path through all of a piece was "
                     "found (narrow or "
                     "ragged places); a smaller pitch or a larger overrun may help",
                     r.lifts_in_pieces));

@@ -172,7 +172,7 @@ TEST(RandomPath, ChessboardWithoutTwoCornersOfAColourLeavesOneOut) {
     EXPECT_EQ(result.left_out, 1);
     ASSERT_EQ(result.path.notes.size(), 1u);
     EXPECT_EQ(result.path.notes[0],
-              "random: 1 of 62 lattice points left out, all of them a pitch from the path, so that it works on their "
+              "1 of 62 lattice points left out, all of them a pitch from the path, so that it works on their "
               "surroundings: 1 because a path along the lattice takes black and white points of the chessboard in turn "
               "and has two ends (without lifts)");
   }
@@ -233,7 +233,7 @@ TEST(RandomPath, PiecesAreJoinedByLifts) {
   EXPECT_EQ(result.pieces, 5);
   EXPECT_EQ(result.left_out, 0);
   EXPECT_EQ(result.path.notes,
-            std::vector<std::string>{"random: the lattice points fall into 5 pieces; the tool is lifted between them"});
+            std::vector<std::string>{"the lattice points fall into 5 pieces; the tool is lifted between them"});
 }
 
 TEST(RandomPath, SoundOnRandomApertures) {
