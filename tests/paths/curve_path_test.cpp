@@ -132,7 +132,7 @@ TEST_P(CurvePath, LinksOnlyOverThePart) {
     linked += linked_here;
     lifted += lifted_here;
     if (linked_here + lifted_here > 0) {
-      const std::string note = std::string(GetParam().name) + ": points outside the part break the curve in " +
+      const std::string note = "points outside the part break the curve in " +
                                std::to_string(linked_here + lifted_here) + " places; " + std::to_string(linked_here) +
                                " are linked by a straight move over the part, at " + std::to_string(lifted_here) +
                                " the tool is lifted";
