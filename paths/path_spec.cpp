@@ -102,6 +102,7 @@ ToolPath planned(RasterOptions options, const PathJob& job) {
 
 ToolPath planned(const MultiPitchOptions& options, const PathJob& job) {
   MultiPitchPath planned = multi_pitch_path(job.target, job.tif, job.max_feed, options);
+  if (!job.estimates) return std::move(planned.path);
   const DepthFeedJob by_depth{job.tif.volume, planned.lowest, job.max_feed, planned.step};
   const DepthFeed cheap = depth_feed(job.target, planned.path, planned.pitch_of_points(), by_depth);
   planned.path.notes.push_back(

@@ -56,6 +56,9 @@ struct PathJob {
   const HeightMap& target;                                    // removal wanted [nm], NaN = outside
   const RemovalFunction& tif;                                 // its radius is the default overrun
   double max_feed = std::numeric_limits<double>::infinity();  // [mm/s]
+  /// Whether notes say what has to be worked out besides the path: the feed by depth of a multi-pitch raster, which
+  /// takes as long as planning it.
+  bool estimates = false;
   /// Asked now and then by the improvement of paths, which takes long; true ends it with what has been reached.
   std::function<bool()> stop{};
 };

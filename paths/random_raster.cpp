@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <random>
 #include <string>
 #include <vector>
 
 #include "core/errors.h"
 #include "core/number_text.h"
 #include "paths/corner_rounding.h"
+#include "paths/dice.h"
 #include "paths/scan_lines.h"
 
 namespace dwell {
@@ -39,11 +39,11 @@ double parse_spread(const SpecText& spec, double pitch, double fallback) {
 /// Positions of lines over a range, as many as fit, their block in its middle.
 std::vector<double> draw_positions(const Interval& range, const RandomRasterOptions& options, const ScanOptions& scan,
                                    double points_a_line) {
-  std::mt19937_64 generator(options.seed);
+  Dice dice(options.seed);
   const double width = range.length() + 2.0 * scan.overrun;
   std::vector<double> positions{0.0};
   while (true) {
-    const double share = static_cast<double>(generator() >> 11) * 0x1p-53;  // 0 to 1, the same on every machine
+    const double share = static_cast<double>(dice.bits() >> 11) * 0x1p-53;  // 0 to 1, the same on every machine
     const double next = positions.back() + options.pitch * (1.0 + options.spread * (2.0 * share - 1.0));
     if (next > width + kRounding * options.pitch) break;
     positions.push_back(next);

@@ -96,7 +96,7 @@ void lay_path(Plan& plan, const RunHooks& hooks) {
     throw InputError("--path: required; for instance raster:pitch=1, nearest:cell=2 or file:path.csv");
   plan.motion = parse_motion(o.motion);
   const PathSpec spec = parse_path_spec(o.path);
-  plan.path = rounded(plan_path(spec, {plan.figure, plan.tif, feed_limits(o).max_feed, hooks.stop}));
+  plan.path = rounded(plan_path(spec, {plan.figure, plan.tif, feed_limits(o).max_feed, true, hooks.stop}));
   hooks.check();
   if (const auto* file = std::get_if<PathFromFile>(&spec)) {
     plan.inputs.push_back({"path", file->file.string(), sha256_of_file(file->file)});

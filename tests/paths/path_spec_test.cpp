@@ -190,7 +190,7 @@ TEST(PathSpec, PlansAMultiPitchRasterForTheFeed) {
               plan_path(parse_path_spec("multi-pitch"), {map, tool(3.0)});
             }).find("required: a fastest feed"),
             std::string::npos);
-  const ToolPath path = plan_path(parse_path_spec("multi-pitch:ranges=3"), {map, tool(3.0), 1.0});
+  const ToolPath path = plan_path(parse_path_spec("multi-pitch:ranges=3"), {map, tool(3.0), 1.0, true});
   EXPECT_EQ(path.kind, "multi-pitch");
   ASSERT_EQ(path.notes.size(), 2u);
   EXPECT_NE(path.notes[1].find("eq. 12) the dwell would be "), std::string::npos);
