@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "runs/canvas.h"
+#include "runs/drawing/canvas.h"
 
 namespace dwell::bench {
 namespace {

@@ -15,8 +15,8 @@
 #include "bench/results.h"
 #include "bench/solve_run.h"
 #include "bench/suite.h"
-#include "core/errors.h"
-#include "core/whole_file.h"
+#include "core/base/errors.h"
+#include "core/base/whole_file.h"
 
 namespace dwell::bench {
 namespace {

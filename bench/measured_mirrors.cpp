@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "core/map_io.h"
+#include "core/formats/map_io.h"
 #include "paths/path_file.h"
 
 namespace dwell::bench {

@@ -11,14 +11,14 @@
 
 #include "bench/map_file.h"
 #include "bench/single_fft.h"
-#include "core/fft.h"
-#include "core/lattice_removal.h"
-#include "core/polynomial_fit.h"
-#include "core/psd.h"
-#include "core/scattered_removal.h"
-#include "core/sparse_removal.h"
-#include "paths/nearest_neighbour.h"
-#include "runs/random_numbers.h"
+#include "core/form/polynomial_fit.h"
+#include "core/numerics/fft.h"
+#include "core/removal/lattice_removal.h"
+#include "core/removal/scattered_removal.h"
+#include "core/removal/sparse_removal.h"
+#include "core/spectra/psd.h"
+#include "paths/tours/nearest_neighbour.h"
+#include "runs/example/random_numbers.h"
 
 namespace dwell::bench {
 namespace {
@@ -85,7 +85,7 @@ void time_operator(benchmark::State& state, const std::string& kind, bool adjoin
   }
 }
 
-/// The forward and the inverse transform alone, by the plans of core/fft.h: the floor under every convolution.
+/// The forward and the inverse transform alone, by the plans of core/numerics/fft.h: the floor under every convolution.
 void time_fft_pair(benchmark::State& state, Index padded, int threads) {
   RealFft2D fft(padded, padded, threads);
   // All zero: unnormalised pairs would otherwise overflow, and a transform takes the same time whatever its input.

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "core/height_map.h"
+#include "core/map/height_map.h"
 
 namespace dwell::bench {
 

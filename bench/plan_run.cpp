@@ -9,8 +9,8 @@
 #include "bench/child.h"
 #include "bench/mirror.h"
 #include "bench/scratch_folder.h"
-#include "core/npy.h"
-#include "core/whole_file.h"
+#include "core/base/whole_file.h"
+#include "core/formats/npy.h"
 
 namespace dwell::bench {
 namespace {

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "bench/json_access.h"
-#include "paths/path_metrics.h"
+#include "paths/metrics/path_metrics.h"
 #include "paths/path_spec.h"
-#include "runs/random_numbers.h"
+#include "runs/example/random_numbers.h"
 
 namespace dwell::bench {
 namespace {

@@ -6,8 +6,8 @@
 #include <stdexcept>
 
 #include "bench/machine.h"
-#include "core/whole_file.h"
-#include "solvers/certificate.h"
+#include "core/base/whole_file.h"
+#include "solvers/problem/certificate.h"
 
 namespace dwell::bench {
 namespace {

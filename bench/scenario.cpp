@@ -8,10 +8,10 @@
 
 #include "bench/measured_mirrors.h"
 #include "bench/mirror.h"
-#include "core/errors.h"
-#include "core/form.h"
-#include "core/removal_geometry.h"
-#include "runs/example.h"
+#include "core/base/errors.h"
+#include "core/form/form.h"
+#include "core/removal/removal_geometry.h"
+#include "runs/example/example.h"
 
 namespace dwell::bench {
 namespace {

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "core/height_map.h"
-#include "core/removal_kernel.h"
-#include "core/tool_path.h"
-#include "solvers/dwell_problem.h"
+#include "core/map/height_map.h"
+#include "core/motion/tool_path.h"
+#include "core/tif/removal_kernel.h"
+#include "solvers/problem/dwell_problem.h"
 
 namespace dwell::bench {
 

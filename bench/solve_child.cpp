@@ -4,7 +4,7 @@
 
 #include "bench/child.h"
 #include "bench/scratch_folder.h"
-#include "core/whole_file.h"
+#include "core/base/whole_file.h"
 
 namespace dwell::bench {
 

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "solvers/dwell_solver.h"
+#include "solvers/problem/dwell_solver.h"
 
 namespace dwell::bench {
 

@@ -11,8 +11,8 @@
 #include <fstream>
 #include <limits>
 
-#include "core/errors.h"
-#include "solvers/certificate.h"
+#include "core/base/errors.h"
+#include "solvers/problem/certificate.h"
 
 namespace dwell::bench {
 namespace {

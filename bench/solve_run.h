@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "bench/scenario.h"
-#include "solvers/dwell_solver.h"
+#include "solvers/problem/dwell_solver.h"
 
 namespace dwell::bench {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bench/budget.h"
-#include "solvers/dwell_solver.h"
+#include "solvers/problem/dwell_solver.h"
 
 namespace dwell::bench {
 

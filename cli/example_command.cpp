@@ -4,7 +4,7 @@
 
 #include "cli/commands.h"
 #include "cli/terminal.h"
-#include "runs/example_files.h"
+#include "runs/example/example_files.h"
 
 namespace dwell::cli {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "runs/job_file.h"
+#include "runs/job/job_file.h"
 
 namespace dwell::cli {
 

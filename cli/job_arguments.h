@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "runs/job_options.h"
+#include "runs/job/job_options.h"
 
 namespace dwell::cli {
 

@@ -9,8 +9,8 @@
 #include "cli/commands.h"
 #include "cli/memory.h"
 #include "cli/terminal.h"
-#include "core/errors.h"
-#include "core/version.h"
+#include "core/base/errors.h"
+#include "core/base/version.h"
 
 namespace {
 

@@ -7,13 +7,13 @@
 #include <filesystem>
 #include <system_error>
 
-#include "core/errors.h"
-#include "core/map_formats.h"
-#include "core/map_io.h"
-#include "core/map_name.h"
-#include "core/npy_sidecar.h"
-#include "core/number_text.h"
-#include "core/whole_file.h"
+#include "core/base/errors.h"
+#include "core/base/number_text.h"
+#include "core/base/whole_file.h"
+#include "core/formats/map_formats.h"
+#include "core/formats/map_io.h"
+#include "core/formats/map_name.h"
+#include "core/formats/npy_sidecar.h"
 
 namespace dwell::cli {
 namespace {

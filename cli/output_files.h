@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "core/height_map.h"
+#include "core/map/height_map.h"
 
 namespace dwell::cli {
 

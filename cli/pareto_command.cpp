@@ -6,7 +6,7 @@
 #include "cli/commands.h"
 #include "cli/job_arguments.h"
 #include "cli/terminal.h"
-#include "runs/pareto_output.h"
+#include "runs/campaigns/pareto_output.h"
 
 namespace dwell::cli {
 namespace {

@@ -7,9 +7,9 @@
 #include "cli/commands.h"
 #include "cli/job_arguments.h"
 #include "cli/terminal.h"
-#include "core/errors.h"
+#include "core/base/errors.h"
 #include "paths/path_spec.h"
-#include "runs/path_comparison_output.h"
+#include "runs/campaigns/path_comparison_output.h"
 
 namespace dwell::cli {
 namespace {

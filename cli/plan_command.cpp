@@ -6,9 +6,9 @@
 #include "cli/commands.h"
 #include "cli/job_arguments.h"
 #include "cli/terminal.h"
-#include "core/units.h"
-#include "runs/job_file.h"
-#include "runs/plan_output.h"
+#include "core/base/units.h"
+#include "runs/job/job_file.h"
+#include "runs/plan/plan_output.h"
 
 namespace dwell::cli {
 namespace {

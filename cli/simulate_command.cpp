@@ -7,10 +7,10 @@
 #include "cli/job_arguments.h"
 #include "cli/output_files.h"
 #include "cli/terminal.h"
-#include "core/map_formats.h"
-#include "runs/map_steps.h"
-#include "runs/picture.h"
-#include "runs/simulation.h"
+#include "core/formats/map_formats.h"
+#include "runs/drawing/picture.h"
+#include "runs/map_steps/map_steps.h"
+#include "runs/reports/simulation.h"
 
 namespace dwell::cli {
 namespace {

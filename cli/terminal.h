@@ -1,6 +1,6 @@
 #pragma once
 
-#include "runs/run_hooks.h"
+#include "runs/base/run_hooks.h"
 
 namespace dwell::cli {
 

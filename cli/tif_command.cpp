@@ -6,11 +6,11 @@
 #include "cli/job_arguments.h"
 #include "cli/output_files.h"
 #include "cli/terminal.h"
-#include "core/errors.h"
-#include "core/map_formats.h"
-#include "runs/tif_picture.h"
-#include "runs/tif_report.h"
-#include "runs/tif_run.h"
+#include "core/base/errors.h"
+#include "core/formats/map_formats.h"
+#include "runs/reports/tif_picture.h"
+#include "runs/reports/tif_report.h"
+#include "runs/reports/tif_run.h"
 
 namespace dwell::cli {
 namespace {

@@ -9,7 +9,7 @@ endfunction()
 
 function(dwell_library name)
   cmake_parse_arguments(ARG "" "" "PUBLIC;PRIVATE" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp)
   add_library(dwell_${name} STATIC ${sources})
   add_library(dwell::${name} ALIAS dwell_${name})
   set_target_properties(dwell_${name} PROPERTIES EXPORT_NAME ${name} OUTPUT_NAME dwell_${name})

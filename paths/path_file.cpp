@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include "core/errors.h"
-#include "core/number_text.h"
-#include "core/whole_file.h"
+#include "core/base/errors.h"
+#include "core/base/number_text.h"
+#include "core/base/whole_file.h"
 
 namespace dwell {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/tool_path.h"
+#include "core/motion/tool_path.h"
 
 namespace dwell {
 

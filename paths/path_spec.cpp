@@ -6,13 +6,13 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/errors.h"
-#include "core/spec_text.h"
-#include "paths/depth_feed.h"
-#include "paths/distance_map.h"
+#include "core/base/errors.h"
+#include "core/base/spec_text.h"
+#include "paths/domain/distance_map.h"
+#include "paths/feed/depth_feed.h"
+#include "paths/metrics/track_overlap.h"
+#include "paths/metrics/track_profile.h"
 #include "paths/path_file.h"
-#include "paths/track_overlap.h"
-#include "paths/track_profile.h"
 
 namespace dwell {
 namespace {

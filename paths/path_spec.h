@@ -7,20 +7,20 @@
 #include <variant>
 #include <vector>
 
-#include "core/height_map.h"
-#include "core/removal_function.h"
-#include "core/tool_path.h"
-#include "paths/circles.h"
-#include "paths/cross_hatch.h"
-#include "paths/fibonacci.h"
-#include "paths/hilbert.h"
-#include "paths/multi_pitch.h"
-#include "paths/nearest_neighbour.h"
-#include "paths/peano.h"
-#include "paths/random_path.h"
-#include "paths/random_raster.h"
-#include "paths/raster.h"
-#include "paths/spiral.h"
+#include "core/map/height_map.h"
+#include "core/motion/tool_path.h"
+#include "core/tif/removal_function.h"
+#include "paths/curves/circles.h"
+#include "paths/curves/fibonacci.h"
+#include "paths/curves/spiral.h"
+#include "paths/lattice/hilbert.h"
+#include "paths/lattice/peano.h"
+#include "paths/lattice/random_path.h"
+#include "paths/lines/cross_hatch.h"
+#include "paths/lines/multi_pitch.h"
+#include "paths/lines/random_raster.h"
+#include "paths/lines/raster.h"
+#include "paths/tours/nearest_neighbour.h"
 
 namespace dwell {
 

@@ -27,9 +27,9 @@ auto violation(const std::string& path, std::size_t line, const std::string& par
 
 // The smallest house without fault.
 std::vector<SourceFile> sound_house() {
-  return {{"core/fourier.h", "#pragma once\n"},
-          {"core/fourier.cpp", "#include \"core/fourier.h\"\n\n#include <fftw3.h>\n"},
-          {"paths/raster.h", "#include \"core/fourier.h\"\n"},
+  return {{"core/numerics/fourier.h", "#pragma once\n"},
+          {"core/numerics/fourier.cpp", "#include \"core/numerics/fourier.h\"\n\n#include <fftw3.h>\n"},
+          {"paths/raster.h", "#include \"core/numerics/fourier.h\"\n"},
           {"solvers/gradient.h", "#include <Eigen/Core>\n"},
           {"runs/plan.h", "#include \"paths/raster.h\"\n#include \"solvers/gradient.h\"\n"},
           {"cli/plan_command.cpp", "#include <CLI/CLI.hpp>\n#include \"runs/plan.h\"\n"}};
@@ -37,7 +37,7 @@ std::vector<SourceFile> sound_house() {
 
 TEST(HouseRules, HoldForTheTree) {
   const std::vector<SourceFile> files = read_house(DWELL_SOURCE_DIR);
-  EXPECT_THAT(files, ::testing::Contains(Field(&SourceFile::path, "core/tool_path.cpp")));
+  EXPECT_THAT(files, ::testing::Contains(Field(&SourceFile::path, "core/motion/tool_path.cpp")));
   EXPECT_THAT(check_house(files), IsEmpty());
 }
 
@@ -72,12 +72,12 @@ INSTANTIATE_TEST_SUITE_P(
         Break{"UpAndOver", {"core/a.cpp", "#include \"../paths/b.h\"\n"}, 1, "in no folder"},
         Break{"Tests", {"core/a.cpp", "#include \"tests/b.h\"\n"}, 1, "in no folder"},
         Break{"Macro", {"core/a.cpp", "#include HEADER\n"}, 1, "by macro"},
-        Break{"CeresElsewhere", {"solvers/gradient.cpp", "#include <ceres/ceres.h>\n"}, 1, "ceres_*"},
-        Break{"CeresInCore", {"core/ceres_fit.cpp", "#include <ceres/ceres.h>\n"}, 1, "ceres_*"},
-        Break{"NLoptElsewhere", {"solvers/ceres_solver.cpp", "#include <nlopt.hpp>\n"}, 1, "nlopt_*"},
-        Break{"Hdf5Elsewhere", {"core/zygo_datx.cpp", "#include <hdf5.h>\n"}, 1, "core/hdf5_*"},
-        Break{"FitsElsewhere", {"runs/fits_picture.cpp", "#include <fitsio.h>\n"}, 1, "core/fits_*"},
-        Break{"FftwInSolvers", {"solvers/a.cpp", "#include <fftw3.h>\n"}, 1, "only core"},
+        Break{"CeresElsewhere", {"solvers/native/gradient.cpp", "#include <ceres/ceres.h>\n"}, 1, "solvers/peers"},
+        Break{"CeresInCore", {"core/ceres_fit.cpp", "#include <ceres/ceres.h>\n"}, 1, "solvers/fits"},
+        Break{"NLoptElsewhere", {"solvers/fits/registration.cpp", "#include <nlopt.hpp>\n"}, 1, "solvers/weights"},
+        Break{"Hdf5Elsewhere", {"core/formats/zygo_datx.cpp", "#include <hdf5.h>\n"}, 1, "core/formats/hdf5_*"},
+        Break{"FitsElsewhere", {"runs/fits_picture.cpp", "#include <fitsio.h>\n"}, 1, "core/formats/fits_*"},
+        Break{"FftwInSolvers", {"solvers/a.cpp", "#include <fftw3.h>\n"}, 1, "only core/numerics"},
         Break{"CmathInCli", {"cli/a.cpp", "#include <cmath>\n"}, 1, "no mathematics"},
         Break{"EigenInCli", {"cli/a.cpp", "#include <vector>\n#include <Eigen/Dense>\n"}, 2, "no mathematics"},
         Break{"LongFile", {"core/a.h", std::string(kMaxLines + 1, '\n')}, kMaxLines + 1, "401 lines"},
@@ -90,8 +90,8 @@ class FileAllowance : public ::testing::TestWithParam<SourceFile> {};
 TEST_P(FileAllowance, IsGranted) { EXPECT_THAT(check_file(GetParam()), IsEmpty()); }
 
 INSTANTIATE_TEST_SUITE_P(, FileAllowance,
-                         ::testing::Values(SourceFile{"solvers/ceres_solver.cpp", "#include <ceres/ceres.h>\n"},
-                                           SourceFile{"solvers/nlopt_solver.cpp", "#include <nlopt.hpp>\n"},
+                         ::testing::Values(SourceFile{"solvers/peers/ceres_solver.cpp", "#include <ceres/ceres.h>\n"},
+                                           SourceFile{"solvers/weights/nlopt_search.cpp", "#include <nlopt.hpp>\n"},
                                            SourceFile{"runs/a.cpp", "#include \"core/b.h\"\n#include <cmath>\n"},
                                            SourceFile{"core/a.cpp", "// #include \"runs/b.h\"\n"},
                                            SourceFile{"core/a.h", std::string(kMaxLines, '\n')}));
@@ -115,11 +115,11 @@ TEST(HouseRules, LetSourcesThatExtendAHeadersNameShareIt) {
 
 TEST(HouseRules, GiveFftwOneUser) {
   std::vector<SourceFile> files = sound_house();
-  files.push_back({"core/second.h", "#include <fftw3.h>\n"});
-  EXPECT_THAT(check_house(files), ElementsAre(violation("core/fourier.cpp", 3, "exactly one"),
-                                              violation("core/second.h", 1, "exactly one")));
+  files.push_back({"core/numerics/second.h", "#include <fftw3.h>\n"});
+  EXPECT_THAT(check_house(files), ElementsAre(violation("core/numerics/fourier.cpp", 3, "exactly one"),
+                                              violation("core/numerics/second.h", 1, "exactly one")));
   files = sound_house();
-  files[1].text = "#include \"core/fourier.h\"\n";
+  files[1].text = "#include \"core/numerics/fourier.h\"\n";
   EXPECT_THAT(check_house(files), ElementsAre(violation("core", 0, "no file includes FFTW")));
 }
 

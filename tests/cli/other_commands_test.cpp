@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "core/version.h"
-#include "core/whole_file.h"
+#include "core/base/version.h"
+#include "core/base/whole_file.h"
 #include "tests/cli/small_inputs.h"
-#include "tests/core/same_map.h"
+#include "tests/core/map/same_map.h"
 
 namespace dwell {
 namespace {

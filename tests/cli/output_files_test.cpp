@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
-#include "core/whole_file.h"
+#include "core/base/whole_file.h"
 #include "tests/cli/small_inputs.h"
 
 namespace dwell {

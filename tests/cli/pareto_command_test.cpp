@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <set>
 
-#include "core/whole_file.h"
+#include "core/base/whole_file.h"
 #include "tests/cli/small_inputs.h"
 
 namespace dwell {

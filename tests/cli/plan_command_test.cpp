@@ -3,7 +3,7 @@
 
 #include <set>
 
-#include "core/whole_file.h"
+#include "core/base/whole_file.h"
 #include "tests/cli/small_inputs.h"
 
 namespace dwell {

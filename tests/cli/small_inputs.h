@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/map_io.h"
+#include "core/formats/map_io.h"
 #include "tests/cli/program_run.h"
-#include "tests/core/temporary_folder.h"
+#include "tests/core/base/temporary_folder.h"
 
 namespace dwell::test {
 

@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "core/whole_file.h"
+#include "core/base/whole_file.h"
 #include "tests/cli/small_inputs.h"
-#include "tests/core/spot_truth.h"
+#include "tests/core/tif/calibration/spot_truth.h"
 
 namespace dwell {
 namespace {

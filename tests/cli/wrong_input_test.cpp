@@ -6,7 +6,7 @@
 #include <functional>
 #include <set>
 
-#include "core/whole_file.h"
+#include "core/base/whole_file.h"
 #include "tests/cli/small_inputs.h"
 
 namespace dwell {

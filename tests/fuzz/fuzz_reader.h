@@ -5,8 +5,8 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "core/errors.h"
-#include "core/map_source.h"
+#include "core/base/errors.h"
+#include "core/formats/map_source.h"
 
 /// What libFuzzer calls. A target is a file reader_NAME.cpp that defines it; its first inputs are in seeds/NAME.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);

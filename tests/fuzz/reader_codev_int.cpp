@@ -1,4 +1,4 @@
-#include "core/codev_int.h"
+#include "core/formats/codev_int.h"
 #include "tests/fuzz/fuzz_reader.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

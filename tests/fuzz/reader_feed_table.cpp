@@ -1,4 +1,4 @@
-#include "runs/feed_table.h"
+#include "runs/programs/feed_table.h"
 #include "tests/fuzz/fuzz_reader.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

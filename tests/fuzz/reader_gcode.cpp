@@ -1,4 +1,4 @@
-#include "runs/gcode_reader.h"
+#include "runs/programs/gcode_reader.h"
 #include "tests/fuzz/fuzz_reader.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

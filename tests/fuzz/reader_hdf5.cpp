@@ -1,4 +1,4 @@
-#include "core/hdf5_map.h"
+#include "core/formats/hdf5_map.h"
 #include "tests/fuzz/fuzz_reader.h"
 
 // The library reads in a process of its own: what is tried here is that nothing comes through from there.

@@ -1,4 +1,4 @@
-#include "core/matrix_text.h"
+#include "core/formats/matrix_text.h"
 #include "tests/fuzz/fuzz_reader.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

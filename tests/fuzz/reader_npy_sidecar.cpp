@@ -1,4 +1,4 @@
-#include "core/npy_sidecar.h"
+#include "core/formats/npy_sidecar.h"
 #include "tests/fuzz/fuzz_reader.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/sdf_text.h"
+#include "core/formats/sdf_text.h"
 #include "tests/fuzz/fuzz_reader.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -1,7 +1,7 @@
 #include <cmath>
 
-#include "core/point_grid.h"
-#include "core/xyz_text.h"
+#include "core/formats/point_grid.h"
+#include "core/formats/xyz_text.h"
 #include "tests/fuzz/fuzz_reader.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "tests/paths/path_test_util.h"
+#include "tests/paths/domain/path_test_util.h"
 
 namespace dwell {
 namespace {

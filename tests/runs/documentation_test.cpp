@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "core/whole_file.h"
-#include "runs/job_options.h"
+#include "core/base/whole_file.h"
+#include "runs/job/job_options.h"
 
 namespace dwell {
 namespace {

@@ -7,15 +7,15 @@
 #include <map>
 #include <set>
 
-#include "core/aperture.h"
-#include "core/errors.h"
-#include "core/map_io.h"
-#include "core/npy_sidecar.h"
-#include "core/spec_text.h"
-#include "core/whole_file.h"
+#include "core/base/errors.h"
+#include "core/base/spec_text.h"
+#include "core/base/whole_file.h"
+#include "core/formats/map_io.h"
+#include "core/formats/npy_sidecar.h"
+#include "core/map/aperture.h"
 #include "paths/path_file.h"
 #include "paths/path_spec.h"
-#include "runs/program_reader.h"
+#include "runs/programs/program_reader.h"
 
 namespace dwell {
 namespace {

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <limits>
 
-#include "core/errors.h"
-#include "solvers/certificate.h"
-#include "solvers/dwell_solver.h"
-#include "tests/solvers/random_problem.h"
+#include "core/base/errors.h"
+#include "solvers/problem/certificate.h"
+#include "solvers/problem/dwell_solver.h"
+#include "tests/solvers/problem/random_problem.h"
 
 namespace dwell {
 namespace {

@@ -1,0 +1,22 @@
+#include "core/form/robust_pv.h"
+
+#include <cmath>
+
+#include "core/form/map_statistics.h"
+
+namespace dwell {
+
+std::optional<RobustPv> robust_pv(const HeightMap& map, int threads) {
+  static const PolynomialSpec kFringe36 = parse_polynomial_spec("zernike-fringe:1-36");
+  HeightMap residual = map;
+  const PolynomialFit fit = remove_polynomials(residual, kFringe36, threads);
+  if (map.valid_pixels() < static_cast<Index>(fit.terms.size())) return std::nullopt;
+  RobustPv result;
+  result.residual_rms = map_statistics(residual, {}, threads).rms;
+  for (std::size_t i = 0; i < map.values.size(); ++i) residual.values[i] = map.values[i] - residual.values[i];
+  result.fit_pv = map_statistics(residual, {}, threads).pv;
+  result.pvr = result.fit_pv + 3.0 * result.residual_rms;
+  return result;
+}
+
+}  // namespace dwell

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "core/formats/map_source.h"
+#include "core/map/height_map.h"
+
+namespace dwell {
+
+/// A format that holds a regular array of heights. Formats are tried in the order of the table.
+struct MapFormat {
+  const char* name;  // as messages list it: "an NPY array (.npy)"
+  /// Whether a file of these first bytes and this extension (lower case, with its dot) is to be read as one.
+  bool (*claims)(std::string_view bytes, std::string_view extension);
+  /// Reads it. `where` begins error messages ("map part.dat"). Throws InputError naming byte, line or field.
+  MapSource (*read)(std::string_view bytes, const std::string& where);
+  /// Reads the array at a path in a file that may hold several (core/formats/map_name.h); null for formats that hold
+  /// one.
+  MapSource (*read_inside)(std::string_view bytes, const std::string& path, const std::string& where) = nullptr;
+};
+
+/// The format that claims the file, or null: text, lines x y z (core/formats/xyz_text.h) or a matrix
+/// (core/formats/matrix_text.h).
+const MapFormat* map_format_of(std::string_view bytes, std::string_view extension);
+
+/// What read_map accepts, for messages: names of all formats.
+std::string accepted_map_formats();
+
+/// A format that maps are written in, by the extension of the file (lower case, with its dot).
+struct MapWriter {
+  const char* extension;
+  /// Writes the file, and what belongs to it, whole or not at all.
+  void (*write)(const std::filesystem::path& file, const HeightMap& map);
+};
+
+/// The writer of an extension, or null.
+const MapWriter* map_writer_of(std::string_view extension);
+
+/// What write_map accepts, for messages: ".csv, .txt, ... and .npy".
+std::string written_map_extensions();
+
+}  // namespace dwell

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "core/map/height_map.h"
+
+namespace dwell {
+
+/// What a map file does not say about itself.
+struct MapReadOptions {
+  std::optional<double> pitch;                 // pixel pitch [mm]; required by files that carry none
+  std::optional<Point> origin;                 // centre of pixel (0, 0) [mm]; default (0, 0), or what the file says
+  double scale = 1.0;                          // factor from the file's value unit to nm (or nm/s)
+  std::string name = "map";                    // what error messages call it: "map" or "tif"
+  MapQuantity quantity = MapQuantity::Height;  // what the values are; a file that says otherwise is refused
+};
+
+/// Reads a map by the file's content and extension (docs/formats.md). `file` may name one array of a file that holds
+/// several, as `run.h5:/before` (core/formats/map_name.h). What an NPY array does not say is taken from its sidecar
+/// (core/formats/npy_sidecar.h), if it has one.
+/// Throws InputError naming file, line or field, value, and what is accepted.
+HeightMap read_map(const std::filesystem::path& file, const MapReadOptions& options = {});
+
+/// Writes a map, whole or not at all, in the format of the extension (core/formats/map_formats.h); an NPY array with
+/// its sidecar. Values are written in nm (rates in nm/s) so that they read back equal.
+void write_map(const std::filesystem::path& file, const HeightMap& map);
+
+}  // namespace dwell

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/formats/map_header.h"
+
+namespace dwell {
+
+/// What a reader found in a file that holds a regular array of heights, before the user's options have a say:
+/// read_map (core/formats/map_io.h) applies pitch, origin and unit of options and header, which must agree.
+struct MapSource {
+  Index rows = 0;
+  Index cols = 0;
+  std::vector<double> values;  // row-major, row 0 = smallest y, NaN = no data, in header.unit
+  MapHeader header;            // what the file says: pitch, origin, unit, history; nothing it leaves open
+  std::string pitch_hint;      // ends the message when neither file nor option says a pitch
+  /// Where pixel (0, 0) lies on the instrument's camera [pixels], y up: the origin where neither header nor option says
+  /// one. Unlike header.origin it gives way to the option, for the camera's coordinates are nobody's part.
+  Point camera_pixel;
+};
+
+}  // namespace dwell

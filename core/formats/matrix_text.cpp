@@ -1,0 +1,106 @@
+#include "core/formats/matrix_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "core/base/errors.h"
+#include "core/base/number_text.h"
+#include "core/base/text_lines.h"
+
+namespace dwell {
+namespace {
+
+char separator_of(std::string_view row) {
+  for (const char separator : {';', ',', '\t'}) {
+    if (row.find(separator) != std::string_view::npos) return separator;
+  }
+  return ' ';
+}
+
+/// Cuts the next field off the row; false if there is none. Runs of blanks are one separator; of the others each
+/// ends a field, so that an empty field is a pixel without data.
+bool next_field(std::string_view& row, bool& more, char separator, std::string_view& field) {
+  if (!more) return false;
+  if (separator == ' ') row.remove_prefix(std::min(row.find_first_not_of(" \t"), row.size()));
+  const std::size_t end = separator == ' ' ? row.find_first_of(" \t") : row.find(separator);
+  field = row.substr(0, end);
+  more = end != std::string_view::npos;
+  row.remove_prefix(more ? end + 1 : row.size());
+  return true;
+}
+
+/// Appends the row's values; returns their number.
+Index read_row(std::string_view row, char separator, const std::string& where, long line, std::vector<double>& values) {
+  Index count = 0;
+  bool more = true;
+  for (std::string_view field; next_field(row, more, separator, field);) {
+    ++count;
+    const std::optional<double> value = height_number(field);
+    if (!value) {
+      throw InputError(fmt::format("{}, line {}, column {}: {}", where, line, count, why_no_height(field)));
+    }
+    values.push_back(*value);
+  }
+  return count;
+}
+
+}  // namespace
+
+MapSource parse_matrix_text(std::string_view text, const std::string& where) {
+  MapSource matrix;
+  char separator = ' ';
+  long first_line = 0;
+  for (TextLines lines(text); lines.next();) {
+    // A trailing tab is an empty field where tabs separate, so only blanks are trimmed here.
+    std::string_view row = lines.line();
+    const std::string_view trimmed = trim(row);
+    // A line of tabs alone is a row without data where tabs separate; skipping it would shift the map.
+    const bool tabs_alone = trimmed.empty() && row.find('\t') != std::string_view::npos;
+    if (trimmed.empty() && !(tabs_alone && (separator == '\t' || matrix.rows == 0))) continue;
+    if (trimmed.starts_with('#')) {
+      read_header_line(trimmed, fmt::format("{}, line {}", where, lines.number()), matrix.header);
+      continue;
+    }
+    if (matrix.rows == 0) {
+      separator = separator_of(tabs_alone ? row : trimmed);
+      first_line = lines.number();
+    }
+    if (separator == ' ') row = trimmed;
+    const Index count = read_row(row, separator, where, lines.number(), matrix.values);
+    if (matrix.rows == 0) {
+      matrix.cols = count;
+    } else if (count != matrix.cols) {
+      throw InputError(fmt::format("{}, line {}: {} columns; line {} has {} and every row must have as many", where,
+                                   lines.number(), count, first_line, matrix.cols));
+    }
+    ++matrix.rows;
+  }
+  if (matrix.rows == 0) throw InputError(fmt::format("{}: no row of numbers; a matrix of heights is required", where));
+  matrix.pitch_hint = matrix.cols == 3 ? "; or, if its lines are x y z, name it .xyz or begin it with a line 'x y z'"
+                                       : ", or begin the file with a line '# pitch_mm: 0.1'";
+  return matrix;
+}
+
+std::string matrix_text(const HeightMap& map, char separator) {
+  fmt::memory_buffer buffer;
+  auto out = std::back_inserter(buffer);
+  fmt::format_to(out, "{}# rows: row 1 = smallest y; columns: column 1 = smallest x\n", header_lines(map));
+  for (Index row = 0; row < map.grid.rows; ++row) {
+    for (Index col = 0; col < map.grid.cols; ++col) {
+      if (col > 0) buffer.push_back(separator);
+      const double value = map.at(row, col);
+      if (std::isnan(value)) {
+        fmt::format_to(out, "nan");
+      } else {
+        fmt::format_to(out, "{}", value);
+      }
+    }
+    buffer.push_back('\n');
+  }
+  return fmt::to_string(buffer);
+}
+
+}  // namespace dwell

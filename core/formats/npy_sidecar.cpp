@@ -1,0 +1,158 @@
+#include "core/formats/npy_sidecar.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <optional>
+#include <system_error>
+
+#include "core/base/errors.h"
+#include "core/base/number_text.h"
+#include "core/base/whole_file.h"
+#include "core/formats/npy.h"
+#include "core/map/value_units.h"
+
+namespace dwell {
+namespace {
+
+bool is_there(const std::filesystem::path& file) {
+  std::error_code none;  // a name that cannot be looked up is none
+  return std::filesystem::exists(file, none);
+}
+
+using Json = nlohmann::ordered_json;
+
+/// Reads the fields of one object, for messages known as `where`.
+class SidecarReader {
+ public:
+  SidecarReader(const Json& object, std::string where) : object_(object), where_(std::move(where)) {
+    if (!object.is_object()) throw InputError(fmt::format("{}: a JSON object is required", where_));
+  }
+
+  std::string sha256() const {
+    const auto found = object_.find("sha256");
+    if (found == object_.end() || !found->is_string()) refuse("sha256", "a string, the SHA-256 of the NPY file");
+    return found->get<std::string>();
+  }
+
+  MapHeader header() const {
+    MapHeader header;
+    header.pitch = pair("pitch_mm");
+    if (header.pitch && !(header.pitch->x > 0.0 && header.pitch->y > 0.0)) refuse("pitch_mm", "two numbers > 0");
+    header.origin = pair("origin_mm");
+    if (const auto unit = object_.find("unit"); unit != object_.end()) {
+      if (!unit->is_string()) refuse("unit", "a string");
+      header.unit = unit->get<std::string>();
+    }
+    if (const auto history = object_.find("history"); history != object_.end()) {
+      if (!history->is_array()) refuse("history", "an array of strings");
+      for (const Json& step : *history) {
+        if (!step.is_string()) refuse("history", "an array of strings");
+        header.history.push_back(step.get<std::string>());
+        if (header.history.back().find_first_of("\r\n") != std::string::npos) refuse("history", "a line each step");
+      }
+    }
+    return header;
+  }
+
+ private:
+  [[noreturn]] void refuse(const char* field, const char* required) const {
+    const auto found = object_.find(field);
+    const std::string value =
+        found == object_.end() ? "missing" : found->dump(-1, ' ', true, Json::error_handler_t::replace).substr(0, 60);
+    throw InputError(fmt::format("{}: {} = {}; required: {}", where_, field, value, required));
+  }
+
+  std::optional<Point> pair(const char* field) const {
+    const auto found = object_.find(field);
+    if (found == object_.end()) return std::nullopt;
+    if (!found->is_array() || found->size() != 2 || !(*found)[0].is_number() || !(*found)[1].is_number()) {
+      refuse(field, "two numbers [x, y]");
+    }
+    return Point{(*found)[0].get<double>(), (*found)[1].get<double>()};
+  }
+
+  const Json& object_;
+  std::string where_;
+};
+
+Json parse_json(const std::string& text, const std::string& where) {
+  try {
+    return Json::parse(text);
+  } catch (const Json::exception& error) {
+    throw InputError(fmt::format("{}: no sidecar of an NPY file: {}", where, error.what()));
+  }
+}
+
+Json entry_of(const HeightMap& map, const std::string& npy) {
+  const Grid& grid = map.grid;
+  return {{"pitch_mm", {grid.pitch_x, grid.pitch_y}},
+          {"origin_mm", {grid.origin.x, grid.origin.y}},
+          {"unit", unit_of(map.quantity)},
+          {"history", map.history},
+          {"sha256", sha256_of(npy)}};
+}
+
+/// The object of a sidecar that speaks of the file of this SHA-256; null if none does.
+Json entry_for(const Json& sidecar, const std::string& sha256, const std::string& where) {
+  if (SidecarReader(sidecar, where).sha256() == sha256) return sidecar;
+  const auto previous = sidecar.find("previous");
+  const std::string inner = where + ", previous";
+  if (previous != sidecar.end() && SidecarReader(*previous, inner).sha256() == sha256) return *previous;
+  return nullptr;
+}
+
+/// What is known of the file that is about to be replaced; at least its SHA-256.
+Json entry_of_existing(const std::filesystem::path& npy_file, const std::filesystem::path& sidecar) {
+  const std::string sha256 = sha256_of_file(npy_file);
+  Json entry = nullptr;
+  try {
+    const std::string where = sidecar.string();
+    if (is_there(sidecar)) entry = entry_for(parse_json(read_whole_file(sidecar), where), sha256, where);
+  } catch (const InputError&) {
+    // What cannot be read says nothing; it is about to be replaced.
+  }
+  if (entry.is_null()) return {{"sha256", sha256}};
+  entry.erase("previous");
+  return entry;
+}
+
+}  // namespace
+
+std::filesystem::path npy_sidecar_name(const std::filesystem::path& npy_file) { return npy_file.string() + ".json"; }
+
+MapHeader parse_npy_sidecar(const std::string& text, const std::string& sha256, const std::string& where) {
+  const Json sidecar = parse_json(text, where);
+  const Json entry = entry_for(sidecar, sha256, where);
+  if (entry.is_null()) {
+    throw InputError(fmt::format(
+        "{}: stale; its sha256 is {}, but that of the NPY file is {}. Remove the sidecar (and give pitch and "
+        "origin as options) or restore the file it was written with",
+        where, in_quotes(sidecar["sha256"].get<std::string>()), sha256));
+  }
+  return SidecarReader(entry, where).header();
+}
+
+MapHeader read_npy_sidecar(const std::filesystem::path& npy_file, std::string_view bytes) {
+  const std::filesystem::path sidecar = npy_sidecar_name(npy_file);
+  if (!is_there(sidecar)) return {};
+  return parse_npy_sidecar(read_whole_file(sidecar), sha256_of(bytes), sidecar.string());
+}
+
+void write_npy_with_sidecar(const std::filesystem::path& npy_file, const HeightMap& map) {
+  const std::filesystem::path sidecar = npy_sidecar_name(npy_file);
+  const std::string npy = npy_bytes(map);
+  const Json entry = entry_of(map, npy);
+  constexpr int kIndent = 2;
+  const auto write = [&](const Json& json) {
+    write_whole_file(sidecar, json.dump(kIndent, ' ', false, Json::error_handler_t::replace) + "\n");
+  };
+  const bool replaces = is_there(npy_file);
+  Json both = entry;
+  if (replaces) both["previous"] = entry_of_existing(npy_file, sidecar);
+  write(both);
+  write_whole_file(npy_file, npy);
+  if (replaces) write(entry);
+}
+
+}  // namespace dwell

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "core/formats/map_header.h"
+#include "core/map/height_map.h"
+
+namespace dwell {
+
+/// FILE.npy.json, which says of FILE.npy what the format has no place for:
+///
+///   {"pitch_mm": [0.1, 0.25], "origin_mm": [-1.7, 0.3], "unit": "nm", "history": ["step", ...], "sha256": "..."}
+///
+/// sha256 is that of FILE.npy and required; the others may be left out. While FILE.npy is being replaced the sidecar
+/// also has the object "previous", of the same form, for the file before.
+std::filesystem::path npy_sidecar_name(const std::filesystem::path& npy_file);
+
+/// What the text of a sidecar, which messages call `where`, says of the NPY file of this SHA-256.
+MapHeader parse_npy_sidecar(const std::string& text, const std::string& sha256, const std::string& where);
+
+/// What the sidecar of `npy_file`, whose bytes are given, says; nothing where there is no sidecar. Throws InputError
+/// naming the sidecar and the field: not such a JSON object, or stale: sha256 is of other bytes.
+MapHeader read_npy_sidecar(const std::filesystem::path& npy_file, std::string_view bytes);
+
+/// Writes the map's values to `npy_file` and the rest into its sidecar. Both are renamed into place so that whenever it
+/// is interrupted the file reads with its own pitch and origin: those of the file before or of the new one.
+void write_npy_with_sidecar(const std::filesystem::path& npy_file, const HeightMap& map);
+
+}  // namespace dwell

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "core/map/height_map.h"
+
+namespace dwell {
+
+/// The part of the map whose pixel centres lie in the closed rectangle from `low` to `high` [mm]; heights and places of
+/// the pixels are unchanged. Throws InputError if that holds no finite pixel, saying where the map lies.
+HeightMap crop(const HeightMap& map, Point low, Point high);
+
+/// The smallest part of the map that holds all its finite pixels. Throws InputError if there are none.
+HeightMap crop_to_data(const HeightMap& map);
+
+}  // namespace dwell

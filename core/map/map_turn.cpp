@@ -1,0 +1,73 @@
+#include "core/map/map_turn.h"
+
+#include "core/base/grid_limit.h"
+
+namespace dwell {
+namespace {
+
+bool exchanges_axes(Turn turn) {
+  return turn == Turn::Quarter || turn == Turn::ThreeQuarters || turn == Turn::Transpose;
+}
+
+/// Linear index in `to` of the pixel that lies at (row, col) in `from`.
+Index target_of(Turn turn, const Grid& from, const Grid& to, Index row, Index col) {
+  switch (turn) {
+    case Turn::FlipX:
+      return to.index(row, from.cols - 1 - col);
+    case Turn::FlipY:
+      return to.index(from.rows - 1 - row, col);
+    case Turn::Quarter:
+      return to.index(col, from.rows - 1 - row);
+    case Turn::Half:
+      return to.index(from.rows - 1 - row, from.cols - 1 - col);
+    case Turn::ThreeQuarters:
+      return to.index(from.cols - 1 - col, row);
+    case Turn::Transpose:
+      return to.index(col, row);
+  }
+  return 0;
+}
+
+Grid turned_grid(const Grid& g, Turn turn, std::optional<Point> about) {
+  Grid result = exchanges_axes(turn) ? Grid{g.cols, g.rows, g.pitch_y, g.pitch_x, {}} : g;
+  // About its middle, the origin of a map that keeps its axes stays to the last bit.
+  if (!about && !exchanges_axes(turn)) return result;
+  const Point middle = middle_of(g);
+  result.origin = {};
+  result.origin = (about ? turned(middle, turn, *about) : middle) - middle_of(result);
+  return result;
+}
+
+}  // namespace
+
+Point turned(Point p, Turn turn, Point about) {
+  const Point d = p - about;
+  switch (turn) {
+    case Turn::FlipX:
+      return about + Point{-d.x, d.y};
+    case Turn::FlipY:
+      return about + Point{d.x, -d.y};
+    case Turn::Quarter:
+      return about + Point{-d.y, d.x};
+    case Turn::Half:
+      return about - d;
+    case Turn::ThreeQuarters:
+      return about + Point{d.y, -d.x};
+    case Turn::Transpose:
+      return about + Point{d.y, d.x};
+  }
+  return p;
+}
+
+HeightMap turned(const HeightMap& map, Turn turn, std::optional<Point> about) {
+  HeightMap result(turned_grid(map.grid, turn, about));
+  for (Index row = 0; row < map.grid.rows; ++row) {
+    for (Index col = 0; col < map.grid.cols; ++col) {
+      result.values[static_cast<std::size_t>(target_of(turn, map.grid, result.grid, row, col))] = map.at(row, col);
+    }
+  }
+  result.history = map.history;
+  return result;
+}
+
+}  // namespace dwell

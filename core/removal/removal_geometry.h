@@ -1,0 +1,26 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/motion/tool_path.h"
+#include "core/removal/removal_operator.h"
+#include "core/tif/removal_kernel.h"
+
+namespace dwell {
+
+/// What a removal operator is made of, as a value: which pixels are counted, what the tool removes, where it goes. A
+/// solver that is given it can build the same operator on coarser pixels.
+struct RemovalGeometry {
+  Grid map;
+  std::vector<Index> pixels;  // linear indices of the valid pixels, ascending
+  RemovalKernel kernel;       // on the map's pitch
+  std::vector<Stroke> strokes;
+  int threads = 1;
+};
+
+/// The cheapest exact operator: LatticeRemoval if the strokes are translates of one by whole pixels, else
+/// ScatteredRemoval. The geometry is copied where needed and may go.
+std::unique_ptr<RemovalOperator> make_removal_operator(const RemovalGeometry& geometry);
+
+}  // namespace dwell

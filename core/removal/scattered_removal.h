@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/motion/tool_path.h"
+#include "core/numerics/padded_convolution.h"
+#include "core/removal/removal_operator.h"
+#include "core/tif/removal_kernel.h"
+
+namespace dwell {
+
+/// Removal by a tool whose strokes lie anywhere (spiral, multi-pitch, jittered, bent). Exact for the spline removal
+/// function: b(x_i - p) = sum_l c_(i-l) B3(l - p/h), so each stroke is spread on the map's lattice with its averaged
+/// B-spline weights and convolved with the coefficients c (docs/math.md, "Scattered dwell"). A stroke out of reach of
+/// the map has an empty column. Cost of a call: one padded transform pair plus 16 or more multiply-adds a stroke.
+/// Memory: the padded arrays and 24 bytes a weight.
+class ScatteredRemoval final : public RemovalOperator {
+ public:
+  ScatteredRemoval(const Grid& map, const std::vector<Index>& pixels, const RemovalKernel& kernel,
+                   const std::vector<Stroke>& strokes, int threads);
+
+  std::string name() const override { return "scattered"; }
+
+ private:
+  /// Sparse rows: weights and the lattice nodes (by_stroke) or strokes (by_node) they belong to.
+  struct Rows {
+    std::vector<Index> begin;
+    std::vector<std::int32_t> index;
+    std::vector<double> weight;
+  };
+
+  void do_apply(const Vector& t, Vector& removal) override;
+  void do_apply_adjoint(const Vector& residual, Vector& t) override;
+  void transpose_weights();
+
+  PaddedConvolution convolution_;
+  Rows by_stroke_;
+  Rows by_node_;                       // gathered, not scattered: no races, and one order of summation
+  std::vector<std::int32_t> touched_;  // field index of each row of by_node_
+  int threads_;
+};
+
+/// What one apply of a ScatteredRemoval of these strokes gives for the times t [s], summed in the same order, without
+/// keeping its weights: for those who apply once. At the pixels, in their order [nm]. Throws std::invalid_argument
+/// unless there is one time a stroke. Cost: spreading the strokes, and one and a half padded transform pairs. Memory:
+/// the padded arrays.
+Vector removal_once(const Grid& map, const std::vector<Index>& pixels, const RemovalKernel& kernel,
+                    const std::vector<Stroke>& strokes, const Vector& t, int threads);
+
+}  // namespace dwell

@@ -1,0 +1,107 @@
+#include "core/removal/stroke_average.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "core/motion/stroke_quadrature.h"
+
+namespace dwell {
+namespace {
+
+/// Integral of sqrt(u^2 + d^2) over u0 < u < u1 = u0 + width. From the antiderivative (u r + d^2 asinh(u / d)) / 2,
+/// rearranged so that no term cancels however close u0 and u1 are.
+double integral_of_distance(double d, double u0, double u1, double width) {
+  if (u0 + u1 < 0.0) {
+    std::swap(u0, u1);
+    u0 = -u0;
+    u1 = -u1;
+  }
+  const double sum = u0 + u1;
+  const double r0 = std::hypot(u0, d), r1 = std::hypot(u1, d), both = r0 + r1;
+  if (!(both > 0.0)) return 0.0;
+  const double d2 = d * d;
+  double asinh_part = 0.0;
+  if (d2 > 0.0) {
+    // d^2 (asinh(u1/d) - asinh(u0/d)) = d^2 log((u1 + r1) / (u0 + r0))
+    const double below = u0 >= 0.0 ? u0 + r0 : d2 / (r0 - u0);
+    asinh_part = d2 * std::log1p(width * (1.0 + sum / both) / below);
+  }
+  return 0.5 * (0.5 * width * (both + sum * sum / both) + asinh_part);
+}
+
+/// Integral of exp(-u^2 / 2 sigma^2) over u0 < u < u1 = u0 + width.
+double integral_of_gaussian(double sigma, double u0, double u1, double width) {
+  if (width < 0.1 * sigma) {  // where the difference of error functions would cancel; Gauss-Legendre errs by 1e-15
+    const double middle = 0.5 * (u0 + u1), half = 0.5 * width;
+    const auto value = [&](double node) {
+      const double u = (middle + half * node) / sigma;
+      return std::exp(-0.5 * u * u);
+    };
+    const double inner = 0.339981043584856264803, outer = 0.861136311594052575224;
+    return half * (0.652145154862546142627 * (value(-inner) + value(inner)) +
+                   0.347854845137453857373 * (value(-outer) + value(outer)));
+  }
+  const double scale = 1.0 / (sigma * std::numbers::sqrt2);
+  return sigma * std::sqrt(0.5 * std::numbers::pi) * (std::erf(u1 * scale) - std::erf(u0 * scale));
+}
+
+}  // namespace
+
+StrokeAverage::StrokeAverage(const RemovalFunction& tif)
+    : kind_(tif.kind),
+      radius_(tif.radius),
+      peak_(tif.peak),
+      sigma_(tif.sigma),
+      slope_(tif.slope),
+      low_{-tif.radius, -tif.radius},
+      high_{tif.radius, tif.radius} {
+  if (kind_ == RemovalFunction::Kind::Gaussian || kind_ == RemovalFunction::Kind::Disc) return;
+  spline_.emplace(tif.samples.grid, tif.samples.values);
+  samples_ = tif.samples.grid;
+  const Grid& g = spline_->grid();  // B3 reaches two pitches beyond its coefficients
+  low_ = {g.x(-2), g.y(-2)};
+  high_ = {g.x(g.cols + 1), g.y(g.rows + 1)};
+}
+
+double StrokeAverage::rate(Point displacement) const {
+  const double r = length(displacement);
+  if (!(r <= radius_)) return 0.0;
+  return kind_ == RemovalFunction::Kind::Disc ? slope_ * r : peak_ * std::exp(-0.5 * r * r / (sigma_ * sigma_));
+}
+
+/// Integral of the rate at `point` along a straight line [nm mm / s].
+double StrokeAverage::piece(Point from, Point to, Point point) const {
+  const Point a = from - point, along = to - from;
+  const double total = length(along);
+  if (!(total > 0.0)) return 0.0;
+  const double d = std::abs(a.x * along.y - a.y * along.x) / total;
+  if (!(d < radius_)) return 0.0;
+  const double start = (a.x * along.x + a.y * along.y) / total;
+  const double chord = std::sqrt((radius_ - d) * (radius_ + d));
+  const double u0 = std::max(start, -chord), u1 = std::min(start + total, chord);
+  if (!(u0 < u1)) return 0.0;
+  const double width = u0 > start || u1 < start + total ? u1 - u0 : total;  // u1 - u0 is rounded on the scale of u0
+  if (kind_ == RemovalFunction::Kind::Disc) return slope_ * integral_of_distance(d, u0, u1, width);
+  return peak_ * std::exp(-0.5 * d * d / (sigma_ * sigma_)) * integral_of_gaussian(sigma_, u0, u1, width);
+}
+
+double StrokeAverage::spline_average(const Stroke& stroke, Point point) const {
+  thread_local std::vector<QuadraturePoint> points;  // kept: every entry of a matrix would else allocate it anew
+  points.clear();
+  append_stroke_quadrature({point - stroke.start, point - stroke.via, point - stroke.finish}, samples_, points);
+  double sum = 0.0;
+  for (const QuadraturePoint& q : points) sum += q.weight * (*spline_)(q.position);
+  return sum;
+}
+
+double StrokeAverage::operator()(const Stroke& stroke, Point point) const {
+  if (spline_) return spline_average(stroke, point);
+  const double total = stroke.length();
+  if (!(total > 0.0)) return rate(point - stroke.via);
+  return (piece(stroke.start, stroke.via, point) + piece(stroke.via, stroke.finish, point)) / total;
+}
+
+}  // namespace dwell

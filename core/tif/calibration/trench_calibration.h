@@ -1,0 +1,40 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/map/height_map.h"
+#include "core/numerics/abel_inversion.h"
+
+namespace dwell {
+
+struct TrenchOptions {
+  double feed = 0.0;             // speed of the tool along the track [mm/s], finite and > 0
+  double direction = 0.0;        // of the track [deg], counter-clockwise from +x
+  std::optional<double> radius;  // of the tool's removal [mm]; default 2.25 times as far as 30 % of the depth
+  double noise_cut = 0.0;        // share of the peak below which a rate is set to 0, 0 .. 0.5
+};
+
+/// A rotationally symmetric removal function measured as a straight trench cut at constant feed.
+struct TrenchCalibration {
+  HeightMap rates;                    // [nm/s], origin relative to the tool axis; radially symmetric by construction
+  RadialProfile profile;              // the rate over the radius [nm/s]
+  std::vector<LineIntegral> section;  // cross-section times feed [nm mm/s] over the distance from the middle [mm]
+  double radius = 0.0;                // [mm]
+  double middle = 0.0;                // of the trench across its direction, from the origin of the coordinates [mm]
+  double from = 0.0, to = 0.0;        // the stretch along the direction that was averaged [mm]
+  double depth = 0.0;                 // of the cross-section [nm]
+  double scatter = 0.0;               // of the pixels about the mean cross-section beyond the radius [nm]
+  double asymmetry = 0.0;             // RMS of the odd part of the section over that of the even one
+};
+
+/// The removal function from the removed depth [nm] of a trench. The cross-section is the mean over the stretch of the
+/// track where the volume per length is within 5 % of its median (which leaves out ends), less the line through its
+/// surroundings. Moved at speed f along u, the tool takes
+///   depth(v) = (1 / f) integral of b(u, v) du,
+/// so that depth times feed is the Abel transform of b (Lin et al. 2014, eq. 2-5 for a straight line), inverted by
+/// abel_inversion. An asymmetric tool cannot be told from one trench: `asymmetry` says how far from symmetric the
+/// section is across the track, nothing about along it. Throws InputError naming option or finding. Cost O(pixels).
+TrenchCalibration calibrate_trench(const HeightMap& depth, const TrenchOptions& options);
+
+}  // namespace dwell

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <functional>
+
+#include "core/numerics/spline_surface.h"
+#include "core/tif/removal_function.h"
+
+namespace dwell {
+
+/// A removal function on a map's pixel pitch: the definition of b that every operator shares. The rate at
+/// displacement d is the cubic B-spline through samples at whole pixels from the tool axis; the samples are scaled
+/// by `volume_factor` so that their sum times the pixel area is the volume rate of the removal function.
+struct RemovalKernel {
+  SplineSurface surface;       // rate [nm/s] over displacement from the axis [mm]; odd size, axis in the middle
+  double volume_factor = 1.0;  // scale applied to the samples
+  double energy = 0.0;         // sum of squared samples: squared norm of the column of a dwell point inside the part
+  Index half_rows = 0;         // coefficients reach from -half to +half pixels about the axis
+  Index half_cols = 0;
+
+  double rate(Point displacement) const { return surface(displacement); }
+};
+
+/// What a pixel of hx by hy [mm] at a displacement from the tool axis is given as its rate [nm/s]: the formula or the
+/// spline through the samples at its centre; of a disc, whose rim is a jump, the mean over the pixel. It refers to
+/// `tif`.
+std::function<double(Point)> rate_at_pixel(const RemovalFunction& tif, double hx, double hy);
+
+/// Samples `tif` at the pitch (pitch_x, pitch_y) [mm]. Throws InputError if the removal function is too narrow for
+/// the pitch: FWHM below 2 pixels, or a volume factor outside 0.9 .. 1.1. Cost O(size of the removal function).
+RemovalKernel removal_kernel(const RemovalFunction& tif, double pitch_x, double pitch_y);
+
+}  // namespace dwell

@@ -1,7 +1,0 @@
-#include "core/version.h"
-
-namespace dwell {
-
-const char* version() { return DWELL_VERSION; }
-
-}  // namespace dwell

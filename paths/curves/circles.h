@@ -1,0 +1,30 @@
+#pragma once
+
+#include "core/base/spec_text.h"
+#include "core/map/height_map.h"
+#include "core/motion/tool_path.h"
+#include "paths/curves/centred_curve.h"
+
+namespace dwell {
+
+struct CirclesOptions : CentredCurveOptions {};
+
+/// From "circles:pitch=MM,..."; throws InputError as SpecText does.
+CirclesOptions parse_circles_options(const SpecText& spec);
+
+/// Concentric circles of radii (i + 1/2) pitch, i = 0, 1, ..., from the inside out: so each has as much length as the
+/// ring of width pitch about it has area. Dwell points lie in the middles of equal arcs of a circle, as near to the
+/// step as closes it but at least three.
+///
+/// A circle wholly within the domain (CentredDomain) begins and ends on the ray from the centre in direction +x; the
+/// move on to the next crosses that ray, going on in the same sense. Of a broken circle, the arcs within the domain are
+/// run in its sense, from the one on that begins nearest to the tool. A move to another arc or circle is made on the
+/// part if its middle is inside and it is no longer than pitch plus half an arc of both; else it is lifted. Moves along
+/// a circle are no longer than 7/6 of the step. Every valid pixel centre is within
+/// pitch/2 of a point of a circle that is within half an arc of a dwell point.
+///
+/// Throws InputError naming the option, its value and what is required; also if the circles between the nearest and the
+/// farthest place of the part have more than 50 million points, outside ones included. Cost O(pixels + points).
+ToolPath circles_path(const HeightMap& map, const CirclesOptions& options);
+
+}  // namespace dwell

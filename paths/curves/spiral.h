@@ -1,0 +1,28 @@
+#pragma once
+
+#include "core/base/spec_text.h"
+#include "core/map/height_map.h"
+#include "core/motion/tool_path.h"
+#include "paths/curves/centred_curve.h"
+
+namespace dwell {
+
+struct SpiralOptions : CentredCurveOptions {};
+
+/// From "spiral:pitch=MM,..."; throws InputError as SpecText does.
+SpiralOptions parse_spiral_options(const SpecText& spec);
+
+/// Archimedean spiral rho = L theta / 2 pi of pitch L, which leaves the centre in direction +x, with dwell points at
+/// equal arc lengths k * step, k = 0, 1, ... The arc length s(theta) = L / 4 pi (theta sqrt(1 + theta^2) + asinh theta)
+/// (Lin et al. 2014, eq. 16) is inverted by Newton's method from the point before, to rounding.
+///
+/// Its points within the domain (CentredDomain) are the path, in order; where others were left out the move is lifted.
+/// Consecutive points are no farther apart than the step unless lifted. Every valid pixel centre is within pitch/2 of
+/// a point of the spiral that is within step/2, along the spiral, of a dwell point.
+///
+/// Throws InputError naming the option, its value and what is required; also if the turns between the nearest and the
+/// farthest place of the part have more than 50 million points, outside ones included. Cost O(pixels + points); long
+/// stretches outside are passed over by the distance to the part.
+ToolPath spiral_path(const HeightMap& map, const SpiralOptions& options);
+
+}  // namespace dwell

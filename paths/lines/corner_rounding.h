@@ -1,0 +1,35 @@
+#pragma once
+
+#include "core/motion/tool_path.h"
+
+namespace dwell {
+
+/// Corners up to this are left as they are [degrees].
+inline constexpr double kLeftCornerDeg = 15.0;
+/// Corners beyond this are turn-backs, which no arc can round without leaving the path; they are kept [degrees].
+inline constexpr double kTurnBackDeg = 175.0;
+/// An arc turns by no more than this at a dwell point [degrees].
+inline constexpr double kArcTurnDeg = 24.0;
+
+/// The path with its corners of more than kLeftCornerDeg replaced by arcs of `radius` [mm].
+///
+/// An arc touches both legs of its corner, which are the straight stretches up to the next bend (1e-6 rad) or the end
+/// of the piece. It takes at most half of each leg, and never departs from the corner by more than the radius: where
+/// that is too little room (short legs; corners of more than 120 degrees) its radius is smaller. Its departure from the
+/// corner, the largest there is, is r (1 / cos(phi / 2) - 1) for radius r and corner phi: 0.41 r at 90 degrees; from
+/// the legs it departs by up to half of the radius asked for.
+///
+/// Dwell points that the arc cuts off are replaced by points in the middles of equal parts of it: as closely spaced as
+/// the closer neighbour of the corner was, but no more than twice as many as were cut off unless smoothness wants them,
+/// each turning by at most kArcTurnDeg. So the polyline through the dwell points, and with it the tool from dwell point
+/// to node to dwell point, turns by at most 30 degrees anywhere (24 on an arc, and 6 more where the move from it leads
+/// onto a wider one), but for turn-backs and points that repeat the one before. A move is at most
+/// 1.5 times as long as the longest of those it replaces. First and last points of pieces stay; lifts are respected. A
+/// note says how many corners were rounded, and how many with less than asked for.
+///
+/// radius = 0 returns the path itself. Throws InputError, which names the kind of the path, if the radius is negative
+/// or not finite or the result has more than kMaxPathPoints points; as validate() if the path is not valid. Cost and
+/// memory O(points).
+ToolPath rounded_corners(const ToolPath& path, double radius);
+
+}  // namespace dwell

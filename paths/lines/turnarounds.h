@@ -1,0 +1,48 @@
+#pragma once
+
+#include "core/base/spec_text.h"
+#include "core/motion/tool_path.h"
+#include "paths/lines/scan_lines.h"
+
+namespace dwell {
+
+/// How a tool gets from the end of a line to the start of the next.
+enum class Turn {
+  Square,  // straight from end to start
+  Arc,     // on a half circle outside the ends
+  Lift,    // lifted
+};
+
+struct TurnOptions {
+  Turn turn = Turn::Square;
+  double corner = 0.0;  // corners are rounded with this radius [mm] (rounded_corners); finite, >= 0; 0 = not
+};
+
+/// The keys "turn" and "corner" of a planner's text.
+TurnOptions parse_turn_options(const SpecText& spec);
+
+/// Throws InputError naming the planner if the corner is out of range, or if arcs are asked of lines that are not run
+/// as a serpentine.
+void check_turn_options(const TurnOptions& turns, bool serpentine, const char* planner);
+
+/// Most dwell points that a half circle between lines `distance` apart takes; possibly infinite.
+double most_points_on_arc(const TurnOptions& turns, double distance, double step);
+
+/// In which order and sense lines are run.
+struct LineOrder {
+  bool serpentine = true;        // every other line backwards; false = one-way, each line entered lifted
+  bool from_last_line = false;   // the last line first
+  bool first_backwards = false;  // the first line from its last point to its first
+};
+
+/// Runs the lines one after the other, and appends them to the path. The first is entered lifted, as are lines before
+/// which some were left out for want of a wanted point, and all of them if the turn is Lift or not serpentine.
+///
+/// Turn::Arc joins a line to the next by a half circle whose diameter is their distance, level with that of the two
+/// ends which lies farther out; the other line goes straight on up to there. Straight on, dwell points are the line's
+/// own positions; on the half circle they lie in the middles of equal parts of it, as near to the step as divides it
+/// but at least six, so that the tool turns by at most 30 degrees at a time and no move of a link is longer than 13/12
+/// of the step. A link goes beyond the ends of the two lines by half of their distance.
+void append_lines(ToolPath& path, const ScanLines& lines, const LineOrder& order, const TurnOptions& turns);
+
+}  // namespace dwell

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <limits>
+
+#include "core/base/grid.h"
+#include "core/motion/tool_path.h"
+
+namespace dwell {
+
+/// Which points of the path belong to a neighbouring track rather than to the track of the point itself.
+struct SpacingOptions {
+  Index skip = 1;       // the neighbours up to this many points before and after are never meant, >= 1
+  double detour = 2.0;  // to a point of the same piece the path must run at least this many times the distance, >= 1
+  /// A track farther away is none [mm], > 0. Bounds the work where there is none: the whole path would be searched.
+  double reach = std::numeric_limits<double>::infinity();
+};
+
+/// Distances from dwell points to the neighbouring track [mm].
+struct PathSpacing {
+  Index points = 0;  // that have one
+  Index alone = 0;   // that have none (a single straight line); they enter nothing else
+  double min = 0.0;
+  double mean = 0.0;
+  double deviation = 0.0;  // standard deviation, over `points`
+  double max = 0.0;
+};
+
+/// For every dwell point the distance to the nearest dwell point of another track: one in another piece (between
+/// lifts), or of the same piece if the path between them is `detour` times as long as they are apart, and in either
+/// case not among the `skip` points before and after. On a raster of steps no longer than its pitch that is the pitch,
+/// but for the points of the outermost lines within half a pitch of a turn: the path leads from them to their
+/// neighbours without a detour, and the nearest point farther on counts.
+///
+/// Throws InputError if the path is not valid or an option is out of range. Memory O(n); about O(n log n) time times
+/// the square of spacing over step: the points of its own track that lie nearer are looked at.
+PathSpacing path_spacing(const ToolPath& path, const SpacingOptions& options = {});
+
+}  // namespace dwell

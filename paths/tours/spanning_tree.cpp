@@ -1,0 +1,149 @@
+#include "paths/tours/spanning_tree.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <tuple>
+
+#include "core/base/errors.h"
+#include "paths/domain/point_tree.h"
+
+namespace dwell {
+namespace {
+
+constexpr std::size_t kMaxPoints = 50'000'000;
+constexpr std::int32_t kMixed = -1;
+
+void check(const std::vector<Point>& points) {
+  if (points.empty()) throw InputError("spanning tree: no points; at least one is required");
+  if (points.size() > kMaxPoints) {
+    throw InputError(fmt::format("spanning tree: {} points; at most {} accepted", points.size(), kMaxPoints));
+  }
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!(std::isfinite(points[i].x) && std::isfinite(points[i].y))) {
+      throw InputError(
+          fmt::format("spanning tree: point {} is ({}, {}); required finite", i + 1, points[i].x, points[i].y));
+    }
+  }
+}
+
+/// Ordered by length, then by ends: no two edges are equal.
+struct Edge {
+  double squared = std::numeric_limits<double>::infinity();
+  std::int32_t low = std::numeric_limits<std::int32_t>::max();
+  std::int32_t high = std::numeric_limits<std::int32_t>::max();
+
+  bool found() const { return high != std::numeric_limits<std::int32_t>::max(); }
+  friend bool operator<(const Edge& a, const Edge& b) {
+    return std::tie(a.squared, a.low, a.high) < std::tie(b.squared, b.low, b.high);
+  }
+};
+
+class Boruvka {
+ public:
+  explicit Boruvka(const std::vector<Point>& points)
+      : points_(points), tree_(points), parent_(points.size()), component_(points.size()), nearest_(points.size()) {
+    std::iota(parent_.begin(), parent_.end(), 0);
+  }
+
+  double length() {
+    double sum = 0.0;
+    for (std::size_t joined = 1; joined < points_.size();) {
+      name_components();
+      const std::vector<Edge> leaving = shortest_leaving();
+      for (const Edge& edge : leaving) {
+        if (!edge.found()) continue;
+        const std::int32_t a = root(edge.low), b = root(edge.high);
+        if (a == b) continue;  // both components chose the same edge
+        parent_[at(std::max(a, b))] = std::min(a, b);
+        sum += distance(points_[at(edge.low)], points_[at(edge.high)]);
+        ++joined;
+      }
+    }
+    return sum;
+  }
+
+ private:
+  static std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+  std::int32_t root(std::int32_t i) {
+    while (parent_[at(i)] != i) i = parent_[at(i)] = parent_[at(parent_[at(i)])];
+    return i;
+  }
+
+  /// The component of every point, and of every box of the tree that lies in one.
+  void name_components() {
+    for (std::size_t i = 0; i < points_.size(); ++i) component_[i] = root(static_cast<std::int32_t>(i));
+    const std::vector<PointTree::Node>& nodes = tree_.nodes();
+    box_.resize(nodes.size());
+    for (std::size_t n = nodes.size(); n-- > 0;) {
+      const PointTree::Node& node = nodes[n];
+      if (node.child >= 0) {
+        const auto child = at(node.child);
+        box_[n] = box_[child] == box_[child + 1] ? box_[child] : kMixed;
+        continue;
+      }
+      box_[n] = component_[at(tree_.members()[at(node.first)])];
+      for (std::int32_t k = node.first + 1; k < node.last; ++k) {
+        if (component_[at(tree_.members()[at(k)])] != box_[n]) box_[n] = kMixed;
+      }
+    }
+  }
+
+  /// For every component (by its root) the shortest edge that leaves it. The shortest edge of a point found in an
+  /// earlier round stays its shortest while it still leaves the component, and bounds it from below afterwards.
+  std::vector<Edge> shortest_leaving() {
+    std::vector<Edge> best(points_.size());
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      const Edge& known = nearest_[i];
+      if (known.found() && component_[at(known.low)] != component_[at(known.high)]) {
+        best[at(component_[i])] = std::min(best[at(component_[i])], known);
+      }
+    }
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      Edge& shortest = best[at(component_[i])];
+      if (nearest_[i].found() && !(nearest_[i] < shortest)) continue;
+      look_from(static_cast<std::int32_t>(i), shortest);
+    }
+    return best;
+  }
+
+  void look_from(std::int32_t i, Edge& shortest) {
+    const std::int32_t own = component_[at(i)];
+    double reach2 = shortest.squared;
+    Edge mine;
+    const auto take = [&](std::int32_t j) {
+      if (component_[at(j)] == own) return;
+      const Edge edge{squared_distance(points_[at(i)], points_[at(j)]), std::min(i, j), std::max(i, j)};
+      if (!(edge < mine)) return;
+      mine = edge;
+      reach2 = std::min(reach2, edge.squared);
+    };
+    tree_.search(
+        points_[at(i)], reach2, [&](std::size_t node) { return box_[node] == own; }, take);
+    if (!mine.found()) return;                       // nothing as near as the shortest
+    if (!(shortest < mine)) nearest_[at(i)] = mine;  // of a search cut short, `mine` need not be the shortest
+    shortest = std::min(shortest, mine);
+  }
+
+  const std::vector<Point>& points_;
+  PointTree tree_;
+  std::vector<std::int32_t> parent_, component_, box_;
+  std::vector<Edge> nearest_;  // of every point: its shortest edge to another component when last looked for
+};
+
+}  // namespace
+
+double spanning_tree_length(const std::vector<Point>& points) {
+  check(points);
+  std::vector<Point> distinct = points;  // duplicates cost nothing, but a heap of them would be all ties
+  const auto less = [](Point a, Point b) { return std::tie(a.x, a.y) < std::tie(b.x, b.y); };
+  std::sort(distinct.begin(), distinct.end(), less);
+  distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
+  return Boruvka(distinct).length();
+}
+
+}  // namespace dwell

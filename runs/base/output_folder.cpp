@@ -1,0 +1,150 @@
+#include "runs/base/output_folder.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <system_error>
+
+#include "core/base/errors.h"
+#include "core/base/whole_file.h"
+
+namespace dwell {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// An absolute path without links or a trailing separator, so that its parent is the folder that holds it.
+fs::path normal(const fs::path& target, const ResultFiles& files) {
+  if (target.empty()) throw InputError(fmt::format("--out: required; the folder for the {}", files.kind));
+  std::error_code error;
+  fs::path path = fs::weakly_canonical(fs::absolute(target), error);
+  if (error) path = fs::absolute(target).lexically_normal();
+  if (!path.has_filename()) path = path.parent_path();
+  return path;
+}
+
+/// What shows that a folder is not an earlier result; empty if it is one.
+std::string foreign_entry(const fs::path& target, const ResultFiles& files) {
+  bool whole = false;
+  std::error_code error;
+  for (fs::directory_iterator entry(target, error), end; !error && entry != end; entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    whole = whole || name == files.always;
+    if (files.in_folders && entry->is_directory(error) && !entry->is_symlink(error)) {
+      const std::string other = foreign_entry(entry->path(), *files.in_folders);
+      if (other.empty()) continue;
+      return fmt::format("in its folder '{}', {}", name, other);
+    }
+    if (!files.has(name) || !entry->is_regular_file(error)) return fmt::format("it holds '{}'", name);
+  }
+  if (error) return error.message();
+  return whole ? "" : fmt::format("it holds no {}", files.always);
+}
+
+void check_target(const fs::path& target, const fs::path& shown, const ResultFiles& files) {
+  std::error_code error;
+  const fs::file_status status = fs::status(target, error);
+  if (!fs::exists(status)) return;
+  if (!fs::is_directory(status))
+    throw InputError(fmt::format("--out: '{}' is a file; a folder is required", shown.string()));
+  if (fs::is_empty(target, error)) return;
+  const std::string other = foreign_entry(target, files);
+  if (other.empty()) return;
+  throw InputError(fmt::format("--out: '{}' is not an earlier {} ({}) and is left alone; give an empty or a new folder",
+                               shown.string(), files.kind, other));
+}
+
+[[noreturn]] void refuse(const fs::path& target, const std::string& reason) {
+  throw InputError(fmt::format("--out: cannot write '{}': {}", target.string(), reason));
+}
+
+}  // namespace
+
+bool ResultFiles::has(std::string_view name) const {
+  return name == always || std::find(others.begin(), others.end(), name) != others.end();
+}
+
+const ResultFiles& plan_files() {
+  static const ResultFiles kFiles{"plan",
+                                  "summary.json",
+                                  {"feed.csv", "program.nc", "before.png", "after.png", "dwell.png", "residual.npy",
+                                   "residual.npy.json", "dwell.npy", "search.csv", "path.png", "path_detail.png"},
+                                  nullptr};
+  return kFiles;
+}
+
+const ResultFiles& pareto_files() {
+  static const ResultFiles kFiles{"pareto sweep", "pareto.json", {"pareto.csv", "pareto.png"}, nullptr};
+  return kFiles;
+}
+
+const ResultFiles& path_comparison_files() {
+  static const ResultFiles kFiles{
+      "path comparison", "paths.json", {"paths.csv", "paths.png", "psd.png"}, &plan_files()};
+  return kFiles;
+}
+
+OutputFolder::OutputFolder(const fs::path& target, const ResultFiles& files) : target_(normal(target, files)) {
+  check_target(target_, target, files);
+  temporary_ = target_.parent_path() / fmt::format(".{}.tmp-{}", target_.filename().string(), getpid());
+  try {
+    make_parents();
+    std::error_code error;
+    fs::remove_all(temporary_, error);
+    fs::create_directory(temporary_, error);
+    if (error) refuse(target, error.message());
+  } catch (...) {
+    remove_made();
+    throw;
+  }
+}
+
+OutputFolder::~OutputFolder() { remove_made(); }
+
+void OutputFolder::make_parents() {
+  std::vector<fs::path> missing;
+  std::error_code error;
+  for (fs::path parent = target_.parent_path(); !fs::exists(parent, error) && parent.has_relative_path();
+       parent = parent.parent_path()) {
+    missing.push_back(parent);
+  }
+  for (auto parent = missing.rbegin(); parent != missing.rend(); ++parent) {
+    fs::create_directory(*parent, error);
+    if (error) refuse(target_, error.message());
+    made_parents_.push_back(*parent);
+  }
+}
+
+/// Removes the temporary folder, and the parents that hold nothing else.
+void OutputFolder::remove_made() {
+  std::error_code ignored;
+  fs::remove_all(temporary_, ignored);
+  for (auto parent = made_parents_.rbegin(); parent != made_parents_.rend(); ++parent) fs::remove(*parent, ignored);
+}
+
+void OutputFolder::write(const std::string& name, std::string_view bytes) const { write_whole_file(path(name), bytes); }
+
+void OutputFolder::commit() {
+  if (rename(temporary_.c_str(), target_.c_str()) == 0) return;  // no earlier result, or an empty folder
+  if (errno != EEXIST && errno != ENOTEMPTY) refuse(target_, std::strerror(errno));
+  // Exchanged in one step: at no moment is there neither the old result nor the new one. The old one is then removed.
+  if (renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, target_.c_str(), RENAME_EXCHANGE) == 0) return;
+  if (errno != EINVAL && errno != ENOSYS) refuse(target_, std::strerror(errno));
+  // A file system that cannot exchange: the old result keeps a name at every moment, if not always its own.
+  const fs::path old = temporary_.string() + ".old";
+  if (rename(target_.c_str(), old.c_str()) != 0) refuse(target_, std::strerror(errno));
+  if (rename(temporary_.c_str(), target_.c_str()) != 0) {
+    const int reason = errno;
+    rename(old.c_str(), target_.c_str());
+    refuse(target_, std::strerror(reason));
+  }
+  std::error_code ignored;
+  fs::remove_all(old, ignored);
+}
+
+}  // namespace dwell

@@ -1,0 +1,130 @@
+#include "runs/campaigns/pareto.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <tuple>
+
+#include "core/base/errors.h"
+#include "core/base/number_text.h"
+#include "runs/plan/plan_problem.h"
+
+namespace dwell {
+namespace {
+
+constexpr std::size_t kMostWeights = 1000;
+
+std::vector<double> logarithmic(double from, double to, std::size_t count) {
+  std::vector<double> values{from};
+  for (std::size_t k = 1; k + 1 < count; ++k)
+    values.push_back(from * std::pow(to / from, static_cast<double>(k) / static_cast<double>(count - 1)));
+  values.push_back(to);
+  return values;
+}
+
+/// The weights that the text means, in any order; none if it means nothing.
+std::vector<double> weights_in(const std::string& text) {
+  const std::vector<std::string_view> range = split(text, ':');
+  if (range.size() == 3) {
+    const auto from = finite_number(range[0]), to = finite_number(range[1]), count = finite_number(range[2]);
+    const bool usable = from && to && count && *from > 0.0 && *to > 0.0 && *count >= 2.0 &&
+                        *count <= static_cast<double>(kMostWeights) && *count == std::floor(*count);
+    return usable ? logarithmic(*from, *to, static_cast<std::size_t>(*count)) : std::vector<double>();
+  }
+  std::vector<double> values;
+  for (const std::string_view word : split(text, ',')) {
+    const auto value = finite_number(word);
+    if (!value || *value < 0.0) return {};
+    values.push_back(*value);
+  }
+  return values;
+}
+
+ParetoRanges completed(ParetoRanges ranges, double highest_price) {
+  if (ranges.smoothnesses.empty()) ranges.smoothnesses = logarithmic(1e-3, 10.0, 5);
+  if (ranges.time_prices.empty()) {
+    ranges.time_prices = logarithmic(1e-5 * highest_price, 1e-2 * highest_price, 4);
+    ranges.time_prices.insert(ranges.time_prices.begin(), 0.0);
+  }
+  return ranges;
+}
+
+/// At least as good in everything, and better in something.
+bool dominates(const TradeOff& a, const TradeOff& b) {
+  const bool as_good = a.residual_rms <= b.residual_rms && a.total <= b.total && a.step_rms <= b.step_rms;
+  return as_good && (a.residual_rms < b.residual_rms || a.total < b.total || a.step_rms < b.step_rms);
+}
+
+void report_unconverged(ParetoSweep& sweep) {
+  const auto unconverged = [](const ParetoPoint& p) { return !p.solver.converged(); };
+  const auto first = std::find_if(sweep.points.begin(), sweep.points.end(), unconverged);
+  if (first == sweep.points.end()) return;
+  sweep.limits.push_back(fmt::format(
+      "{} of {} solves did not converge; the first, with smoothness {:.4g} and time price {:.4g} nm^2/s: {}: {}",
+      std::count_if(sweep.points.begin(), sweep.points.end(), unconverged), sweep.points.size(),
+      first->weights.smoothness, first->weights.time_price, to_string(first->solver.status), first->solver.message));
+}
+
+}  // namespace
+
+std::vector<double> parse_weight_list(const std::string& text, const std::string& option) {
+  std::vector<double> values = weights_in(text);
+  if (values.empty() || values.size() > kMostWeights) {
+    throw InputError(
+        fmt::format("{}: '{}'; required FROM:TO:COUNT (numbers > 0, COUNT from 2 to {}; equal ratios) or a "
+                    "list of at most {} numbers >= 0 like 0,0.01,0.1",
+                    option, text, kMostWeights, kMostWeights));
+  }
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  return values;
+}
+
+void mark_front(std::vector<ParetoPoint>& points) {
+  std::vector<std::size_t> order(points.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  // In lexicographic order a point can only be dominated by one before it, and so by one of the front before it.
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    const TradeOff &p = points[a].trade_off, &q = points[b].trade_off;
+    return std::tie(p.residual_rms, p.total, p.step_rms, a) < std::tie(q.residual_rms, q.total, q.step_rms, b);
+  });
+  std::vector<std::size_t> front;
+  for (const std::size_t k : order) {
+    const bool dominated = std::any_of(
+        front.begin(), front.end(), [&](std::size_t f) { return dominates(points[f].trade_off, points[k].trade_off); });
+    points[k].on_front = !dominated;
+    if (!dominated) front.push_back(k);
+  }
+}
+
+ParetoSweep sweep_weights(const JobOptions& options, const ParetoRanges& ranges, const RunHooks& hooks) {
+  ParetoSweep sweep;
+  sweep.plan = prepare_plan(options, hooks);
+  PlanProblem problem(sweep.plan);
+  sweep.ranges = completed(ranges, problem.highest_price());
+  const std::size_t rows = sweep.ranges.smoothnesses.size(), columns = sweep.ranges.time_prices.size();
+  sweep.points.resize(rows * columns);
+  Vector dwell;  // of the neighbour before
+  for (std::size_t k = 0; k < rows * columns; ++k) {
+    const std::size_t row = rows - 1 - k / columns, turn = k / columns % 2;
+    const std::size_t column = turn == 0 ? columns - 1 - k % columns : k % columns;
+    const Weights weights{sweep.ranges.smoothnesses[row], sweep.ranges.time_prices[column]};
+    const std::string stage = fmt::format("solve {} of {}: smoothness {:.4g}, time price {:.4g} nm^2/s", k + 1,
+                                          rows * columns, weights.smoothness, weights.time_price);
+    WeightedDwell found = problem.solve(weights, std::move(dwell), options.max_solve_s, stage, hooks);
+    hooks.report(fmt::format("{}: residual {:.4g} nm RMS, total {:.5g} s, step {:.4g} s RMS", stage,
+                             found.trade_off.residual_rms, found.trade_off.total, found.trade_off.step_rms));
+    dwell = std::move(found.dwell);
+    sweep.seconds += found.solver.seconds;
+    ++found.solver.operator_applications;
+    sweep.points[row * columns + column] = {weights, found.trade_off, found.solver.objective, std::move(found.solver),
+                                            false};
+  }
+  mark_front(sweep.points);
+  report_unconverged(sweep);
+  return sweep;
+}
+
+}  // namespace dwell

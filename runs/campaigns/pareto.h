@@ -1,0 +1,48 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "runs/plan/plan.h"
+#include "solvers/problem/dwell_solver.h"
+#include "solvers/weights/weight_search.h"
+
+namespace dwell {
+
+/// Weights of a sweep as a user writes them: "FROM:TO:COUNT", equally spaced in the logarithm, or a list "0,0.01,0.1".
+/// At least one, at most 1000, >= 0 and finite; FROM, TO > 0 and COUNT a whole number >= 2. Given back ascending,
+/// without repeats. Throws InputError naming `option`, the text and what is accepted.
+std::vector<double> parse_weight_list(const std::string& text, const std::string& option);
+
+/// What is swept; empty = the default: smoothness 0.001:10:5, and time prices 0 and four from 1e-5 to 1e-2 of the
+/// highest that has any effect (PlanProblem::highest_price).
+struct ParetoRanges {
+  std::vector<double> smoothnesses;
+  std::vector<double> time_prices;  // [nm^2/s]
+};
+
+struct ParetoPoint {
+  Weights weights;
+  TradeOff trade_off;
+  double objective = 0.0;  // [nm^2]
+  SolverSummary solver;    // operator_applications with the one that measured the residual
+  bool on_front = false;   // no other point is as good in residual, total and step, and better in one
+};
+
+struct ParetoSweep {
+  Plan plan;  // inputs and path, without a dwell; its options' own weights are not used
+  ParetoRanges ranges;
+  std::vector<ParetoPoint> points;  // by smoothness, then by time price, ascending
+  double seconds = 0.0;             // of all solves
+  std::vector<std::string> limits;  // not empty = exit code 3
+};
+
+/// Marks the points that no other dominates in (residual, total, step), all to be small. Points that are equal in all
+/// three are on the front together. Cost O(n^2) at worst; O(n |front|).
+void mark_front(std::vector<ParetoPoint>& points);
+
+/// Solves the dwell problem of a job at every pair of weights, neighbours after each other, from the largest weights
+/// down. Throws as make_plan. options.max_solve_s bounds each solve.
+ParetoSweep sweep_weights(const JobOptions& options, const ParetoRanges& ranges, const RunHooks& hooks);
+
+}  // namespace dwell

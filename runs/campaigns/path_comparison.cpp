@@ -1,0 +1,168 @@
+#include "runs/campaigns/path_comparison.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "core/base/errors.h"
+#include "core/base/units.h"
+#include "paths/domain/widest_place.h"
+#include "paths/metrics/path_coverage.h"
+#include "paths/tours/spanning_tree.h"
+#include "runs/plan/plan_output.h"
+
+namespace dwell {
+namespace {
+
+/// Hooks whose lines begin with the path they are about.
+RunHooks named(const RunHooks& hooks, const std::string& stage) {
+  return {[hooks, stage](const std::string& line) { hooks.report(stage + ": " + line); }, hooks.stop};
+}
+
+/// The rapids, whose time the program does not say: up, and across. The way down is a feed move of the program.
+double lift_time(const PathMetrics& metrics, const JobOptions& o) {
+  const double up = o.lift_height_mm * static_cast<double>(metrics.lifts);
+  return (metrics.lifted_length + up) / units::mm_per_s(o.max_feed_mm_per_min);
+}
+
+PsdCurve radial_spectrum(const HeightMap& map, int threads) {
+  PsdOptions options;
+  options.threads = threads;
+  return radial_psd(areal_psd(map, options));
+}
+
+/// On a square where the part is widest; a corner may lie beyond the disc by what the path overruns.
+void find_ripple(const Plan& plan, ComparedPath& path) {
+  const WidestPlace place = widest_place(plan.figure);
+  PathRippleOptions options;
+  options.threads = plan.threads;
+  options.centre = place.centre;
+  options.side = std::min(8.0 * plan.tif.radius, std::numbers::sqrt2 * place.radius);
+  try {
+    path.ripple = path_ripple(plan.path, plan.tif, options);
+    path.ripple->removal = {};
+  } catch (const InputError& error) {
+    path.no_ripple = error.what();
+  }
+}
+
+std::optional<RippleSpectrum> waves_of(const HeightMap& residual, int threads) {
+  try {
+    return ripple_spectrum(residual, {}, threads);
+  } catch (const InputError&) {
+    return std::nullopt;  // the map shows nothing of the band
+  }
+}
+
+void measure(const Plan& plan, double pitch, ComparedPath& path, const RunHooks& hooks) {
+  hooks.report("path: spacing, coverage, spanning tree");
+  path.metrics = plan.metrics;
+  path.notes = plan.path.notes;
+  path.spacing = path_spacing(plan.path, {.reach = 4.0 * plan.tif.radius});
+  hooks.check();
+  path.coverage = path_coverage(plan.path, plan.figure, pitch).share();
+  hooks.check();
+  path.tree_length = spanning_tree_length(plan.path.points);
+  hooks.check();
+  hooks.report("path: ripple at constant feed");
+  find_ripple(plan, path);
+  hooks.check();
+}
+
+void plan_one(const Plan& job, double pitch, ComparedPath& path, const OutputFolder& folder, const RunHooks& hooks) {
+  Plan plan = job;
+  plan.options.path = path.listed.text;
+  lay_path(plan, hooks);
+  measure(plan, pitch, path, hooks);
+  find_dwell(plan, hooks);
+  OutputFolder own(folder.path(path.listed.name));
+  const WrittenPlan written = write_plan(plan, own, hooks);
+  own.commit();
+  path.limits = plan.limits;
+  path.residual_rms = written.simulated.rms;
+  path.residual_pv = written.simulated.pv;
+  path.spectrum = radial_spectrum(written.residual, plan.threads);
+  path.residual_ripple = waves_of(written.residual, plan.threads);
+  path.dwell_total = plan.dwell.sum();
+  path.step_rms = plan.step_rms;
+  path.lift_time = lift_time(plan.metrics, plan.options);
+  path.total_time = written.program_seconds + path.lift_time;
+  path.solver = plan.solver;
+}
+
+std::array<double, 3> costs(const ComparedPath& p) { return {p.residual_rms, p.mid_rms().value_or(0.0), p.total_time}; }
+
+bool dominates(const ComparedPath& a, const ComparedPath& b) {
+  const std::array<double, 3> x = costs(a), y = costs(b);
+  bool better = false;
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    if (!(x[k] <= y[k])) return false;
+    better = better || x[k] < y[k];
+  }
+  return better;
+}
+
+void collect_limits(PathComparison& comparison) {
+  for (const ComparedPath& p : comparison.paths) {
+    if (!p.failure.empty()) comparison.limits.push_back(fmt::format("{}: no plan: {}", p.listed.name, p.failure));
+    for (const std::string& limit : p.limits) comparison.limits.push_back(fmt::format("{}: {}", p.listed.name, limit));
+  }
+}
+
+}  // namespace
+
+double default_pitch(const RemovalFunction& tif) {
+  const double quarter = 0.25 * tif.fwhm;
+  const double digit = std::pow(10.0, std::floor(std::log10(quarter)) - 1.0);
+  return std::floor(quarter / digit) * digit;
+}
+
+void mark_front(std::vector<ComparedPath>& paths) {
+  for (ComparedPath& p : paths) {
+    p.on_front = p.whole() && std::none_of(paths.begin(), paths.end(), [&](const ComparedPath& other) {
+                   return other.whole() && dominates(other, p);
+                 });
+  }
+}
+
+PathComparison compare_paths(const JobOptions& options, const std::string& list, std::optional<double> pitch,
+                             const OutputFolder& folder, const RunHooks& hooks) {
+  const auto started = std::chrono::steady_clock::now();
+  if (pitch && !(*pitch > 0.0 && std::isfinite(*pitch))) {
+    throw InputError(fmt::format("--pitch: {}; required a finite number > 0, in mm", *pitch));
+  }
+  parse_path_list(list, pitch.value_or(1.0));  // refuses a wrong list before any work is done
+  PathComparison comparison;
+  comparison.job = read_inputs(options, hooks);
+  comparison.pitch_given = pitch.has_value();
+  comparison.pitch = pitch.value_or(default_pitch(comparison.job.tif));
+  comparison.before = radial_spectrum(comparison.job.figure, comparison.job.threads);
+  for (ListedPath& listed : parse_path_list(list, comparison.pitch)) {
+    comparison.paths.emplace_back().listed = std::move(listed);
+  }
+  for (std::size_t k = 0; k < comparison.paths.size(); ++k) {
+    ComparedPath& path = comparison.paths[k];
+    const std::string stage = fmt::format("path {} of {}, {}", k + 1, comparison.paths.size(), path.listed.text);
+    hooks.report(stage);
+    try {
+      plan_one(comparison.job, comparison.pitch, path, folder, named(hooks, stage));
+    } catch (const InputError& error) {
+      path.failure = error.what();
+      hooks.report(stage + ": " + path.failure);
+    }
+  }
+  const bool none = std::none_of(comparison.paths.begin(), comparison.paths.end(),
+                                 [](const ComparedPath& p) { return p.failure.empty(); });
+  if (none) throw InputError("--paths: none can be planned; the first: " + comparison.paths.front().failure);
+  mark_front(comparison.paths);
+  collect_limits(comparison);
+  comparison.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  return comparison;
+}
+
+}  // namespace dwell

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/spectra/psd.h"
+#include "paths/metrics/path_ripple.h"
+#include "paths/metrics/path_spacing.h"
+#include "paths/metrics/ripple_spectrum.h"
+#include "runs/base/output_folder.h"
+#include "runs/job/path_list.h"
+#include "runs/plan/plan.h"
+
+namespace dwell {
+
+/// What came of one path of a comparison.
+struct ComparedPath {
+  ListedPath listed;
+  std::string failure;  // why there is no plan; empty if there is one, and only then is the rest filled
+
+  PathMetrics metrics;
+  PathSpacing spacing;       // to the neighbouring track
+  double coverage = 0.0;     // share of the valid pixels within a pitch of the path (PathComparison::pitch)
+  double tree_length = 0.0;  // no path through the points is shorter than their minimum spanning tree [mm]
+  std::vector<std::string> notes, limits;         // of the planner; of the plan (Plan::limits)
+  double residual_rms = 0.0;                      // of the program as read back, simulated [nm]
+  double residual_pv = 0.0;                       // [nm]
+  std::optional<RippleSpectrum> residual_ripple;  // of the residual; none where the map shows nothing of the band
+  /// At constant feed on a fine patch where the part is widest, whatever the map's pixels: its map is left empty. None
+  /// where there is no room for the patch; `no_ripple` says why.
+  std::optional<PathRipple> ripple;
+  std::string no_ripple;
+  PsdCurve spectrum;         // of the residual, radial
+  double dwell_total = 0.0;  // [s]
+  double step_rms = 0.0;     // [s]
+  double lift_time = 0.0;    // lifted moves and the way up to them, at maximum feed [s]
+  double total_time = 0.0;   // of the program, the way down after a lift included, and lift_time [s]
+  SolverSummary solver;
+
+  /// RMS of the residual between the wavelengths 33 and 0.12 mm, as far as the map resolves them [nm].
+  std::optional<double> mid_rms() const {
+    return residual_ripple ? std::optional<double>(residual_ripple->rms) : std::nullopt;
+  }
+  /// A plan that was cut short is not what the path can do.
+  bool whole() const { return failure.empty() && solver.converged(); }
+  bool on_front =
+      false;  // whole, and no other whole one is as good in residual, mid_rms and total_time, and better in one
+};
+
+struct PathComparison {
+  Plan job;            // inputs and options; its own path is not used
+  double pitch = 0.0;  // of the paths that said none [mm]
+  bool pitch_given = false;
+  std::vector<ComparedPath> paths;  // in the order of the list
+  PsdCurve before;                  // spectrum of the map, form terms removed
+  double seconds = 0.0;             // of it all
+  std::vector<std::string> limits;  // not empty = exit code 3
+};
+
+/// A quarter of the FWHM of a removal function, down to two digits [mm]: tracks that close leave next to no ripple.
+double default_pitch(const RemovalFunction& tif);
+
+/// Marks the paths that no other dominates in (residual_rms, mid_rms, total_time), all to be small; where the map does
+/// not resolve the mid band of some path it does not of any, and two remain. Paths that failed or whose
+/// solve did not converge are neither on the front nor do they keep others off it. Cost O(n^2).
+void mark_front(std::vector<ComparedPath>& paths);
+
+/// Plans every path of `list` for the job, each wholly (path, dwell, program, simulation of the program as read back)
+/// and into a folder of its own name within `folder`. `pitch` [mm] is for the paths that say none; default_pitch if not
+/// given. A path that cannot be planned is reported as such and the others go on. Throws InputError if none can,
+/// Interrupted, or as make_plan does for the inputs. Cost: that of the plans.
+PathComparison compare_paths(const JobOptions& options, const std::string& list, std::optional<double> pitch,
+                             const OutputFolder& folder, const RunHooks& hooks);
+
+}  // namespace dwell

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "runs/drawing/canvas.h"
+
+namespace dwell {
+
+/// How numbers become colours.
+///   Sequential  viridis (S. van der Walt, N. Smith, matplotlib 2015, CC0), perceptually uniform: dwell, rates
+///   Diverging   blue - white - red, equally dark at both ends: heights about zero, red = high
+enum class ColourMap { Sequential, Diverging };
+
+inline constexpr Colour kNoDataColour{208, 208, 208};
+
+/// Colour of a fraction of the range: clamped to [0, 1], interpolated in a short table; NaN is kNoDataColour.
+Colour colour_at(ColourMap map, double fraction);
+
+/// The range of a colour bar and the range of the values it shows.
+struct ColourLimits {
+  double lower = 0.0;
+  double upper = 1.0;
+  double smallest = 0.0;  // of the finite values
+  double largest = 0.0;
+  bool any = false;  // false: no finite value at all
+
+  bool clips_below() const { return any && smallest < lower; }
+  bool clips_above() const { return any && largest > upper; }
+  double fraction(double value) const { return (value - lower) / (upper - lower); }
+};
+
+/// Limits of the colours for these values; those that are not finite are ignored.
+/// Diverging: symmetric about zero, so that white is zero and both signs have the same scale. By default the full
+/// range, +-max |v|, as an optician expects; but no more than 1.5 times the 99.5 % quantile of |v|, so that a few
+/// spikes (dust, edge pixels) do not bleach the rest. One limit given sets the other.
+/// Sequential: by default from the smallest to the largest, each no farther beyond the 0.5 % and 99.5 % quantiles
+/// than half of the distance between them.
+/// Throws InputError if a given limit is not finite, lower >= upper, or a diverging scale is not given zero inside.
+/// Cost O(values).
+ColourLimits colour_limits(const std::vector<double>& values, ColourMap map, std::optional<double> lower = {},
+                           std::optional<double> upper = {});
+
+}  // namespace dwell

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <vector>
+
+#include "core/map/height_map.h"
+#include "core/motion/tool_path.h"
+
+namespace dwell {
+
+/// A scalar over a rectangle of the part, already on the pixels of the picture that will show it.
+struct PlotField {
+  int cols = 0;
+  int rows = 0;
+  std::vector<double> values;                               // row-major, row 0 = smallest y; NaN = nothing there
+  double left = 0.0, right = 0.0, bottom = 0.0, top = 0.0;  // outer edges [mm]
+
+  double& at(int row, int col) { return values[index(row, col)]; }
+  double at(int row, int col) const { return values[index(row, col)]; }
+  std::size_t index(int row, int col) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(cols) + static_cast<std::size_t>(col);
+  }
+};
+
+/// Longest edge of a plot [pixels]: square-ish ones are kept smaller, so that the whole picture fits a page.
+inline constexpr int kPlotEdge = 700;
+inline constexpr int kLongPlotEdge = 1000;  // at 2 : 1 and beyond, or for maps of that many pixels
+inline constexpr double kLongAspect = 2.0;
+
+/// A map at picture resolution, true to its pitches. Small maps are enlarged by an integer (the finer pitch, if they
+/// differ), large ones averaged over whole pixels, ignoring NaN, to at most kLongPlotEdge. An edge that would come
+/// out thinner than 8 pixels is stretched to that. Cost O(map + picture).
+PlotField field_of_map(const HeightMap& map);
+
+/// Dwell at the places of a path: each pixel of the picture shows the nearest dwell point among those whose square
+/// covers it. The side of a point's square is 1.75 times the spacing to its neighbours, by the third smallest of the
+/// distances to the nearest point in each quadrant: on a raster that is the larger of step and line pitch, inside, on
+/// the edge and in a corner, so that the squares leave no holes. Points that share a pixel show their mean. Points
+/// whose dwell is not finite are not shown. Throws InputError if the path is invalid or dwell has another size. Cost
+/// O(points + picture).
+PlotField field_of_dwell(const ToolPath& path, const std::vector<double>& dwell);
+
+}  // namespace dwell

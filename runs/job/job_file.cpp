@@ -1,0 +1,127 @@
+#include "runs/job/job_file.h"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <optional>
+#include <sstream>
+
+#include "core/base/errors.h"
+#include "core/base/number_text.h"
+#include "core/base/spec_text.h"
+#include "core/base/version.h"
+#include "core/base/whole_file.h"
+#include "runs/map_steps/map_steps.h"
+
+namespace dwell {
+namespace {
+
+const JobOptionRecord& record_of(const std::string& key, const std::string& file) {
+  std::string known;
+  for (const JobOptionRecord& record : job_option_table()) {
+    if (record.key == key) return record;
+    known += fmt::format("{}{}", known.empty() ? "" : ", ", record.key);
+  }
+  throw InputError(fmt::format("{}: unknown field '{}'; accepted: {}", file, key, known));
+}
+
+/// Whether an option takes this string: a number is written as one.
+bool takes_text(const JobOptionRecord& record, const std::string& text) {
+  return !record.is_number || (record.takes_words && !parse_number(text));
+}
+
+/// The strings of a list, separated by semicolons; nothing if it is no list of strings alone.
+std::optional<std::string> joined(const toml::node& node) {
+  const toml::array* list = node.as_array();
+  if (!list || !list->is_homogeneous(toml::node_type::string)) return std::nullopt;
+  std::string text;
+  for (const toml::node& part : *list) text += (text.empty() ? "" : "; ") + part.as_string()->get();
+  return text;
+}
+
+std::string text_of(const toml::node& node, const JobOptionRecord& record, const std::string& source) {
+  if (record.takes_list) {
+    if (const auto text = joined(node)) return *text;
+  }
+  if (record.is_number) {
+    if (const auto whole = node.as_integer()) return fmt::format("{}", whole->get());
+    if (const auto real = node.as_floating_point()) return fmt::format("{}", real->get());
+  }
+  if (const auto text = node.as_string(); text && takes_text(record, text->get())) return text->get();
+  std::ostringstream type, value;
+  type << node.type();
+  if (node.is_value())
+    node.visit([&value](const auto& v) {
+      if constexpr (toml::is_value<decltype(v)>) value << ' ' << v;
+    });
+  throw InputError(fmt::format("{}:{} is of type {}; required {}", source, value.str(), type.str(),
+                               record.takes_list    ? "a string, or a list of strings, (in quotes)"
+                               : record.takes_words ? "a number (without quotes) or words (in quotes)"
+                               : record.is_number   ? "a number (without quotes)"
+                                                    : "a string (in quotes)"));
+}
+
+/// Whether the value of a file option names a file: a removal function may be a formula.
+bool names_a_file(const std::string& value) {
+  const std::string kind = split_kind(value).first;
+  return kind != "gaussian" && kind != "disc";
+}
+
+/// The value with its file name taken relative to the job file's folder.
+std::string rebased(const JobOptionRecord& record, const std::string& value, const std::filesystem::path& folder,
+                    const std::string& source) {
+  if (value.empty()) return value;
+  if (record.is_file && names_a_file(value)) return (folder / value).lexically_normal().string();
+  if (record.key == "map_steps") {
+    try {
+      return rebased_map_steps(value, folder);
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("{}: {}", source, error.what()));
+    }
+  }
+  constexpr std::string_view kPathFile = "file:";
+  if (record.key == "path" && value.starts_with(kPathFile) && value != kPathFile) {
+    return std::string(kPathFile) + (folder / value.substr(kPathFile.size())).lexically_normal().string();
+  }
+  return value;
+}
+
+}  // namespace
+
+void read_job_file(const std::filesystem::path& file, JobOptions& options) {
+  const std::string text = read_whole_file(file);
+  toml::table table;
+  try {
+    table = toml::parse(text, file.string());
+  } catch (const toml::parse_error& error) {
+    throw InputError(
+        fmt::format("{}: line {}: {}", file.string(), error.source().begin.line, std::string(error.description())));
+  }
+  for (const auto& [key, node] : table) {
+    const std::string name(key.str());
+    const JobOptionRecord& record = record_of(name, file.string());
+    const std::string source = fmt::format("{}: {}", file.string(), name);
+    const std::string value = text_of(node, record, source);
+    set_job_option(options, record, rebased(record, value, file.parent_path(), source), source);
+  }
+}
+
+std::string job_file_text(const JobOptions& options) {
+  std::string text = fmt::format(
+      "# Job file of dwell {}: dwell plan --job THIS.toml\n# File names are relative to this file's folder.\n",
+      version());
+  for (const JobOptionRecord& record : job_option_table()) {
+    const std::string value = record.get(options);
+    std::ostringstream quoted;
+    quoted << toml::value<std::string>(value);
+    text += fmt::format("\n# {}\n", record.help);
+    if (value.empty()) {
+      text += fmt::format("# {} = {}\n", record.key, record.is_number ? "" : "\"\"");
+    } else {
+      text += fmt::format("{} = {}\n", record.key, takes_text(record, value) ? quoted.str() : value);
+    }
+  }
+  return text;
+}
+
+}  // namespace dwell

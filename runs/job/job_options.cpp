@@ -1,0 +1,195 @@
+#include "runs/job/job_options.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/base/errors.h"
+#include "core/base/number_text.h"
+#include "core/form/form.h"
+#include "core/map/aperture.h"
+#include "core/map/value_units.h"
+#include "core/motion/motion.h"
+#include "core/tif/removal_orientation.h"
+#include "paths/path_spec.h"
+#include "runs/job/input_files.h"
+#include "runs/job/weight_option.h"
+#include "runs/map_steps/map_steps.h"
+#include "runs/programs/gcode_dialect.h"
+#include "solvers/problem/dwell_solver.h"
+
+namespace dwell {
+namespace {
+
+double number(const std::string& text, const char* required, bool (*accepted)(double)) {
+  const auto value = parse_number(text);
+  if (!value || !std::isfinite(*value) || !accepted(*value))
+    throw InputError(fmt::format("'{}'; required {}", text, required));
+  return *value;
+}
+
+double positive(const std::string& text) {
+  return number(text, "a number > 0", [](double v) { return v > 0.0; });
+}
+
+double not_negative(const std::string& text) {
+  return number(text, "a number >= 0", [](double v) { return v >= 0.0; });
+}
+
+void check_height_or_rate_unit(const std::string& unit) {
+  unit_factor(unit, unit.find('/') == std::string::npos ? MapQuantity::Height : MapQuantity::Rate);
+}
+
+double any_angle(const std::string& text) {
+  return number(text, "an angle from -360 to 360 degrees", [](double v) { return v >= -360.0 && v <= 360.0; });
+}
+
+int whole(const std::string& text) {
+  return static_cast<int>(number(text, "a whole number from 0 to 1024",
+                                 [](double v) { return v >= 0.0 && v <= 1024.0 && v == std::floor(v); }));
+}
+
+/// A number as the job file and the summary write it: the shortest that reads back equal.
+std::string shown(double value) { return fmt::format("{}", value); }
+std::string shown(const std::optional<double>& value) { return value ? shown(*value) : ""; }
+
+/// The solvers, as a user names them.
+std::string solver_words() {
+  std::string words;
+  for (const SolverKind kind : solver_kinds()) {
+    if (kind != SolverKind::Auto) words += (words.empty() ? "" : ", ") + to_string(kind);
+  }
+  return words;
+}
+
+using Options = JobOptions;
+
+std::vector<JobOptionRecord> make_table() {
+  return {
+      {"map", "map", "FILE", "height-error map: a file in any map format; NaN = outside the part", true, false,
+       [](Options& o, const std::string& t) { o.map = t; }, [](const Options& o) { return o.map; }},
+      {"map-pixel", "map_pixel_mm", "MM", "pixel pitch of the map, for formats that carry none", false, true,
+       [](Options& o, const std::string& t) { o.map_pixel_mm = positive(t); },
+       [](const Options& o) { return shown(o.map_pixel_mm); }},
+      {"map-unit", "map_unit", "UNIT", "unit of the heights: nm, um, mm or m", false, false,
+       [](Options& o, const std::string& t) { height_unit_nm(t), o.map_unit = t; },
+       [](const Options& o) { return o.map_unit; }},
+      {"map-origin", "map_origin_mm", "X,Y",
+       "position of the map's first pixel in mm (default 0,0 or what the file says)", false, false,
+       [](Options& o, const std::string& t) { o.map_origin_mm = parse_point(t); },
+       [](const Options& o) {
+         return o.map_origin_mm ? fmt::format("{},{}", o.map_origin_mm->x, o.map_origin_mm->y) : "";
+       }},
+      {"map-steps", "map_steps", "STEPS",
+       "how to prepare the map, before all else: STEP;STEP;... of docs/maps.md, as crop:rect:0,0,9,9;fill:harmonic",
+       false, false, [](Options& o, const std::string& t) { parse_map_steps(t), o.map_steps = t; },
+       [](const Options& o) { return o.map_steps; }, false, true},
+      {"tif", "tif", "TIF",
+       "removal function: FILE (as the map), gaussian:peak=NM/S,fwhm=MM[,radius=MM] (or sigma=MM), "
+       "disc:slope=NM/S/MM,radius=MM, or another model (elliptic-gaussian, super-gaussian, planetary, mrf, bonnet) "
+       "with "
+       "its keys",
+       true, false, [](Options& o, const std::string& t) { o.tif = t; }, [](const Options& o) { return o.tif; }},
+      {"tif-pixel", "tif_pixel_mm", "MM", "pixel pitch of the removal function's file, for formats that carry none",
+       false, true, [](Options& o, const std::string& t) { o.tif_pixel_mm = positive(t); },
+       [](const Options& o) { return shown(o.tif_pixel_mm); }},
+      {"tif-unit", "tif_unit", "UNIT",
+       "unit of the removal rates: nm/s, um/s, um/min or m/s (of the surface that spots left: nm, um, mm or m)", false,
+       false, [](Options& o, const std::string& t) { check_height_or_rate_unit(t), o.tif_unit = t; },
+       [](const Options& o) { return o.tif_unit; }},
+      {"tif-dwell-time", "tif_dwell_time_s", "SECONDS",
+       "the removal function's file is a surface, flat before, after the tool stood on it for so many seconds at one "
+       "or "
+       "more spots; dwell tif shows and does more",
+       false, true, [](Options& o, const std::string& t) { o.tif_dwell_time_s = positive(t); },
+       [](const Options& o) { return shown(o.tif_dwell_time_s); }},
+      {"tif-centre", "tif_centre", "WHERE",
+       "the tool axis in the removal function's file: middle (of its grid), centroid, X,Y in mm, or auto: 0,0 of a "
+       "file "
+       "that dwell tif wrote, the centroid of a spot, the middle of others",
+       false, false,
+       [](Options& o, const std::string& t) {
+         if (t != "auto") parse_tif_centre(t);
+         o.tif_centre = t;
+       },
+       [](const Options& o) { return o.tif_centre; }},
+      {"tif-angle", "tif_angle_deg", "DEG",
+       "turns the removal function about the tool axis, counter-clockwise seen from +z, x to the right and y up, in "
+       "degrees",
+       false, true, [](Options& o, const std::string& t) { o.tif_angle_deg = any_angle(t); },
+       [](const Options& o) { return shown(o.tif_angle_deg); }},
+      {"tif-flip", "tif_flip", "AXIS",
+       "mirrors the removal function before it is turned: x (+x becomes -x), y, or none", false, false,
+       [](Options& o, const std::string& t) { parse_flip(t), o.tif_flip = t; },
+       [](const Options& o) { return o.tif_flip; }},
+      {"path", "path", "PATH",
+       "KIND:OPTIONS, for instance raster:pitch=1, random:pitch=1,seed=2 or file:PATH.csv; dwell paths --kinds lists "
+       "them all",
+       false, false, [](Options& o, const std::string& t) { parse_path_spec(t), o.path = t; },
+       [](const Options& o) { return o.path; }},
+      {"motion", "motion", "HOW", "moving: the tool runs through; stop: it halts at every dwell point", false, false,
+       [](Options& o, const std::string& t) { parse_motion(t), o.motion = t; },
+       [](const Options& o) { return o.motion; }},
+      {"remove", "remove", "TERMS", "form terms that do not count: piston,tilt,power,astigmatism or none", false, false,
+       [](Options& o, const std::string& t) { parse_form_terms(t), o.remove = t; },
+       [](const Options& o) { return o.remove; }},
+      {"aperture", "aperture", "AREA",
+       "what counts: map, rect:X0,Y0,X1,Y1, circle:X,Y,R, ellipse:X,Y,A,B[,DEG], annulus:X,Y,RIN,ROUT or "
+       "polygon:X,Y,X,Y,...[/HOLE...] in mm",
+       false, false, [](Options& o, const std::string& t) { parse_aperture(t), o.aperture = t; },
+       [](const Options& o) { return o.aperture; }},
+      {"min-dwell", "min_dwell_s", "S", "shortest dwell time at a point in s", false, true,
+       [](Options& o, const std::string& t) { o.min_dwell_s = not_negative(t); },
+       [](const Options& o) { return shown(o.min_dwell_s); }},
+      {"max-feed", "max_feed_mm_per_min", "MM/MIN", "fastest feed of the machine in mm/min", false, true,
+       [](Options& o, const std::string& t) { o.max_feed_mm_per_min = positive(t); },
+       [](const Options& o) { return shown(o.max_feed_mm_per_min); }},
+      {"smoothness", "smoothness", "WEIGHT",
+       "weight of smooth feed against residual, dimensionless: 0 = none, 0.01 light, 1 strong; or auto, step<=S (RMS "
+       "change of dwell between neighbours in s) or residual<=NM",
+       false, true, [](Options& o, const std::string& t) { o.smoothness = parse_weight_goal(t, kSmoothnessTarget); },
+       [](const Options& o) { return to_string(o.smoothness); }, true},
+      {"time-price", "time_price_nm2_per_s", "NM2/S",
+       "price of machine time: half the mean square residual in nm^2 that a second may cost; or auto, total<=S or "
+       "residual<=NM",
+       false, true,
+       [](Options& o, const std::string& t) { o.time_price_nm2_per_s = parse_weight_goal(t, kTimePriceTarget); },
+       [](const Options& o) { return to_string(o.time_price_nm2_per_s); }, true},
+      {"solver", "solver", "NAME", "auto, or another of " + solver_words(), false, false,
+       [](Options& o, const std::string& t) { parse_solver_kind(t), o.solver = t; },
+       [](const Options& o) { return o.solver; }},
+      {"max-solve", "max_solve_s", "S", "time limit of the solver in s", false, true,
+       [](Options& o, const std::string& t) { o.max_solve_s = positive(t); },
+       [](const Options& o) { return shown(o.max_solve_s); }},
+      {"threads", "threads", "N", "threads; 0 = one for every processor", false, true,
+       [](Options& o, const std::string& t) { o.threads = whole(t); },
+       [](const Options& o) { return fmt::format("{}", o.threads); }},
+      {"gcode", "gcode", "DIALECT", "what F means in program.nc: g94, g93-per-minute or g93-seconds", false, false,
+       [](Options& o, const std::string& t) { parse_gcode_dialect(t), o.gcode = t; },
+       [](const Options& o) { return o.gcode; }},
+      {"lift-height", "lift_height_mm", "MM", "Z of lifted moves in program.nc in mm", false, true,
+       [](Options& o, const std::string& t) { o.lift_height_mm = positive(t); },
+       [](const Options& o) { return shown(o.lift_height_mm); }},
+      {"out", "out", "FOLDER", "where the plan is written; replaced whole if it holds an earlier plan", true, false,
+       [](Options& o, const std::string& t) { o.out = t; }, [](const Options& o) { return o.out; }},
+  };
+}
+
+}  // namespace
+
+const std::vector<JobOptionRecord>& job_option_table() {
+  static const std::vector<JobOptionRecord> table = make_table();
+  return table;
+}
+
+void set_job_option(JobOptions& options, const JobOptionRecord& record, const std::string& text,
+                    const std::string& source) {
+  if (text.empty()) throw InputError(fmt::format("{}: empty; {}", source, record.help));
+  try {
+    record.set(options, text);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", source, error.what()));
+  }
+}
+
+}  // namespace dwell

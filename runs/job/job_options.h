@@ -1,0 +1,67 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/point.h"
+#include "solvers/weights/weight_search.h"
+
+namespace dwell {
+
+/// What a plan is made from, in the user's own words and units. One table of records (job_option_table) feeds the
+/// command line, the job file, the validation and the help text; defaults are those below.
+struct JobOptions {
+  std::string map;
+  std::optional<double> map_pixel_mm;
+  std::string map_unit = "nm";
+  std::optional<Point> map_origin_mm;
+  std::string map_steps;
+  std::string tif;
+  std::optional<double> tif_pixel_mm;
+  std::string tif_unit = "nm/s";
+  std::optional<double> tif_dwell_time_s;
+  std::string tif_centre = "auto";
+  double tif_angle_deg = 0.0;
+  std::string tif_flip = "none";
+  std::string path;
+  std::string motion = "moving";
+  std::string remove = "piston,tilt";
+  std::string aperture = "map";
+  double min_dwell_s = 0.0;
+  double max_feed_mm_per_min = 3000.0;
+  WeightGoal smoothness{0.1};
+  WeightGoal time_price_nm2_per_s{0.0};
+  std::string solver = "auto";
+  double max_solve_s = 3600.0;
+  int threads = 0;
+  std::string gcode = "g94";
+  double lift_height_mm = 10.0;
+  std::string out;
+};
+
+/// One option: how the command line, the job file and messages know it.
+struct JobOptionRecord {
+  std::string flag;   // "max-feed": --max-feed on the command line
+  std::string key;    // "max_feed_mm_per_min": field of the job file
+  std::string value;  // what stands for the value in help: "MM/MIN"
+  std::string help;   // one line, without the default
+  bool is_file;       // a job file's value is relative to the job file's folder
+  bool is_number;     // written without quotes in a job file
+  /// Sets the option from text; throws InputError with the reason, not naming the option.
+  void (*set)(JobOptions&, const std::string&);
+  /// The value as text; empty = not given.
+  std::string (*get)(const JobOptions&);
+  /// A number may also be left open by words, which stand in quotes in a job file.
+  bool takes_words = false;
+  /// A job file may give the parts, which semicolons separate, as a list of strings.
+  bool takes_list = false;
+};
+
+const std::vector<JobOptionRecord>& job_option_table();
+
+/// Sets one option, named `source` ("--max-feed" or "job.toml: max_feed_mm_per_min") in errors.
+void set_job_option(JobOptions& options, const JobOptionRecord& record, const std::string& text,
+                    const std::string& source);
+
+}  // namespace dwell

@@ -1,0 +1,142 @@
+#include "runs/map_steps/map_pair_steps.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "core/base/errors.h"
+#include "core/base/number_text.h"
+#include "core/base/whole_file.h"
+#include "core/map/map_arithmetic.h"
+#include "core/map/map_warp.h"
+#include "core/map/value_units.h"
+#include "core/numerics/point_fit.h"
+#include "solvers/fits/ceres_map_registration.h"
+
+namespace dwell {
+namespace {
+
+/// Another map, read as the first was unless the step has its own pixel, unit or origin.
+HeightMap read_other(const std::string& file, const MapStep& step, MapStepContext& context) {
+  MapReadOptions read = context.read;
+  if (const auto pixel = step.optional_number("pixel")) read.pitch = *pixel;
+  if (const auto origin = step.point("origin")) read.origin = *origin;
+  if (step.has("unit")) read.scale = height_unit_nm(step.word("unit"));
+  HeightMap map = read_map(file, read);
+  context.inputs->push_back({step.record->name, file, sha256_of_file(file)});
+  return map;
+}
+
+RegistrationOptions registration_options(const HeightMap& moving, const MapStep& step) {
+  RegistrationOptions options;
+  options.rotation = !step.has("no-rotation");
+  options.scale = step.has("scale");
+  options.level = !step.has("no-level");
+  const double side = std::max(moving.grid.width(), moving.grid.height());
+  options.range = {step.optional_number("shift").value_or(0.1 * side), step.optional_number("degrees").value_or(3.0)};
+  if (!(options.range.shift >= 0.0 && options.range.degrees >= 0.0 && options.range.degrees <= 180.0)) {
+    step.refuse("shift >= 0 mm and degrees from 0 to 180 are required");
+  }
+  return options;
+}
+
+std::string shown(const MapRegistration& r, const RegistrationOptions& options) {
+  return fmt::format(
+      "looked {:.4g} mm and {:.4g} degrees each way; moved by {:.6g} +- {:.2g} mm in x and {:.6g} +- {:.2g} mm in y, "
+      "turned by {:.6g} +- {:.2g} degrees, scaled by "
+      "{:.8g} +- {:.2g}; difference {:.5g} nm RMS (robust {:.5g}) before, {:.5g} nm (robust {:.5g}) after, {} pixels; "
+      "lone "
+      "spikes left out of the fit: {} of the map moved, {} of the other",
+      options.range.shift, options.range.degrees, r.x.value, r.x.error, r.y.value, r.y.error, r.degrees.value,
+      r.degrees.error, r.scale.value, r.scale.error, r.before.rms, r.before.scatter, r.after.rms, r.after.scatter,
+      r.points, r.spikes_moving, r.spikes_fixed);
+}
+
+std::vector<Point> points_of(const MapStep& step, const std::string& name) {
+  std::vector<double> numbers;
+  const std::string text = step.word(name);
+  for (const std::string_view field : split(text, '/')) {
+    const auto value = finite_number(field);
+    if (!value) step.refuse(fmt::format("{}: '{}' is not a finite number; X/Y/X/Y/... in mm required", name, field));
+    numbers.push_back(*value);
+  }
+  if (numbers.size() % 2 != 0) {
+    step.refuse(fmt::format("{} has {} numbers; X/Y/X/Y/... in mm required", name, numbers.size()));
+  }
+  std::vector<Point> points;
+  for (std::size_t i = 0; i < numbers.size(); i += 2) points.push_back({numbers[i], numbers[i + 1]});
+  return points;
+}
+
+}  // namespace
+
+std::string subtract_map(HeightMap& map, const MapStep& step, MapStepContext& context) {
+  const std::string how = step.word("how");
+  if (how != "strict" && how != "resample" && how != "register") {
+    step.refuse(fmt::format("how = '{}'; accepted: strict, resample or register", how));
+  }
+  HeightMap other = read_other(step.word("file"), step, context);
+  std::string what;
+  if (how == "resample") {
+    other = warped(other, {}, map.grid, context.threads);
+    what = "resampled; ";
+  } else if (how == "register") {
+    const RegistrationOptions options = registration_options(other, step);
+    const MapRegistration found = register_maps(other, map, options, context.threads, context.progress);
+    other = warped(other, found.transform, map.grid, context.threads);
+    what = shown(found, options) + "; ";
+  } else if (const std::string why = grid_difference(map.grid, other.grid); !why.empty()) {
+    step.refuse(why + ", or give 'resample' or 'register'");
+  }
+  map = difference(map, other);
+  return what + fmt::format("{} pixels have data in both", map.valid_pixels());
+}
+
+std::string average_maps(HeightMap& map, const MapStep& step, MapStepContext& context) {
+  const std::vector<std::string> files = step.values("files");
+  const auto count = static_cast<Index>(files.size()) + 1;
+  const Index least = step.has("least") ? step.whole("least", 1, count) : count;
+  std::vector<HeightMap> maps{map};
+  for (const std::string& file : files) {
+    HeightMap other = read_other(file, step, context);
+    if (step.has("resample")) other = warped(other, {}, map.grid, context.threads);
+    if (const std::string why = grid_difference(map.grid, other.grid); !why.empty()) {
+      step.refuse(fmt::format("{}: {}, or give 'resample'", file, why));
+    }
+    maps.push_back(std::move(other));
+  }
+  map = mean_map(maps, least);
+  return fmt::format("{} maps, {} pixels have data in at least {}", count, map.valid_pixels(), least);
+}
+
+std::string register_on_map(HeightMap& map, const MapStep& step, MapStepContext& context) {
+  const HeightMap other = read_other(step.word("to"), step, context);
+  const RegistrationOptions options = registration_options(map, step);
+  const MapRegistration found = register_maps(map, other, options, context.threads, context.progress);
+  map = warped(map, found.transform, other.grid, context.threads);
+  return shown(found, options);
+}
+
+std::string move_by_fiducials(HeightMap& map, const MapStep& step, MapStepContext& context) {
+  const std::vector<Point> from = points_of(step, "from"), to = points_of(step, "to");
+  if (from.size() != to.size()) {
+    step.refuse(fmt::format("{} points in from, {} in to; equally many required", from.size(), to.size()));
+  }
+  std::vector<PointPair> pairs;
+  for (std::size_t i = 0; i < from.size(); ++i) pairs.push_back({from[i], to[i]});
+  const PointFit fit = fit_points(pairs, parse_point_fit_kind(step.word("fit")));
+  const PlaneTransform& t = fit.transform;
+  map = warped(map, t, covering_grid(map.grid, t), context.threads);
+  const double degrees = std::atan2(t.yx - t.xy, t.xx + t.yy) * 180.0 / std::numbers::pi;
+  std::string text =
+      fmt::format("turned by {:.6g} degrees, scaled by {:.8g}, the origin to ({:.6g}, {:.6g}) mm; left: ", degrees,
+                  std::sqrt(std::abs(t.determinant())), t.shift.x, t.shift.y);
+  for (const Point& r : fit.residuals) text += fmt::format("({:.3g}, {:.3g}) ", r.x, r.y);
+  return text + fmt::format("mm, {:.3g} mm RMS", fit.rms);
+}
+
+}  // namespace dwell

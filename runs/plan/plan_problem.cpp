@@ -1,0 +1,101 @@
+#include "runs/plan/plan_problem.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "core/base/units.h"
+#include "core/removal/removal_geometry.h"
+#include "core/removal/simulate.h"
+#include "paths/feed/plan_program.h"
+
+namespace dwell {
+namespace {
+
+std::shared_ptr<const RemovalGeometry> geometry_of(const Plan& plan) {
+  return std::make_shared<const RemovalGeometry>(
+      RemovalGeometry{plan.map.grid, finite_pixels(plan.map), plan.kernel, plan.strokes, plan.threads});
+}
+
+/// What the dwell has to remove: the map, less what the moves between halts remove on their way.
+Vector target_of(const Plan& plan, const std::vector<Index>& pixels, double max_feed) {
+  HeightMap target = plan.map;
+  if (plan.motion == Motion::Stop) {
+    const Program moves = program_of(plan.path, std::vector<double>(plan.path.size(), 0.0), Motion::Stop, max_feed);
+    target = surface_after(plan.map, simulate(moves, plan.map, plan.kernel, plan.threads));
+  }
+  Vector z(static_cast<Index>(pixels.size()));
+  for (std::size_t i = 0; i < pixels.size(); ++i)
+    z[static_cast<Index>(i)] = target.values[static_cast<std::size_t>(pixels[i])];
+  return z;
+}
+
+}  // namespace
+
+PlanProblem::PlanProblem(const Plan& plan)
+    : grid_(plan.map.grid),
+      energy_(plan.kernel.energy),
+      kind_(parse_solver_kind(plan.options.solver)),
+      geometry_(geometry_of(plan)),
+      removal_(make_removal_operator(*geometry_)) {
+  const FeedLimits limits = feed_limits(plan.options);
+  problem_.removal = removal_.get();
+  problem_.target = target_of(plan, geometry_->pixels, limits.max_feed);
+  problem_.form = form_basis(grid_, geometry_->pixels, plan.terms, {}, plan.threads);
+  problem_.smoothness = path_smoothness(plan.path, plan.strokes, plan.threads);
+  problem_.lower = minimum_dwell(plan.strokes, limits);
+  problem_.geometry = geometry_;
+}
+
+const DwellProblem& PlanProblem::with(const Weights& weights) {
+  problem_.alpha = weights.smoothness * energy_;
+  problem_.gamma = weights.time_price * static_cast<double>(problem_.pixels());
+  return problem_;
+}
+
+WeightedDwell PlanProblem::solve(const Weights& weights, Vector start, double max_seconds, const std::string& stage,
+                                 const RunHooks& hooks) {
+  hooks.check();
+  with(weights);
+  SolverOptions options;
+  options.kind = kind_;
+  options.max_seconds = max_seconds;
+  options.progress = [&](const SolverProgress& p) {
+    hooks.report(fmt::format("{}: iteration {}, residual {:.4g} nm RMS, {:.1f} s", stage, p.iterations, p.residual_rms,
+                             p.seconds));
+    return !(hooks.stop && hooks.stop());
+  };
+  if (kind_ == SolverKind::Auto) start.resize(0);  // see solve() in the header
+  WeightedDwell found{weights, std::move(start), {}, {}};
+  found.solver = make_solver(options)->solve(problem_, found.dwell);
+  hooks.check();
+  if (!found.solver.usable()) throw std::runtime_error("solver " + to_string(kind_) + ": " + found.solver.message);
+  Vector residual;
+  DwellObjective(problem_).residual(found.dwell, residual);
+  found.trade_off = {residual.norm() / std::sqrt(static_cast<double>(problem_.pixels())), found.dwell.sum(),
+                     problem_.smoothness.step_rms(found.dwell)};
+  return found;
+}
+
+double PlanProblem::highest_price() {
+  DwellObjective objective(with({}));
+  Vector residual, gradient;
+  objective.residual(problem_.lower, residual);
+  objective.gradient(residual, problem_.lower, gradient);
+  const double price = -gradient.minCoeff() / static_cast<double>(problem_.pixels());
+  return price > 0.0 ? price : 1.0;
+}
+
+HeightMap PlanProblem::left_by(const Vector& dwell) const {
+  Vector removed;
+  removal_->apply(dwell, removed);
+  HeightMap left(grid_);
+  for (std::size_t i = 0; i < geometry_->pixels.size(); ++i) {
+    const auto k = static_cast<Index>(i);
+    left.values[static_cast<std::size_t>(geometry_->pixels[i])] = problem_.target[k] - removed[k];
+  }
+  return left;
+}
+
+}  // namespace dwell

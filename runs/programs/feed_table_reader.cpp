@@ -1,0 +1,226 @@
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <string_view>
+
+#include "core/base/errors.h"
+#include "core/base/units.h"
+#include "core/base/whole_file.h"
+#include "paths/feed/plan_program.h"
+#include "runs/programs/feed_table.h"
+
+namespace dwell {
+namespace {
+
+constexpr std::string_view kColumns = "sequence,x_mm,y_mm,dwell_s,feed_mm_per_min,lift";
+constexpr std::size_t kColumnCount = 6;
+
+template <typename Number>
+std::optional<Number> parse(std::string_view text) {
+  Number value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+// Reads the lines of one feed table in order: header lines, column line, rows.
+class FeedTableReader {
+ public:
+  FeedTableReader(std::string file, std::string_view text) : file_(std::move(file)), text_(text) {}
+
+  FeedTable read() {
+    bool in_rows = false;
+    while (!text_.empty()) {
+      const std::string_view line = next_line();
+      if (line.empty()) continue;
+      if (in_rows) {
+        read_row(line);
+      } else if (line.front() == '#') {
+        read_header(line);
+      } else if (line == kColumns) {
+        check_header();
+        in_rows = true;
+      } else {
+        fail(fmt::format("column line \"{}\"; accepted: {}", line, kColumns));
+      }
+    }
+    if (!in_rows) throw InputError(fmt::format("{}: no column line; required: {}", file_, kColumns));
+    check_rows();
+    return std::move(table_);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const {
+    throw InputError(fmt::format("{}, line {}: {}", file_, line_number_, what));
+  }
+
+  std::string_view next_line() {
+    const std::size_t end = text_.find('\n');
+    std::string_view line = text_.substr(0, end);
+    text_.remove_prefix(end == std::string_view::npos ? text_.size() : end + 1);
+    if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+    ++line_number_;
+    return line;
+  }
+
+  void read_header(std::string_view line) {
+    line.remove_prefix(1);
+    if (!line.empty() && line.front() == ' ') line.remove_prefix(1);
+    if (line.starts_with("dwell ")) {
+      table_.version = line.substr(6);
+      return;
+    }
+    const std::size_t colon = line.find(": ");
+    if (colon == std::string_view::npos) return;
+    const std::string_view key = line.substr(0, colon);
+    const std::string_view value = line.substr(colon + 2);
+    if (key == "motion") {
+      read_motion(value);
+    } else if (key == "max_feed_mm_per_min") {
+      table_.max_feed_mm_per_min = positive(key, value);
+      has_max_feed_ = true;
+    } else if (key == "path") {
+      table_.path.kind = value;
+    } else if (key == "rows") {
+      rows_ = parse<std::size_t>(value);
+      if (!rows_) fail(fmt::format("rows = {}; required a whole number", value));
+    } else if (key == "total_dwell_s") {
+      total_ = number(key, value);
+    } else if (key == "input") {
+      read_input(value);
+    }
+  }
+
+  void read_motion(std::string_view value) {
+    try {
+      table_.motion = parse_motion(std::string(value));
+    } catch (const InputError& error) {
+      fail(error.what());
+    }
+    has_motion_ = true;
+  }
+
+  void read_input(std::string_view value) {
+    const std::size_t at = value.rfind(" sha256=");
+    if (at == std::string_view::npos) fail(fmt::format("input = {}; required NAME sha256=HASH", value));
+    table_.inputs.emplace_back(value.substr(0, at), value.substr(at + 8));
+  }
+
+  void check_header() const {
+    const auto need = [this](bool present, std::string_view line) {
+      if (!present) fail(fmt::format("header line \"{}\" is missing before the column line", line));
+    };
+    need(has_motion_, "# motion: moving|stop");
+    need(has_max_feed_, "# max_feed_mm_per_min: NUMBER");
+    need(rows_.has_value(), "# rows: NUMBER");
+    need(total_.has_value(), "# total_dwell_s: NUMBER");
+  }
+
+  double number(std::string_view name, std::string_view text) const {
+    const std::optional<double> value = parse<double>(text);
+    if (!value || !std::isfinite(*value)) fail(fmt::format("{} = \"{}\"; required a finite number", name, text));
+    return *value;
+  }
+
+  double positive(std::string_view name, std::string_view text) const {
+    const double value = number(name, text);
+    if (!(value > 0.0)) fail(fmt::format("{} = {}; required > 0", name, text));
+    return value;
+  }
+
+  double not_negative(std::string_view name, std::string_view text) const {
+    const double value = number(name, text);
+    if (!(value >= 0.0)) fail(fmt::format("{} = {}; required >= 0", name, text));
+    return value;
+  }
+
+  void read_row(std::string_view line) {
+    std::string_view fields[kColumnCount];
+    std::size_t count = 0;
+    for (std::string_view rest = line; count < kColumnCount;) {
+      const std::size_t comma = rest.find(',');
+      fields[count++] = rest.substr(0, comma);
+      if (comma == std::string_view::npos) break;
+      rest.remove_prefix(comma + 1);
+      if (count == kColumnCount) fail(fmt::format("\"{}\" has more than {} columns", line, kColumnCount));
+    }
+    if (count < kColumnCount) fail(fmt::format("\"{}\" has {} of {} columns: {}", line, count, kColumnCount, kColumns));
+    const std::size_t expected = table_.path.size() + 1;
+    if (parse<std::size_t>(fields[0]) != expected) {
+      fail(fmt::format("sequence = \"{}\"; required {} (1, 2, ... without gaps)", fields[0], expected));
+    }
+    if (fields[5] != "0" && fields[5] != "1") fail(fmt::format("lift = \"{}\"; accepted: 0, 1", fields[5]));
+    table_.path.points.push_back({number("x_mm", fields[1]), number("y_mm", fields[2])});
+    table_.dwell_s.push_back(not_negative("dwell_s", fields[3]));
+    table_.feed_mm_per_min.push_back(not_negative("feed_mm_per_min", fields[4]));
+    table_.path.lifted.push_back(fields[5] == "1");
+    row_lines_.push_back(line_number_);
+  }
+
+  void check_rows() {
+    const std::size_t n = table_.path.size();
+    if (n != *rows_ || n == 0) {
+      throw InputError(
+          fmt::format("{}: {} rows, but the header says {}; required the same, at least 1 "
+                      "(truncated or edited?)",
+                      file_, n, *rows_));
+    }
+    double sum = 0.0;
+    for (const double dwell : table_.dwell_s) sum += dwell;
+    if (!(std::abs(sum - *total_) <= 1e-9 * sum)) {
+      throw InputError(
+          fmt::format("{}: dwell_s adds up to {:.12g} s, but the header says total_dwell_s = {:.12g} "
+                      "(edited?)",
+                      file_, sum, *total_));
+    }
+    if (table_.path.kind.empty()) table_.path.kind = "file";
+    const std::vector<Stroke> strokes = strokes_of(table_.path, table_.motion);
+    for (std::size_t j = 0; j < n; ++j) {
+      line_number_ = row_lines_[j];
+      check_feed(strokes[j].length(), table_.dwell_s[j], table_.feed_mm_per_min[j]);
+    }
+  }
+
+  // 4e-6 mm: a stroke has two halves, the ends of each rounded to 1e-6 mm or halfway between such points.
+  void check_feed(double length, double dwell, double feed) const {
+    const double max_feed = table_.max_feed_mm_per_min;
+    if (!(feed <= max_feed * (1.0 + 1e-8))) {
+      fail(fmt::format("feed_mm_per_min = {}; the header allows at most {}", feed, max_feed));
+    }
+    if (table_.motion == Motion::Stop) {
+      if (!(std::abs(feed - max_feed) <= 1e-8 * max_feed)) {
+        fail(fmt::format("feed_mm_per_min = {}; with motion stop required the maximum feed {}", feed, max_feed));
+      }
+      return;
+    }
+    const double run = units::mm_per_s(feed) * dwell;
+    if (!(std::abs(run - length) <= 1e-6 * length + 4e-6)) {
+      fail(fmt::format("feed_mm_per_min = {} for {} s runs {} mm, but the stroke of this point is {} mm long (edited?)",
+                       feed, dwell, run, length));
+    }
+  }
+
+  std::string file_;
+  std::string_view text_;
+  std::size_t line_number_ = 0;
+  FeedTable table_;
+  bool has_motion_ = false;
+  bool has_max_feed_ = false;
+  std::optional<std::size_t> rows_;
+  std::optional<double> total_;
+  std::vector<std::size_t> row_lines_;
+};
+
+}  // namespace
+
+FeedTable parse_feed_table(std::string_view text, const std::string& file) {
+  return FeedTableReader(file, text).read();
+}
+
+FeedTable read_feed_table(const std::filesystem::path& file) {
+  return parse_feed_table(read_whole_file(file), file.string());
+}
+
+}  // namespace dwell

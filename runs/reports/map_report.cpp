@@ -1,0 +1,69 @@
+#include "runs/reports/map_report.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dwell {
+namespace {
+
+/// Where lines are fitted and limits hold.
+std::pair<double, double> counted_range(const PsdCurve& curve, const std::vector<double>& band_edges) {
+  double from = curve.resolved_from, to = curve.resolved_to;
+  if (band_edges.size() >= 2) {
+    from = std::max(from, 1.0 / band_edges.front());
+    to = std::min(to, 1.0 / band_edges.back());
+  }
+  return {from, to};
+}
+
+SpectrumReport spectrum_report(const HeightMap& figure, const MapReportOptions& options) {
+  PsdOptions psd_options;
+  psd_options.window = options.window;
+  psd_options.threads = options.threads;
+  const ArealPsd psd = areal_psd(figure, psd_options);
+  SpectrumReport report;
+  report.window = options.window;
+  report.rms = std::sqrt(psd.mean_square);
+  report.longest_wavelength = psd.longest_wavelength();
+  report.shortest_wavelength = psd.shortest_wavelength();
+  report.bridged = psd.bridged;
+  report.holes = psd.holes;
+  report.split = band_rms(psd, options.band_edges);
+  report.limit = options.limit;
+  for (PsdCurve& curve : std::vector<PsdCurve>{psd_along_x(psd), psd_along_y(psd), radial_psd(psd)}) {
+    const auto [from, to] = counted_range(curve, options.band_edges);
+    CurveReport c{std::move(curve), {}, {}};
+    c.fit = fit_psd_line(c.curve, from, std::min(to, 0.5 * c.curve.resolved_to));
+    if (options.limit && options.limit->radial == (c.curve.name == "radial")) {
+      c.limit = check_psd_limit(c.curve, options.limit->line, from, to);
+    }
+    report.curves.push_back(std::move(c));
+  }
+  return report;
+}
+
+}  // namespace
+
+bool SpectrumReport::limit_met() const {
+  return std::all_of(curves.begin(), curves.end(), [](const CurveReport& c) { return !c.limit || c.limit->met(); });
+}
+
+MapReport map_report(const HeightMap& map, const MapReportOptions& options) {
+  MapReport report;
+  report.removed = options.removed;
+  report.figure = map;
+  report.removed_fit = remove_polynomials(report.figure, options.removed, options.threads);
+  report.statistics = map_statistics(report.figure, {}, options.threads);
+  report.robust = robust_pv(report.figure, options.threads);
+  report.slope = slope_statistics(report.figure, options.threads);
+  report.form = options.form;
+  if (options.form) {
+    HeightMap residual = map;
+    report.form_fit = remove_polynomials(residual, *options.form, options.threads);
+    report.form_residual = map_statistics(residual, {}, options.threads);
+  }
+  if (options.spectrum) report.spectrum = spectrum_report(report.figure, options);
+  return report;
+}
+
+}  // namespace dwell

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/form/map_statistics.h"
+#include "core/form/polynomial_fit.h"
+#include "core/form/robust_pv.h"
+#include "core/map/surface_slope.h"
+#include "core/spectra/psd_line.h"
+#include "runs/job/input_files.h"
+#include "runs/reports/wavelength_bands.h"
+
+namespace dwell {
+
+struct MapReportOptions {
+  PolynomialSpec removed;              // form that does not count: taken out before anything else
+  std::optional<PolynomialSpec> form;  // polynomials to describe the map by, as measured
+  bool spectrum = false;
+  SpectralWindow window;
+  std::vector<double> band_edges{33.0, 0.12};  // [mm]
+  std::optional<PsdLimit> limit;
+  int threads = 1;
+};
+
+/// A spectrum, the line it follows, and how it stands to the limit.
+struct CurveReport {
+  PsdCurve curve;
+  std::optional<PsdLineFit> fit;
+  std::optional<PsdLimitCheck> limit;  // only of the curves that the limit is for
+};
+
+struct SpectrumReport {
+  SpectralWindow window;
+  double rms = 0.0;                                            // as the window sees the map [nm]
+  double longest_wavelength = 0.0, shortest_wavelength = 0.0;  // resolved [mm]
+  Index bridged = 0;
+  bool holes = false;
+  std::vector<CurveReport> curves;  // along x, along y, radial
+  BandSplit split;
+  std::optional<PsdLimit> limit;
+
+  bool limit_met() const;  // also without a limit
+};
+
+/// What a map is like. Heights in nm, slopes in urad.
+struct MapReport {
+  PolynomialSpec removed;
+  PolynomialFit removed_fit;
+  HeightMap figure;  // the map without `removed`
+  MapStatistics statistics;
+  std::optional<RobustPv> robust;  // none of fewer pixels than terms
+  SlopeStatistics slope;
+  std::optional<PolynomialSpec> form;
+  PolynomialFit form_fit;
+  MapStatistics form_residual;  // of the map without `form`
+  std::optional<SpectrumReport> spectrum;
+};
+
+/// Lines are fitted and limits checked where both the spectrum is resolved (PsdCurve; fits up to half the Nyquist
+/// frequency, where noise and the instrument still matter little) and, with two band edges or more, between the first
+/// and the last of them. Throws InputError if the map has no finite pixel.
+MapReport map_report(const HeightMap& map, const MapReportOptions& options);
+
+/// Lines of text, each "name      value unit".
+std::string map_report_text(const MapReport& report);
+
+/// All of it as JSON text (docs/statistics.md), units in the keys. `map` is the map as measured.
+std::string map_report_json(const MapReport& report, const HeightMap& map, const std::vector<InputFile>& inputs);
+
+/// The spectra as a PNG file: along x and y at the left, radial at the right, bands shaded, fit and limit. Throws
+/// std::invalid_argument without a spectrum.
+std::string psd_picture(const MapReport& report, const std::string& title);
+
+}  // namespace dwell

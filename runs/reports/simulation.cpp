@@ -1,0 +1,84 @@
+#include "runs/reports/simulation.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/version.h"
+#include "core/base/whole_file.h"
+#include "core/map/aperture.h"
+#include "core/removal/simulate.h"
+#include "core/tif/removal_kernel.h"
+#include "runs/base/inputs_json.h"
+#include "runs/plan/plan.h"
+#include "runs/programs/program_reader.h"
+
+namespace dwell {
+namespace {
+
+SplineError spline_error(const HeightMap& spline, const HeightMap& exact) {
+  SplineError error;
+  const std::vector<Index> pixels = finite_pixels(exact);
+  for (const Index i : pixels) {
+    const double d = spline.values[static_cast<std::size_t>(i)] - exact.values[static_cast<std::size_t>(i)];
+    error.rms += d * d / static_cast<double>(pixels.size());
+    error.largest = std::max(error.largest, std::abs(d));
+  }
+  error.rms = std::sqrt(error.rms);
+  return error;
+}
+
+}  // namespace
+
+Simulation simulate_file(const std::filesystem::path& program, std::optional<GcodeDialect> dialect,
+                         const JobOptions& options, const RunHooks& hooks, bool exact) {
+  Simulation s;
+  hooks.report("read: program, map and removal function");
+  s.program = read_program(program, dialect);
+  s.inputs.push_back({"program", program.string(), sha256_of_file(program)});
+  const HeightMap map = within(load_map(options, s.inputs, hooks), parse_aperture(options.aperture));
+  const RemovalFunction tif = load_removal_function(options, s.inputs);
+  check_tool_fits(tif, map.grid);
+  const RemovalKernel kernel = removal_kernel(tif, map.grid.pitch_x, map.grid.pitch_y);
+  s.terms = parse_form_terms(options.remove);
+  s.before = map_statistics(map, s.terms, thread_count(options.threads));
+  hooks.check();
+  hooks.report(fmt::format("simulate: {} steps", s.program.steps.size()));
+  s.removal = simulate(s.program, map, kernel, thread_count(options.threads));
+  if (exact) {
+    HeightMap removal =
+        simulate_exactly(s.program, map, tif, thread_count(options.threads), [&](const std::string& line) {
+          hooks.report("simulate exactly: " + line);
+          hooks.check();
+          return true;
+        });
+    s.spline_error = spline_error(s.removal, removal);
+    s.removal = std::move(removal);
+  }
+  hooks.check();
+  s.residual = without_form(surface_after(map, s.removal), s.terms, thread_count(options.threads));
+  s.after = map_statistics(s.residual, {}, thread_count(options.threads));
+  return s;
+}
+
+std::string simulation_json(const Simulation& s) {
+  using Json = nlohmann::ordered_json;
+  Json json = {{"schema", 1},
+               {"version", version()},
+               {"program",
+                {{"file", s.program.file},
+                 {"steps", s.program.steps.size()},
+                 {"total_s", s.program.total_seconds()},
+                 {"removing_length_mm", s.program.removing_length()}}},
+               {"map", {{"valid_pixels", s.before.valid_pixels}, {"pv_nm", s.before.pv}, {"rms_nm", s.before.rms}}},
+               {"residual", {{"removed", to_string(s.terms)}, {"rms_nm", s.after.rms}, {"pv_nm", s.after.pv}}},
+               {"inputs", inputs_json(s.inputs)}};
+  if (s.spline_error) {
+    json["spline_error"] = {{"rms_nm", s.spline_error->rms}, {"largest_nm", s.spline_error->largest}};
+  }
+  return json.dump(2) + "\n";
+}
+
+}  // namespace dwell

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/form/map_statistics.h"
+#include "core/motion/program.h"
+#include "runs/base/run_hooks.h"
+#include "runs/job/input_files.h"
+#include "runs/job/job_options.h"
+#include "runs/programs/gcode_dialect.h"
+
+namespace dwell {
+
+/// How far the removal by the spline on the map's pixels is from that by the removal function as given, over the
+/// aperture [nm].
+struct SplineError {
+  double rms = 0.0;
+  double largest = 0.0;
+};
+
+/// What a program on disk does to a map.
+struct Simulation {
+  std::vector<InputFile> inputs;
+  Program program;
+  FormTerms terms;
+  MapStatistics before;
+  MapStatistics after;
+  HeightMap removal;                        // [nm], within the aperture
+  HeightMap residual;                       // [nm], form terms removed
+  std::optional<SplineError> spline_error;  // of an exact simulation; without form terms removed
+};
+
+/// Simulates a program file (feed.csv or G-code) on the job's map with the job's removal function, the tool moving
+/// continuously. `exact`: with the removal function as given (simulate_exactly), which is slow. `dialect`: for a G93
+/// program that does not name its own. Uses of the job: map, tif, remove, aperture, threads. Throws InputError,
+/// Interrupted.
+Simulation simulate_file(const std::filesystem::path& program, std::optional<GcodeDialect> dialect,
+                         const JobOptions& options, const RunHooks& hooks, bool exact = false);
+
+/// As JSON text: program, map, residual, inputs; units in the keys.
+std::string simulation_json(const Simulation& simulation);
+
+}  // namespace dwell

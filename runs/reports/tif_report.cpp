@@ -1,0 +1,174 @@
+#include "runs/reports/tif_report.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+#include "core/base/version.h"
+#include "runs/base/inputs_json.h"
+
+namespace dwell {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string wave(const std::optional<double>& w) { return w ? fmt::format("{:.4g} mm", *w) : "none"; }
+Json wave_json(const std::optional<double>& w) { return w ? Json(*w) : Json(nullptr); }
+Json number(double v) { return std::isfinite(v) ? Json(v) : Json(nullptr); }
+
+std::string spots_text(const SpotCalibration& c) {
+  std::string text = fmt::format(
+      "spots     {}, radius {:.4g} mm, noise cut took {:.2g} % of the volume{}\n", c.spots.size(), c.radius,
+      100.0 * c.volume_cut, c.filled_pixels > 0 ? fmt::format(", {} pixels without data filled", c.filled_pixels) : "");
+  double sum = 0.0, square = 0.0;
+  for (const CalibratedSpot& s : c.spots) {
+    text += fmt::format(
+        "          at ({:.4f}, {:.4f}) mm: peak {:.4g} nm/s, volume {:.4g} nm mm^2/s, scatter around it {:.2g} "
+        "nm/s\n",
+        s.position.x, s.position.y, s.peak, s.volume, s.scatter);
+    sum += s.volume, square += s.volume * s.volume;
+  }
+  const double n = static_cast<double>(c.spots.size());
+  if (n > 1.0) {
+    const double deviation = std::sqrt(std::max(0.0, (square - sum * sum / n) / (n - 1.0)));
+    text += fmt::format("          volume from spot to spot: {:.2g} % (standard deviation)\n",
+                        100.0 * deviation / (sum / n));
+  }
+  return text;
+}
+
+std::string trench_text(const TrenchCalibration& t) {
+  return fmt::format(
+      "trench    {:.4g} nm deep, mean from {:.4g} to {:.4g} mm along it, radius {:.4g} mm, scatter {:.2g} nm\n"
+      "          asymmetry across {:.2g} (0 = symmetric); taken as rotationally symmetric\n",
+      t.depth, t.from, t.to, t.radius, t.scatter, t.asymmetry);
+}
+
+std::string fit_text(const RemovalFit& f, double least_bic) {
+  std::string text =
+      fmt::format("fit       {}: RMS {:.4g} nm/s, R^2 {:.6f}, AIC {:.1f}, BIC {:.1f} ({:+.1f}){}\n", f.model, f.rms,
+                  f.r_squared, f.aic, f.bic, f.bic - least_bic, f.converged ? "" : ", NOT converged");
+  for (const FittedParameter& p : f.parameters) {
+    const std::string error = p.held                   ? "held"
+                              : std::isfinite(p.error) ? fmt::format("+- {:.2g}", p.error)
+                                                       : "not determined";
+    text +=
+        fmt::format("            {:<12} {:.6g} {}{}({})\n", p.name, p.value, p.unit, p.unit.empty() ? "" : " ", error);
+  }
+  return text + fmt::format("            --tif {}\n", f.spec);
+}
+
+Json spots_json(const SpotCalibration& c) {
+  auto spots = Json::array();
+  for (const CalibratedSpot& s : c.spots) {
+    spots.push_back({{"x_mm", s.position.x},
+                     {"y_mm", s.position.y},
+                     {"peak_nm_per_s", s.peak},
+                     {"volume_nm_mm2_per_s", s.volume},
+                     {"scatter_nm_per_s", s.scatter}});
+  }
+  double square = 0.0;
+  for (const double v : c.deviation.values) square += v * v;
+  return {{"radius_mm", c.radius},
+          {"volume_cut_share", c.volume_cut},
+          {"filled_pixels", c.filled_pixels},
+          {"deviation_rms_nm_per_s", std::sqrt(square / static_cast<double>(c.deviation.values.size()))},
+          {"each", spots}};
+}
+
+Json trench_json(const TrenchCalibration& t) {
+  auto section = Json::array();
+  for (const LineIntegral& s : t.section) section.push_back({s.offset, s.value});
+  return {
+      {"depth_nm", t.depth}, {"radius_mm", t.radius},   {"middle_mm", t.middle},    {"from_mm", t.from},
+      {"to_mm", t.to},       {"scatter_nm", t.scatter}, {"asymmetry", t.asymmetry}, {"section_nm_mm_per_s", section}};
+}
+
+Json waves_json(const RemovalAnalysis::Waves& w) {
+  return {{"x", wave_json(w.x)}, {"y", wave_json(w.y)}, {"radial", wave_json(w.radial)}};
+}
+
+Json fit_json(const RemovalFit& f) {
+  auto parameters = Json::array();
+  for (const FittedParameter& p : f.parameters) {
+    parameters.push_back({{"name", p.name},
+                          {"unit", p.unit},
+                          {"value", p.value},
+                          {"standard_error", number(p.error)},
+                          {"held", p.held}});
+  }
+  return {{"model", f.model},
+          {"parameters", parameters},
+          {"rms_nm_per_s", f.rms},
+          {"r_squared", f.r_squared},
+          {"aic", f.aic},
+          {"bic", f.bic},
+          {"converged", f.converged},
+          {"iterations", f.iterations},
+          {"message", f.message},
+          {"tif", f.spec}};
+}
+
+}  // namespace
+
+std::string tif_text(const TifResult& r) {
+  const RemovalAnalysis& a = r.analysis;
+  const Grid& g = r.rates.grid;
+  std::string text = fmt::format("tif       {}: {} rows (y) x {} columns (x), pitch {:.6g} x {:.6g} mm\n", r.source,
+                                 g.rows, g.cols, g.pitch_x, g.pitch_y);
+  for (const InputFile& input : r.inputs)
+    text += fmt::format("{:<9} {} (sha256 {})\n", input.role, input.file, input.sha256);
+  if (r.spots) text += spots_text(*r.spots);
+  if (r.trench) text += trench_text(*r.trench);
+  text += fmt::format("peak      {:.6g} nm/s at ({:.4g}, {:.4g}) mm from the tool axis\n", a.peak, a.peak_at.x,
+                      a.peak_at.y);
+  text += fmt::format("volume    {:.6g} nm mm^2/s, 99 % of it within {:.4g} mm\n", a.volume, a.radius);
+  text += fmt::format("FWHM      {:.4g} mm along x, {:.4g} mm along y, {:.4g} mm of equal area\n", a.fwhm_x, a.fwhm_y,
+                      a.fwhm);
+  text += fmt::format("centroid  ({:.4g}, {:.4g}) mm from the tool axis\n", a.centroid.x, a.centroid.y);
+  text += fmt::format(
+      "symmetry  asymmetry {:.3g} (RMS off the mean over all directions / RMS); main axes {:.4g} x {:.4g} mm "
+      "(sigma), the longer at {:.1f} deg\n",
+      a.asymmetry, a.sigma_major, a.sigma_minor, a.angle);
+  text += fmt::format("corrects  wavelengths down to {} at 10 % response (x {}, y {}); 50 % at {}\n",
+                      wave(a.at_tenth.radial), wave(a.at_tenth.x), wave(a.at_tenth.y), wave(a.at_half.radial));
+  for (const RemovalFit& f : r.fits) text += fit_text(f, r.fits.front().bic);
+  return text;
+}
+
+std::string tif_json(const TifResult& r) {
+  const RemovalAnalysis& a = r.analysis;
+  const Grid& g = r.rates.grid;
+  Json json = {{"schema", 1},
+               {"version", version()},
+               {"source", r.source},
+               {"grid",
+                {{"rows", g.rows},
+                 {"columns", g.cols},
+                 {"pixel_mm", {g.pitch_x, g.pitch_y}},
+                 {"origin_mm", {g.origin.x, g.origin.y}}}},
+               {"peak_nm_per_s", a.peak},
+               {"peak_at_mm", {a.peak_at.x, a.peak_at.y}},
+               {"volume_nm_mm2_per_s", a.volume},
+               {"fwhm_mm", a.fwhm},
+               {"fwhm_x_mm", a.fwhm_x},
+               {"fwhm_y_mm", a.fwhm_y},
+               {"radius_99_mm", a.radius},
+               {"centroid_mm", {a.centroid.x, a.centroid.y}},
+               {"sigma_mm", {a.sigma_major, a.sigma_minor}},
+               {"angle_deg", a.angle},
+               {"asymmetry", a.asymmetry},
+               {"wavelength_mm_at_50_percent", waves_json(a.at_half)},
+               {"wavelength_mm_at_10_percent", waves_json(a.at_tenth)}};
+  if (r.spots) json["spots"] = spots_json(*r.spots);
+  if (r.trench) json["trench"] = trench_json(*r.trench);
+  auto fits = Json::array();
+  for (const RemovalFit& f : r.fits) fits.push_back(fit_json(f));
+  json["fits"] = fits;
+  json["made"] = r.rates.history;
+  json["inputs"] = inputs_json(r.inputs);
+  return json.dump(2) + "\n";
+}
+
+}  // namespace dwell

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+
+#include "runs/reports/tif_run.h"
+
+namespace dwell {
+
+/// What `dwell tif` prints: a few lines with units.
+std::string tif_text(const TifResult& result);
+
+/// The same and more as JSON (docs/removal_functions.md).
+std::string tif_json(const TifResult& result);
+
+}  // namespace dwell

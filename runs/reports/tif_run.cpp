@@ -1,0 +1,198 @@
+#include "runs/reports/tif_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/errors.h"
+#include "core/base/number_text.h"
+#include "core/base/spec_text.h"
+#include "core/base/units.h"
+#include "core/base/whole_file.h"
+#include "core/formats/map_io.h"
+#include "core/tif/models/removal_models.h"
+#include "core/tif/removal_orientation.h"
+#include "runs/plan/plan.h"
+
+namespace dwell {
+namespace {
+
+/// Options that mean nothing for the kind of input given are refused, not ignored.
+void refuse_unused(const TifJob& job) {
+  const bool spot = !job.spot.empty(), trench = !job.trench.empty(), measured = spot || trench;
+  if (spot + trench + !job.job.tif.empty() != 1) {
+    throw InputError(
+        "give one of: a removal function (a file of rates, or a model), --spot FILE with --dwell-time, or --trench "
+        "FILE with "
+        "--feed");
+  }
+  const auto only = [](bool given, bool accepted, const char* option, const char* with) {
+    if (given && !accepted) throw InputError(fmt::format("{}: accepted only with {}", option, with));
+  };
+  only(!job.before.empty(), measured, "--before", "--spot or --trench");
+  only(job.dwell_time_s.has_value(), spot, "--dwell-time", "--spot (a trench needs --feed)");
+  only(job.feed_mm_per_min.has_value(), trench, "--feed", "--trench (a spot needs --dwell-time)");
+  only(job.direction_deg.has_value(), trench, "--direction", "--trench");
+  only(!job.at.empty(), spot, "--at", "--spot");
+  only(job.radius_mm.has_value(), measured, "--radius", "--spot or --trench");
+  only(job.noise_cut.has_value(), measured, "--noise-cut", "--spot or --trench");
+  only(job.noise_sigmas.has_value(), spot, "--noise-sigmas", "--spot");
+  only(!job.centre.empty(), spot, "--centre", "--spot (for a file of rates: --tif-centre)");
+  only(!job.baseline.empty(), spot, "--baseline", "--spot");
+  only(!job.registration.empty(), spot, "--register", "--spot");
+  const JobOptions& o = job.job;
+  only(o.map_pixel_mm || o.map_origin_mm || o.map_unit != "nm", measured, "--map-pixel, --map-origin or --map-unit",
+       "--spot or --trench (for a file of rates: --tif-pixel, --tif-unit)");
+  only(o.tif_pixel_mm || o.tif_unit != "nm/s" || o.tif_centre != "auto", !measured,
+       "--tif-pixel, --tif-unit or --tif-centre",
+       "a file of rates (for --spot and --trench: --map-pixel, --map-unit, --centre)");
+}
+
+HeightMap read_heights(const std::string& file, const TifJob& job, const char* role, std::vector<InputFile>& inputs) {
+  JobOptions options = job.job;
+  options.map = file;
+  HeightMap map = load_map(options, inputs);
+  inputs.back().role = role;
+  return map;
+}
+
+HeightMap read_depth(const std::string& file, const TifJob& job, std::vector<InputFile>& inputs) {
+  HeightMap after = read_heights(file, job, "after", inputs);
+  if (!job.before.empty()) {
+    HeightMap depth = removed_depth(read_heights(job.before, job, "before", inputs), after);
+    depth.history.push_back(fmt::format("tif: {} minus {}", job.before, file));
+    return depth;
+  }
+  for (double& v : after.values) v = -v;
+  after.history.push_back(fmt::format("tif: {} below its surroundings", file));
+  return after;
+}
+
+SpotOptions spot_options(const TifJob& job) {
+  if (!job.dwell_time_s)
+    throw InputError("--dwell-time: required with --spot; the time that the tool stood on a spot [s]");
+  SpotOptions options;
+  options.dwell_time = *job.dwell_time_s;
+  for (const std::string& text : job.at) {
+    try {
+      options.at.push_back(parse_point(text));
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("--at: {}", error.what()));
+    }
+  }
+  options.radius = job.radius_mm;
+  options.noise_cut = job.noise_cut.value_or(options.noise_cut);
+  options.noise_sigmas = job.noise_sigmas.value_or(options.noise_sigmas);
+  const auto word = [](const char* option, const std::string& text, auto parse, auto& into) {
+    if (text.empty()) return;
+    try {
+      into = parse(text);
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("{}: {}", option, error.what()));
+    }
+  };
+  word("--centre", job.centre, parse_spot_centre, options.centre);
+  word("--baseline", job.baseline, parse_spot_baseline, options.baseline);
+  word("--register", job.registration, parse_spot_registration, options.registration);
+  if (job.before.empty() && options.baseline == SpotBaseline::None) {
+    throw InputError(
+        "--baseline none: without --before the level of the surroundings is needed; plane and constant are accepted");
+  }
+  return options;
+}
+
+TrenchOptions trench_options(const TifJob& job) {
+  if (!job.feed_mm_per_min) throw InputError("--feed: required with --trench; the speed along the track [mm/min]");
+  TrenchOptions options;
+  options.feed = units::mm_per_s(*job.feed_mm_per_min);
+  options.direction = job.direction_deg.value_or(0.0);
+  options.radius = job.radius_mm;
+  options.noise_cut = job.noise_cut.value_or(options.noise_cut);
+  return options;
+}
+
+/// The rates of the job, before it is turned.
+RemovalFunction find_removal(const TifJob& job, TifResult& result) {
+  if (!job.spot.empty()) {
+    const HeightMap depth = read_depth(job.spot, job, result.inputs);
+    result.source = "spot";
+    try {
+      result.spots = calibrate_spots(depth, spot_options(job));
+      return measured_removal(result.spots->rates, {TifCentre::Kind::Given, {}});
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("{}: {}", job.spot, error.what()));
+    }
+  }
+  const HeightMap depth = read_depth(job.trench, job, result.inputs);
+  result.source = "trench";
+  try {
+    result.trench = calibrate_trench(depth, trench_options(job));
+    return measured_removal(result.trench->rates, {TifCentre::Kind::Given, {}});
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", job.trench, error.what()));
+  }
+}
+
+}  // namespace
+
+std::vector<FitRequest> parse_fits(const std::vector<std::string>& texts, bool robust) {
+  std::vector<FitRequest> requests;
+  for (const std::string& text : texts) {
+    if (text.find(':') != std::string::npos) {
+      const SpecText spec = parse_spec_text(text, "--fit");
+      FitRequest request{removal_model(spec.kind).name, {{}, robust}};
+      for (const auto& [key, value] : spec.entries) request.options.held[key] = spec.number(key);
+      requests.push_back(std::move(request));
+      continue;
+    }
+    for (const std::string_view name : split(text, ',')) {
+      if (trim(name) == "all") {
+        for (const RemovalModel& model : removal_models()) {
+          // A bonnet's cap does not follow from its spot.
+          if (model.name != "bonnet") requests.push_back({model.name, {{}, robust}});
+        }
+        continue;
+      }
+      try {
+        requests.push_back({removal_model(std::string(trim(name))).name, {{}, robust}});
+      } catch (const InputError& error) {
+        throw InputError(fmt::format("--fit: {}", error.what()));
+      }
+    }
+  }
+  return requests;
+}
+
+int unfinished_fits(const TifResult& result) {
+  return static_cast<int>(
+      std::count_if(result.fits.begin(), result.fits.end(), [](const auto& f) { return !f.converged; }));
+}
+
+TifResult make_tif(const TifJob& job) {
+  refuse_unused(job);
+  const std::vector<FitRequest> requests = parse_fits(job.fits, job.robust);
+  if (job.robust && requests.empty()) throw InputError("--robust: accepted only with --fit");
+  TifResult result;
+  if (job.job.tif.empty()) {
+    const RemovalFunction tif = find_removal(job, result);
+    result.rates = oriented(tif, {job.job.tif_angle_deg, parse_flip(job.job.tif_flip)}).samples;
+  } else {
+    const RemovalFunction tif = load_removal_function(job.job, result.inputs);
+    result.source = kind_of(tif);
+    result.rates = removal_samples(tif);
+  }
+  result.rates.quantity = MapQuantity::Rate;
+  result.analysis = analyse_removal(result.rates, thread_count(job.job.threads));
+  for (const FitRequest& request : requests) {
+    result.fits.push_back(fit_removal(result.rates, removal_model(request.model), request.options));
+  }
+  std::stable_sort(result.fits.begin(), result.fits.end(),
+                   [](const RemovalFit& a, const RemovalFit& b) { return a.bic < b.bic; });
+  auto& history = result.rates.history;
+  if (std::find(history.begin(), history.end(), kToolAxisAtOrigin) == history.end())
+    history.emplace_back(kToolAxisAtOrigin);
+  return result;
+}
+
+}  // namespace dwell

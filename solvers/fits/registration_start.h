@@ -1,0 +1,29 @@
+#pragma once
+
+#include "core/map/height_map.h"
+
+namespace dwell {
+
+/// Where to look for the place of one map on another.
+struct RegistrationRange {
+  double shift = 0.0;    // each way in x and y [mm], >= 0
+  double degrees = 0.0;  // each way, >= 0
+};
+
+struct RegistrationStart {
+  Point shift;           // of the moving map's middle [mm]
+  double degrees = 0.0;  // counter-clockwise about it
+};
+
+/// The shift and rotation that bring `moving` best onto `fixed` by exhaustive search: both averaged in blocks until the
+/// fixed one has at most kStartPixels pixels, every shift by whole such pixels and every rotation by as much as moves
+/// the corner of the moving map by one, the RMS difference without its mean over the common pixels, of which there must
+/// be kStartOverlap of the smaller map. Nearest pixels, robust planes removed from both maps before. Good to about one
+/// averaged pixel. Throws InputError if no place has that overlap. Cost O(kStartPixels) a place.
+RegistrationStart coarse_registration(const HeightMap& moving, const HeightMap& fixed, const RegistrationRange& range,
+                                      int threads = 1);
+
+inline constexpr Index kStartPixels = 3000;
+inline constexpr double kStartOverlap = 0.4;
+
+}  // namespace dwell

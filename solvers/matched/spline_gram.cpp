@@ -1,0 +1,157 @@
+#include "solvers/matched/spline_gram.h"
+
+#include <algorithm>
+
+#include "core/numerics/bspline.h"
+#include "solvers/problem/simd.h"
+
+namespace dwell {
+namespace {
+
+/// The weights on its four nodes of a map line, k pixels beyond the second of them.
+std::array<double, 4> line_weights(Index k, Index factor, bool slope) {
+  const double f = static_cast<double>(k) / static_cast<double>(factor), g = 1.0 - f;
+  if (!slope) return bspline_weights(f);
+  const double per_pixel = 1.0 / static_cast<double>(factor);
+  return {-0.5 * g * g * per_pixel, (1.5 * f - 2.0) * f * per_pixel, (2.0 - 1.5 * g) * g * per_pixel,
+          0.5 * f * f * per_pixel};
+}
+
+/// Position of (a, b) in the upper triangle of a symmetric 4 x 4 table, row by row.
+constexpr std::size_t triangle(std::size_t a, std::size_t b) {
+  if (a > b) return triangle(b, a);
+  return a * 4 - a * (a + 1) / 2 + b;
+}
+
+std::vector<std::array<double, 10>> products_by_phase(Index factor, bool slope) {
+  std::vector<std::array<double, 10>> result(static_cast<std::size_t>(factor));
+  for (Index k = 0; k < factor; ++k) {
+    const auto w = line_weights(k, factor, slope);
+    for (std::size_t a = 0; a < 4; ++a) {
+      for (std::size_t b = a; b < 4; ++b) result[static_cast<std::size_t>(k)][triangle(a, b)] = w[a] * w[b];
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+Grid SplineGram::lattice_of(const Grid& map, CoarseFactor factor) {
+  Grid lattice;
+  lattice.rows = (map.rows - 1) / factor.y + 4;
+  lattice.cols = (map.cols - 1) / factor.x + 4;
+  lattice.pitch_x = map.pitch_x * static_cast<double>(factor.x);
+  lattice.pitch_y = map.pitch_y * static_cast<double>(factor.y);
+  lattice.origin = map.origin - Point{lattice.pitch_x, lattice.pitch_y};
+  return lattice;
+}
+
+SplineGram::SplineGram(const Grid& map, CoarseFactor factor, int threads)
+    : map_(map), lattice_(lattice_of(map, factor)), factor_(factor), threads_(threads) {
+  stencil_.assign(static_cast<std::size_t>(lattice_.size() * kWidth * kWidth), 0.0F);
+  for (Index k = 0; k < factor.x; ++k) along_x_.push_back(line_weights(k, factor.x, false));
+  for (Index k = 0; k < factor.y; ++k) along_y_.push_back(line_weights(k, factor.y, false));
+}
+
+// The weights are products of x and y, so sums are gathered first along a row of pixels within one coarse column (10
+// products), then over the rows within one coarse row (10 x 10), and only then scattered.
+void SplineGram::add(const std::vector<Index>& pixels, const Vector& weights, Take take, double scale) {
+  const auto along_x = products_by_phase(factor_.x, take == Take::SlopeX);
+  const auto along_y = products_by_phase(factor_.y, take == Take::SlopeY);
+  std::vector<std::array<double, 10>> row_sums(static_cast<std::size_t>(lattice_.cols));
+  std::vector<char> touched(row_sums.size());
+  Cells cells(row_sums.size());
+  for (auto& cell : cells) cell.fill(0.0);
+  Index band = 0;
+  for (std::size_t i = 0; i < pixels.size();) {
+    const Index row = pixels[i] / map_.cols;
+    if (row / factor_.y != band) add_band(cells, band);
+    band = row / factor_.y;
+    for (auto& sums : row_sums) sums.fill(0.0);
+    std::fill(touched.begin(), touched.end(), char{0});
+    for (; i < pixels.size() && pixels[i] / map_.cols == row; ++i) {
+      const Index col = pixels[i] % map_.cols;
+      const double w = scale * (weights.size() == 0 ? 1.0 : weights[static_cast<Index>(i)]);
+      const auto cell = static_cast<std::size_t>(col / factor_.x);
+      const auto& x = along_x[static_cast<std::size_t>(col % factor_.x)];
+      touched[cell] = 1;
+      for (std::size_t k = 0; k < 10; ++k) row_sums[cell][k] += w * x[k];
+    }
+    const auto& y = along_y[static_cast<std::size_t>(row % factor_.y)];
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+      if (!touched[c]) continue;
+      for (std::size_t j = 0; j < 10; ++j) {
+        for (std::size_t k = 0; k < 10; ++k) cells[c][j * 10 + k] += y[j] * row_sums[c][k];
+      }
+    }
+  }
+  add_band(cells, band);
+}
+
+/// Scatters the sums of one coarse row of cells and clears them.
+void SplineGram::add_band(Cells& cells, Index first_row) {
+  for (Index c = 0; c + 3 < lattice_.cols; ++c) {
+    auto& cell = cells[static_cast<std::size_t>(c)];
+    for (Index ij = 0; ij < 16; ++ij) {
+      const Index i = ij / 4, j = ij % 4;
+      for (Index ab = 0; ab < 16; ++ab) {
+        const Index a = ab / 4, b = ab % 4;
+        const Index offset = (j - i + kReach) * kWidth + (b - a + kReach);
+        stencil_[static_cast<std::size_t>(((first_row + i) * kWidth * kWidth + offset) * lattice_.cols + c + a)] +=
+            static_cast<float>(cell[triangle(static_cast<std::size_t>(i), static_cast<std::size_t>(j)) * 10 +
+                                    triangle(static_cast<std::size_t>(a), static_cast<std::size_t>(b))]);
+      }
+    }
+    cell.fill(0.0);
+  }
+}
+
+void SplineGram::apply(const Vector& d, Vector& out) const {
+  out.resize(lattice_.size());
+  constexpr Index kWorthThreads = 8000;  // nodes
+#pragma omp parallel for num_threads(threads_) schedule(static) if (threads_ > 1 && lattice_.size() >= kWorthThreads)
+  for (Index r = 0; r < lattice_.rows; ++r) apply_row(r, d, out);
+}
+
+namespace {
+
+DWELL_SIMD void add_product(const float* a, const double* b, double* to, Index n) {
+  for (Index i = 0; i < n; ++i) to[i] += static_cast<double>(a[i]) * b[i];
+}
+
+}  // namespace
+
+void SplineGram::apply_row(Index r, const Vector& d, Vector& out) const {
+  const Index cols = lattice_.cols;
+  double* to = out.data() + r * cols;
+  std::fill(to, to + cols, 0.0);
+  for (Index dy = std::max(-kReach, -r); dy <= std::min(kReach, lattice_.rows - 1 - r); ++dy) {
+    const double* from = d.data() + (r + dy) * cols;
+    for (Index dx = -kReach; dx <= kReach; ++dx) {
+      const float* s = stencil_.data() + ((r * kWidth + dy + kReach) * kWidth + dx + kReach) * cols;
+      const Index begin = std::max<Index>(0, -dx), end = std::min(cols, cols - dx);
+      add_product(s + begin, from + begin + dx, to + begin, end - begin);
+    }
+  }
+}
+
+// Summed along a row within one coarse column first, as in add().
+void SplineGram::spread(const std::vector<Index>& pixels, const Vector& v, Vector& out) const {
+  out.setZero(lattice_.size());
+  for (std::size_t i = 0; i < pixels.size();) {
+    const Index row = pixels[i] / map_.cols, cell = pixels[i] % map_.cols / factor_.x,
+                cell_end = std::min(row * map_.cols + (cell + 1) * factor_.x, (row + 1) * map_.cols);
+    std::array<double, 4> sum{};
+    for (; i < pixels.size() && pixels[i] < cell_end; ++i) {
+      const auto& x = along_x_[static_cast<std::size_t>(pixels[i] - row * map_.cols - cell * factor_.x)];
+      for (std::size_t k = 0; k < 4; ++k) sum[k] += x[k] * v[static_cast<Index>(i)];
+    }
+    const auto& y = along_y_[static_cast<std::size_t>(row % factor_.y)];
+    for (std::size_t j = 0; j < 4; ++j) {
+      double* to = out.data() + (row / factor_.y + static_cast<Index>(j)) * lattice_.cols + cell;
+      for (std::size_t k = 0; k < 4; ++k) to[k] += y[j] * sum[k];
+    }
+  }
+}
+
+}  // namespace dwell

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "core/base/grid.h"
+#include "core/removal/removal_operator.h"
+
+namespace dwell {
+
+/// Coarse pitch in pixels of the map.
+struct CoarseFactor {
+  Index x = 1;
+  Index y = 1;
+};
+
+/// Normal matrices of cubic B-splines on a coarse lattice. With (S d)_i = sum_k d_k B3((x_i - x_k) / hx) B3((y_i -
+/// y_k) / hy) the surface of coefficients d at pixel i, it holds sums of terms S' diag(w) S, where S may also take the
+/// surface's slope along x or y: a stencil of 7 x 7 numbers a node. Ragged edges and weights are summed exactly.
+/// The lattice has every factor-th line of the map and a margin, so that it covers every pixel's support. The sums are
+/// held in single precision.
+class SplineGram {
+ public:
+  enum class Take { Value, SlopeX, SlopeY };  // slopes per pixel of the map
+
+  /// The zero matrix.
+  SplineGram(const Grid& map, CoarseFactor factor, int threads);
+
+  static Grid lattice_of(const Grid& map, CoarseFactor factor);
+
+  const Grid& lattice() const { return lattice_; }  // its nodes number the vectors below
+
+  /// Adds scale S' diag(weights) S over the pixels, ascending linear indices; weights empty = all one. Cost about ten
+  /// multiply-adds a pixel.
+  void add(const std::vector<Index>& pixels, const Vector& weights, Take take, double scale);
+
+  /// out = the matrix times d. Cost 49 multiply-adds a node.
+  void apply(const Vector& d, Vector& out) const;
+
+  /// S' v for one value a pixel. Cost about five multiply-adds a pixel.
+  void spread(const std::vector<Index>& pixels, const Vector& v, Vector& out) const;
+
+ private:
+  static constexpr Index kReach = 3;  // cubic B-splines overlap if their nodes are at most 3 apart
+  static constexpr Index kWidth = 2 * kReach + 1;
+  using Cells = std::vector<std::array<double, 100>>;
+
+  void add_band(Cells& cells, Index first_row);
+  void apply_row(Index row, const Vector& d, Vector& out) const;
+
+  Grid map_, lattice_;
+  CoarseFactor factor_;
+  // (row, dy, dx, col): contiguous along columns. Single precision: reading it is what apply() costs.
+  std::vector<float> stencil_;
+  std::vector<std::array<double, 4>> along_x_, along_y_;  // weights by pixel within a coarse step
+  int threads_;
+};
+
+}  // namespace dwell

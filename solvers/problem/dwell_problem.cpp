@@ -1,0 +1,210 @@
+#include "solvers/problem/dwell_problem.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "solvers/problem/blocks.h"
+
+namespace dwell {
+namespace {
+
+[[noreturn]] void reject(const std::string& message) { throw std::invalid_argument("DwellProblem." + message); }
+
+void check_size(const char* field, Index actual, Index expected) {
+  if (actual != expected) reject(fmt::format("{} has {} values; {} required", field, actual, expected));
+}
+
+void check_finite(const char* field, const Vector& v) {
+  for (Index i = 0; i < v.size(); ++i) {
+    if (!std::isfinite(v[i])) reject(fmt::format("{}[{}] = {}; must be finite", field, i, v[i]));
+  }
+}
+
+void check_weight(const char* field, double value) {
+  if (!(std::isfinite(value) && value >= 0.0)) reject(fmt::format("{} = {}; required finite and >= 0", field, value));
+}
+
+}  // namespace
+
+double DwellProblem::upper_at(Index j) const {
+  return upper.size() == 0 ? std::numeric_limits<double>::infinity() : upper[j];
+}
+
+void validate(const DwellProblem& p) {
+  if (!p.removal) reject("removal is not set");
+  check_size("target", p.target.size(), p.removal->rows());
+  check_size("lower", p.lower.size(), p.removal->cols());
+  if (p.upper.size() != 0) check_size("upper", p.upper.size(), p.removal->cols());
+  if (p.reference.size() != 0) check_size("reference", p.reference.size(), p.removal->cols());
+  if (p.weights.size() != 0) check_size("weights", p.weights.size(), p.removal->rows());
+  if (p.form.cols() > kMaxFormTerms)
+    reject(fmt::format("form has {} columns; at most {} accepted", p.form.cols(), kMaxFormTerms));
+  if (p.form.cols() != 0) check_size("form rows", p.form.rows(), p.removal->rows());
+  if (!p.smoothness.empty()) check_size("smoothness", p.smoothness.size(), p.removal->cols());
+  if (p.geometry) {
+    check_size("geometry pixels", static_cast<Index>(p.geometry->pixels.size()), p.removal->rows());
+    check_size("geometry strokes", static_cast<Index>(p.geometry->strokes.size()), p.removal->cols());
+  }
+  check_finite("target", p.target);
+  check_finite("lower", p.lower);
+  check_finite("reference", p.reference);
+  check_finite("weights", p.weights);
+  if (!p.form.allFinite()) reject("form has a value that is not finite");
+  check_weight("alpha", p.alpha);
+  check_weight("beta", p.beta);
+  check_weight("gamma", p.gamma);
+  for (Index i = 0; i < p.weights.size(); ++i) {
+    if (!(p.weights[i] >= 0.0)) reject(fmt::format("weights[{}] = {}; required >= 0", i, p.weights[i]));
+  }
+  for (Index j = 0; j < p.points(); ++j) {
+    if (!(p.lower[j] <= p.upper_at(j)))
+      reject(fmt::format("lower[{}] = {} s exceeds upper[{}] = {} s", j, p.lower[j], j, p.upper_at(j)));
+  }
+}
+
+double penalty(const DwellProblem& p, const Vector& t) {
+  double f = 0.0;
+  if (p.alpha > 0.0 && !p.smoothness.empty()) f += 0.5 * p.alpha * p.smoothness.squared_norm(t);
+  if (p.beta > 0.0) f += 0.5 * p.beta * (p.reference.size() != 0 ? (t - p.reference).squaredNorm() : t.squaredNorm());
+  if (p.gamma > 0.0) f += p.gamma * t.sum();
+  return f;
+}
+
+void add_penalty_gradient(const DwellProblem& p, const Vector& t, Vector& g) {
+  if (p.alpha > 0.0 && !p.smoothness.empty()) p.smoothness.add_normal(p.alpha, t, g);
+  if (p.beta > 0.0) {
+    g += p.beta * t;
+    if (p.reference.size() != 0) g -= p.beta * p.reference;
+  }
+  if (p.gamma > 0.0) g.array() += p.gamma;
+}
+
+void clip_to_bounds(const DwellProblem& p, Vector& t) {
+  t = t.cwiseMax(p.lower);
+  if (p.upper.size() != 0) t = t.cwiseMin(p.upper);
+}
+
+DwellObjective::DwellObjective(const DwellProblem& problem) : problem_(problem), weighted_(problem.weights.size()) {}
+
+void DwellObjective::weigh_and_project(Vector& v) const {
+  if (problem_.weights.size() != 0) v.array() *= problem_.weights.array();
+  if (problem_.form.cols() == 0) return;
+  // Q is several times as large as v: in blocks of rows, by all threads; the blocks are summed in order.
+  constexpr Index kBlocks = 64, kSmall = 1 << 16;
+  const Index m = v.size(), terms = problem_.form.cols(), block = (m + kBlocks - 1) / kBlocks;
+  [[maybe_unused]] const int team = m > kSmall ? threads() : 1;
+  const auto begin = [&](Index b) { return std::min(b * block, m); };
+  const auto rows = [&](Index b) { return begin(b + 1) - begin(b); };
+  Eigen::Matrix<double, kMaxFormTerms, kBlocks> partial = Eigen::Matrix<double, kMaxFormTerms, kBlocks>::Zero();
+#pragma omp parallel for num_threads(team) schedule(static)
+  for (Index b = 0; b < kBlocks; ++b) {
+    for (Index k = 0; k < terms; ++k)
+      partial(k, b) = problem_.form.col(k).segment(begin(b), rows(b)).dot(v.segment(begin(b), rows(b)));
+  }
+  const Eigen::Matrix<double, kMaxFormTerms, 1> c = partial.rowwise().sum();
+#pragma omp parallel for num_threads(team) schedule(static)
+  for (Index b = 0; b < kBlocks; ++b) {
+    for (Index k = 0; k < terms; ++k)
+      v.segment(begin(b), rows(b)) -= c[k] * problem_.form.col(k).segment(begin(b), rows(b));
+  }
+}
+
+void DwellObjective::residual(const Vector& t, Vector& r) {
+  const bool removes = (t.array() != 0.0).any();
+  if (removes) {
+    problem_.removal->apply(t, r);
+  } else {
+    r.resize(problem_.pixels());
+  }
+  for_blocks(r.size(), threads(), [&](Index, Index begin, Index length) {
+    const auto z = problem_.target.segment(begin, length);
+    if (removes) {
+      r.segment(begin, length) -= z;
+    } else {
+      r.segment(begin, length) = -z;
+    }
+  });
+  weigh_and_project(r);
+}
+
+double DwellObjective::evaluate(const Vector& t, Vector& r, Vector& g) {
+  residual(t, r);
+  adjoint_of_weighted(r, g);
+  if (!(t.array() != 0.0).any()) gradient_scale_ = g.norm();
+  add_penalty_gradient(problem_, t, g);
+  return value(r, t);
+}
+
+void DwellObjective::image(const Vector& d, Vector& image) {
+  problem_.removal->apply(d, image);
+  weigh_and_project(image);
+}
+
+// A residual already lies in the range of I - Q Q', so P' W' r = W r.
+void DwellObjective::adjoint_of_weighted(const Vector& r, Vector& g) {
+  if (problem_.weights.size() == 0) {
+    problem_.removal->apply_adjoint(r, g);
+  } else {
+    weighted_ = r.cwiseProduct(problem_.weights);
+    problem_.removal->apply_adjoint(weighted_, g);
+  }
+}
+
+void DwellObjective::gradient(const Vector& r, const Vector& t, Vector& g) {
+  adjoint_of_weighted(r, g);
+  add_penalty_gradient(problem_, t, g);
+}
+
+void DwellObjective::hessian_times(const Vector& d, const Vector& image, Vector& h) {
+  adjoint_of_weighted(image, h);
+  if (problem_.alpha > 0.0 && !problem_.smoothness.empty()) problem_.smoothness.add_normal(problem_.alpha, d, h);
+  if (problem_.beta > 0.0) h += problem_.beta * d;
+}
+
+double DwellObjective::curvature(const Vector& d, const Vector& image) const {
+  double c = squared_norm(image);
+  if (problem_.alpha > 0.0 && !problem_.smoothness.empty()) c += problem_.alpha * problem_.smoothness.squared_norm(d);
+  if (problem_.beta > 0.0) c += problem_.beta * d.squaredNorm();
+  return c;
+}
+
+double DwellObjective::value(const Vector& r, const Vector& t) const {
+  return 0.5 * squared_norm(r) + penalty(problem_, t);
+}
+
+void DwellObjective::advance(double a, const Vector& image, Vector& r) const {
+  for_blocks(r.size(), threads(),
+             [&](Index, Index begin, Index length) { r.segment(begin, length) += a * image.segment(begin, length); });
+}
+
+double DwellObjective::squared_norm(const Vector& v) const {
+  return sum_over(v.size(), threads(),
+                  [&](Index begin, Index length) { return v.segment(begin, length).squaredNorm(); });
+}
+
+int DwellObjective::threads() const { return problem_.geometry ? std::max(problem_.geometry->threads, 1) : 1; }
+
+double DwellObjective::gradient_scale() {
+  if (gradient_scale_ < 0.0) {
+    Vector z = problem_.target, g;
+    weigh_and_project(z);
+    adjoint_of_weighted(z, g);
+    gradient_scale_ = g.norm();
+  }
+  return gradient_scale_;
+}
+
+void project_gradient(const DwellProblem& p, const Vector& t, const Vector& gradient, Vector& projected) {
+  projected.resize(t.size());
+  for (Index j = 0; j < t.size(); ++j) {
+    const double g = gradient[j];
+    const bool pushed_out = (t[j] <= p.lower[j] && g > 0.0) || (t[j] >= p.upper_at(j) && g < 0.0);
+    projected[j] = pushed_out ? 0.0 : g;
+  }
+}
+
+}  // namespace dwell

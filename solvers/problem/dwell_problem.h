@@ -1,0 +1,96 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include <memory>
+
+#include "core/removal/removal_geometry.h"
+#include "core/removal/removal_operator.h"
+#include "solvers/problem/path_smoothness.h"
+
+namespace dwell {
+
+/// Form terms that a specification may leave out: piston, tilt in x and y, power.
+inline constexpr Index kMaxFormTerms = 6;
+
+/// The dwell problem (docs/math.md):
+///
+///   minimise  1/2 |W P (A t - z)|^2 + alpha/2 |D t|^2 + beta/2 |t - t0|^2 + gamma 1't   subject to  l <= t <= u
+///
+/// P removes the form terms that the specification does not count, in the least-squares sense of the weights:
+/// W P = (I - Q Q') W with Q = `form`, orthonormal columns spanning W times the terms. A pixel of weight zero thus
+/// bends neither the fit nor the form.
+struct DwellProblem {
+  RemovalOperator* removal = nullptr;  // A, not owned [nm/s]
+  Vector target;                       // z, m [nm]
+  Eigen::MatrixXd form;                // Q, m x 0..kMaxFormTerms
+  Vector weights;                      // diagonal of W, m, >= 0; empty = all one
+  PathSmoothness smoothness;           // D; empty = none
+  double alpha = 0.0;                  // >= 0 [nm^2/s^2]
+  double beta = 0.0;                   // >= 0 [nm^2/s^2]
+  double gamma = 0.0;                  // >= 0, price of a second [nm^2/s]
+  Vector reference;                    // t0, n [s]; empty = zero
+  Vector lower;                        // l, n, finite [s]
+  Vector upper;                        // u, n, > = l, may be infinite [s]; empty = infinite
+  /// What `removal` is made of, if it is made of a removal function and strokes: lets solvers work on coarser pixels.
+  std::shared_ptr<const RemovalGeometry> geometry;
+
+  Index pixels() const { return target.size(); }
+  Index points() const { return lower.size(); }
+  double upper_at(Index j) const;
+};
+
+/// Throws std::invalid_argument naming the field, index and value of the first thing wrong: a size, NaN, infinity where
+/// none may be, a negative weight, l > u.
+void validate(const DwellProblem& problem);
+
+/// The objective's terms that do not see the surface: smoothness, distance from the reference, price of time [nm^2].
+double penalty(const DwellProblem& problem, const Vector& t);
+
+/// g += gradient of the penalty: alpha D'D t + beta (t - t0) + gamma 1.
+void add_penalty_gradient(const DwellProblem& problem, const Vector& t, Vector& g);
+
+/// Moves t into [l, u] componentwise.
+void clip_to_bounds(const DwellProblem& problem, Vector& t);
+
+/// The objective of a dwell problem and its derivatives, with the form projection applied. Owns its workspace: one
+/// caller at a time. Every call states its operator applications.
+class DwellObjective {
+ public:
+  explicit DwellObjective(const DwellProblem& problem);
+
+  /// r = W P (A t - z). One application; none at t = 0.
+  void residual(const Vector& t, Vector& r);
+  /// Residual and gradient at t; returns the objective. Two applications; at t = 0 one, which also gives the scale of
+  /// the gradient: ask for that later.
+  double evaluate(const Vector& t, Vector& r, Vector& g);
+  /// image = W P A d. One application.
+  void image(const Vector& d, Vector& image);
+  /// g = A' P' W' r + alpha D'D t + beta (t - t0) + gamma 1, for r a residual. One application.
+  void gradient(const Vector& r, const Vector& t, Vector& g);
+  /// h = (A' P' W' W P A + alpha D'D + beta I) d, given image = W P A d. One application.
+  void hessian_times(const Vector& d, const Vector& image, Vector& h);
+  /// d' H d, given image = W P A d. No application.
+  double curvature(const Vector& d, const Vector& image) const;
+  /// Objective at t, given r. No application.
+  double value(const Vector& r, const Vector& t) const;
+  /// r += a image: the residual after a step of a along d, given image = W P A d. No application.
+  void advance(double a, const Vector& image, Vector& r) const;
+  /// |A' P' W' W P z|: the scale against which gradients are measured. One application, computed once.
+  double gradient_scale();
+
+ private:
+  void weigh_and_project(Vector& v) const;
+  void adjoint_of_weighted(const Vector& r, Vector& g);
+  double squared_norm(const Vector& v) const;
+  int threads() const;
+
+  const DwellProblem& problem_;
+  Vector weighted_;
+  double gradient_scale_ = -1.0;
+};
+
+/// Gradient restricted to what the bounds allow to move: zero where t is at a bound and the gradient pushes outward.
+void project_gradient(const DwellProblem& problem, const Vector& t, const Vector& gradient, Vector& projected);
+
+}  // namespace dwell

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <vector>
+
+#include "core/motion/tool_path.h"
+#include "core/removal/removal_operator.h"
+
+namespace dwell {
+
+/// The difference operator D of the dwell problem: how much the dwell per length changes between neighbours on the
+/// path. (D t)_k = s_(j+1) t_(j+1) - s_j t_j for every pair of dwell points j, j+1 joined without a lift, where
+/// s_j = mean length / length_j (1 for halts), so that D t is in seconds and smooth D t means smooth feed. Pairs across
+/// a lift are not linked. s_j is kept below 100: a stroke far shorter than the others cannot set the feed.
+class PathSmoothness {
+ public:
+  PathSmoothness() = default;
+  /// joined[j]: dwell point j continues from j - 1 without a lift. lengths [mm], one a stroke. Both of size n.
+  /// Throws std::invalid_argument if the sizes differ or a length is negative or not finite. What the members compute
+  /// has the same bytes for any number of threads.
+  PathSmoothness(const std::vector<double>& lengths, const std::vector<char>& joined, int threads = 1);
+
+  bool empty() const { return scale_.size() == 0; }
+  Index size() const { return scale_.size(); }  // n
+
+  /// Dwell point j is linked to j - 1.
+  bool linked(Index j) const { return j > 0 && joined_[static_cast<std::size_t>(j)] != 0; }
+  double scale(Index j) const { return scale_[j]; }  // s_j
+
+  /// |D t|^2 [s^2].
+  double squared_norm(const Vector& t) const;
+  /// |D t| / sqrt(number of links): how much the dwell changes from one stroke to the next [s]. 0 without links.
+  double step_rms(const Vector& t) const;
+  /// out += weight * D' D t.
+  void add_normal(double weight, const Vector& t, Vector& out) const;
+  /// Dense D' D, n x n, for oracles and small dense solvers.
+  Eigen::MatrixXd dense_normal() const;
+
+ private:
+  /// weight * (D t) of the link of point j to j - 1; 0 without one, or beyond the last point.
+  double step(Index j, double weight, const Vector& t) const {
+    if (j >= size() || !linked(j)) return 0.0;
+    return weight * (scale_[j] * t[j] - scale_[j - 1] * t[j - 1]);
+  }
+
+  Vector scale_;
+  std::vector<char> joined_;
+  int threads_ = 1;
+};
+
+/// The smoothness of a path's strokes: tool running through, or halting (all scales one).
+PathSmoothness path_smoothness(const ToolPath& path, const std::vector<Stroke>& strokes, int threads = 1);
+
+}  // namespace dwell

@@ -1,0 +1,31 @@
+#include "core/base/number_text.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace dwell {
+namespace {
+
+TEST(ParseNumber, ReadsWholeNumbersOnly) {
+  EXPECT_EQ(parse_number("1.5"), 1.5);
+  EXPECT_EQ(parse_number(" -2e-3\r"), -2e-3);
+  EXPECT_EQ(parse_number("+7"), 7.0);
+  for (const char* text : {"", " ", "+", "-", "1,5", "1.5x", "1 2", "0x10", "++1", "+-1", "1e999", "mm"}) {
+    EXPECT_FALSE(parse_number(text).has_value()) << text;
+  }
+}
+
+TEST(ParseNumber, LeavesInfinityAndNanToTheCaller) {
+  EXPECT_EQ(parse_number("inf"), HUGE_VAL);
+  ASSERT_TRUE(parse_number("nan").has_value());
+  EXPECT_TRUE(std::isnan(*parse_number("nan")));
+}
+
+TEST(ParseNumber, TrimsBothEnds) {
+  EXPECT_EQ(trim("\t a b \r"), "a b");
+  EXPECT_EQ(trim(" \t"), "");
+}
+
+}  // namespace
+}  // namespace dwell

@@ -1,0 +1,120 @@
+#include "core/formats/npy_sidecar.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/base/whole_file.h"
+#include "core/formats/map_io.h"
+#include "core/formats/npy.h"
+#include "tests/core/base/expect_error.h"
+#include "tests/core/base/temporary_folder.h"
+#include "tests/core/map/same_map.h"
+
+namespace dwell {
+namespace {
+
+HeightMap asymmetric(double first) {
+  HeightMap map(Grid{2, 3, 0.1, 0.25, {-1.7, 0.3}}, {first, 2, NAN, 4, 5, 6});
+  map.history = {"read part.dat", "crop \"x\": \xc3\xa9"};
+  return map;
+}
+
+TEST(NpySidecar, GivesTheArrayItsPitchOriginAndHistory) {
+  const test::TemporaryFolder folder;
+  const auto file = folder.path() / "a.npy";
+  write_map(file, asymmetric(1));
+  EXPECT_EQ(folder.entries(), 2u);
+  const HeightMap read = read_map(file);
+  test::expect_same_map(read, asymmetric(1));
+  EXPECT_EQ(read.history, asymmetric(1).history);
+  const std::string text = read_whole_file(npy_sidecar_name(file));
+  EXPECT_EQ(text.find("previous"), std::string::npos);
+  EXPECT_NE(text.find(sha256_of_file(file)), std::string::npos);
+}
+
+TEST(NpySidecar, OptionsMustAgree) {
+  const test::TemporaryFolder folder;
+  const auto file = folder.path() / "a.npy";
+  write_map(file, asymmetric(1));
+  MapReadOptions options;
+  options.pitch = 0.1;
+  test::expect_input_error([&] { read_map(file, options); }, {"a.npy", "0.1,0.25", "--map-pixel"});
+  options = {};
+  options.origin = Point{-1.7, 0.4};
+  test::expect_input_error([&] { read_map(file, options); }, {"a.npy", "-1.7,0.3", "--map-origin"});
+  options.origin = Point{-1.7, 0.3};
+  test::expect_same_map(read_map(file, options), asymmetric(1));
+}
+
+TEST(NpySidecar, IsRefusedWhenTheArrayIsAnother) {
+  const test::TemporaryFolder folder;
+  const auto file = folder.path() / "a.npy";
+  write_map(file, asymmetric(1));
+  write_whole_file(file, npy_bytes(asymmetric(2)));
+  test::expect_input_error([&] { read_map(file); }, {"a.npy.json", "stale", sha256_of_file(file)});
+}
+
+TEST(NpySidecar, AnInterruptedReplacementReadsAsBeforeOrAfter) {
+  const test::TemporaryFolder folder;
+  const auto file = folder.path() / "a.npy";
+  HeightMap before = asymmetric(1), after = asymmetric(2);
+  after.grid.pitch_x = 0.125;
+  write_map(file, before);
+  const std::string old_npy = read_whole_file(file), old_json = read_whole_file(npy_sidecar_name(file));
+  write_map(file, after);
+  const std::string new_npy = read_whole_file(file), new_json = read_whole_file(npy_sidecar_name(file));
+  // The sidecar as it is between the two renames: of the new array, with that of the old one inside.
+  std::string both = new_json;
+  both.insert(both.rfind('}'), ", \"previous\": " + old_json);
+  write_whole_file(npy_sidecar_name(file), both);
+  test::expect_same_map(read_map(file), after);
+  write_whole_file(file, old_npy);
+  test::expect_same_map(read_map(file), before);
+  // Writing again from there keeps what was known of the old array until the new one is in place.
+  write_map(file, after);
+  EXPECT_EQ(read_whole_file(file), new_npy);
+  EXPECT_EQ(read_whole_file(npy_sidecar_name(file)), new_json);
+}
+
+TEST(NpySidecar, IsNotWrittenBesideWhatCannotBeReplaced) {
+  const test::TemporaryFolder folder;
+  std::filesystem::create_directories(folder.path() / "a.npy");
+  test::expect_input_error([&] { write_map(folder.path() / "a.npy", asymmetric(2)); }, {"a.npy", "directory"});
+  EXPECT_EQ(folder.entries(), 1u);
+}
+
+TEST(NpySidecar, KnowsNothingOfAnArrayWithoutASidecarBefore) {
+  const std::string sha(64, 'a'), other(64, 'b');
+  const std::string text =
+      R"({"pitch_mm": [1, 2], "sha256": ")" + sha + R"(", "previous": {"sha256": ")" + other + R"("}})";
+  EXPECT_EQ(parse_npy_sidecar(text, sha, "a.json").pitch, (Point{1, 2}));
+  EXPECT_FALSE(parse_npy_sidecar(text, other, "a.json").pitch.has_value());
+}
+
+TEST(NpySidecar, NamesWhatItRefuses) {
+  const std::string sha(64, 'a');
+  const auto refused = [&](const std::string& text, std::initializer_list<std::string> words) {
+    test::expect_input_error([&] { parse_npy_sidecar(text, sha, "a.json"); }, words);
+  };
+  const auto entry = [&](const std::string& field) { return "{\"sha256\": \"" + sha + "\", " + field + "}"; };
+  refused("", {"a.json", "no sidecar"});
+  refused("{\"sha256\": \"", {"no sidecar"});
+  refused("[1, 2]", {"JSON object"});
+  refused("{}", {"sha256 = missing"});
+  refused("{\"sha256\": 1}", {"sha256 = 1"});
+  refused("{\"sha256\": \"abc\"}", {"stale", "'abc'", sha});
+  refused("{\"sha256\": \"abc\", \"previous\": 1}", {"previous", "JSON object"});
+  refused(entry("\"pitch_mm\": 0.1"), {"pitch_mm = 0.1", "[x, y]"});
+  refused(entry("\"pitch_mm\": [0.1, 0]"), {"pitch_mm = [0.1,0]", "> 0"});
+  refused(entry("\"pitch_mm\": [0.1, 1e999]"), {"no sidecar"});
+  refused(entry("\"pitch_mm\": [0.1, null]"), {"pitch_mm"});
+  refused(entry("\"origin_mm\": [1]"), {"origin_mm = [1]"});
+  refused(entry("\"unit\": 1"), {"unit = 1"});
+  refused(entry("\"history\": \"x\""), {"history", "array of strings"});
+  refused(entry("\"history\": [1]"), {"history", "array of strings"});
+  refused(entry("\"history\": [\"a\\nb\"]"), {"history", "a line each"});
+}
+
+}  // namespace
+}  // namespace dwell

@@ -1,0 +1,132 @@
+#include "core/formats/xyz_text.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/formats/point_grid.h"
+#include "tests/core/base/expect_error.h"
+
+namespace dwell {
+namespace {
+
+HeightMap grid_of(const std::string& text, std::optional<Point> pitch = {}, std::optional<Point> origin = {}) {
+  return grid_points(parse_xyz_text(text, "map a.xyz").points, pitch, origin, "map a.xyz", "map");
+}
+
+void expect_refused(const std::string& text, std::initializer_list<std::string> words) {
+  test::expect_input_error([&] { grid_of(text); }, words);
+}
+
+TEST(XyzText, PutsPointsOfAnyOrderWhereTheyBelong) {
+  // Rows are y and columns x: 2 x 3 pixels of 0.5 x 0.2 mm from (1, -2); (2, -2) is missing, (1.5, -1.8) without data.
+  const HeightMap map = grid_of("2 -1.8 6\n1 -2 1\n1.5 -1.8 No Data\n1.5 -2 2\n1 -1.8 4\n");
+  EXPECT_EQ(map.grid.rows, 2);
+  EXPECT_EQ(map.grid.cols, 3);
+  EXPECT_DOUBLE_EQ(map.grid.pitch_x, 0.5);
+  EXPECT_DOUBLE_EQ(map.grid.pitch_y, 0.2);
+  EXPECT_EQ(map.grid.origin, (Point{1.0, -2.0}));
+  EXPECT_EQ(map.at(0, 0), 1.0);
+  EXPECT_EQ(map.at(0, 1), 2.0);
+  EXPECT_TRUE(std::isnan(map.at(0, 2)));
+  EXPECT_EQ(map.at(1, 0), 4.0);
+  EXPECT_TRUE(std::isnan(map.at(1, 1)));
+  EXPECT_EQ(map.at(1, 2), 6.0);
+}
+
+TEST(XyzText, ReadsEverySeparatorAndAHeaderLine) {
+  for (const std::string text :
+       {"0 0 1\n1 0 2\n", "0,0,1\n1,0,2\n", "0;0;1\r\n1 ; 0 ; 2\r\n", "\t0\t0\t1\n1\t0\t2", "x,y,z\n0,0,1\n1,0,2\n",
+        "X_mm Y_mm height_nm\n# note\n\n0 0 1\n+1 0 +2\n", "# x y z\n0 0 1\n1 0 2\n"}) {
+    const HeightMap map = grid_of(text);
+    ASSERT_EQ(map.grid.cols, 2) << text;
+    ASSERT_EQ(map.grid.rows, 1) << text;
+    EXPECT_EQ(map.grid.pitch_y, 1.0) << text;  // one row: the pitch of the other axis
+    EXPECT_EQ(map.at(0, 0), 1.0) << text;
+    EXPECT_EQ(map.at(0, 1), 2.0) << text;
+  }
+  EXPECT_TRUE(std::isnan(grid_of("0,0,1\n1,0,\n").at(0, 1)));
+  EXPECT_EQ(parse_xyz_text("x_mm y_mm z_um\n0 0 1\n", "map").header.unit, "um");
+}
+
+TEST(XyzText, RecognisesALineThatNamesItsColumns) {
+  EXPECT_TRUE(names_xyz_columns("x y z\n1 2 3\n"));
+  EXPECT_TRUE(names_xyz_columns("# made by hand\n# X_mm, Y_mm, Z_nm\n1,2,3\n"));
+  EXPECT_FALSE(names_xyz_columns("1 2 3\nx y z\n"));
+  EXPECT_FALSE(names_xyz_columns("# pitch_mm: 0.1\n1 2 3\n"));
+  EXPECT_FALSE(names_xyz_columns("y x z\n1 2 3\n"));
+  EXPECT_FALSE(names_xyz_columns("x y zebra\n1 2 3\n"));
+}
+
+TEST(XyzText, NamesTheLineItRefuses) {
+  expect_refused("0 0 1\n1 0\n", {"map a.xyz, line 2", "'1 0'", "x y z"});
+  expect_refused("0 0 1\n1 a 3\n", {"line 2", "'1 a 3'"});
+  expect_refused("0 0 1\nnan 0 3\n", {"line 2", "x and y in mm, at most"});
+  expect_refused("0 0 1\n1 inf 3\n", {"line 2", "x and y in mm, at most"});
+  expect_refused("0 0 1\n1 0 inf\n", {"line 2, column 3", "infinite"});
+  expect_refused("0 0 1\n1 0 3 4\n", {"line 2, column 3", "'3 4'"});
+  expect_refused("0 0 1\n1,5 2,5 3,5\n", {"line 2"});
+  expect_refused("# nothing\n", {"no point"});
+  expect_refused("hello\n0 0 1\n", {"line 1", "'hello'"});
+  expect_refused("x_um y_um z\n0 0 1\n", {"line 1", "'um'", "mm"});
+  expect_refused("# unit: nm\nx y z_um\n0 0 1\n", {"line 2", "'um'", "'nm'"});
+}
+
+TEST(PointGrid, NamesPointsOffTheGridAndPointsGivenTwice) {
+  std::string text;
+  for (int row = 0; row < 4; ++row) {
+    for (int col = 0; col < 5; ++col) text += std::to_string(col) + " " + std::to_string(row) + " 1\n";
+  }
+  expect_refused(text + "2.4 3 1\n", {"line 21", "x = 2.4 mm", "regular grid"});
+  expect_refused(text + "2 1.7 1\n", {"line 21", "y = 1.7 mm", "regular grid"});
+  expect_refused(text + "3 2 1\n", {"line 21", "(3, 2)", "line 14"});
+  expect_refused(text + "3 900000 1\n", {"21 points", "900001 x 5", "stray"});
+  expect_refused("1 1 5\n", {"one place", "--map-pixel"});
+}
+
+TEST(PointGrid, RefusesPointsThatAreAbsurdlyFarApart) {
+  // Two rows of two columns; as the difference overflows, x was once taken for one column.
+  expect_refused("-1.5e308 0 1\n1.5e308 1 2\n", {"line 1", "at most 1000000000000 mm from 0"});
+  expect_refused("0 0 1\n1 0 2\n0 1e300 3\n", {"line 3", "from 0"});
+  expect_refused("0 0 1\n1 1 2\n2 2 3\n1e12 1e12 4\n", {"1000000000001 x 1000000000001", "stray"});
+  const auto refused_on = [](const std::string& text, Point pitch, Point origin) {
+    test::expect_input_error([&] { grid_of(text, pitch, origin); }, {"map a.xyz"});
+  };
+  refused_on("0 0 1\n1 1 2\n", {1e-300, 1e-300}, {0, 0});
+  refused_on("0 0 1\n1 1 2\n", {5e-324, 1}, {-1e308, 0});
+  refused_on("0 0 1\n1 1 2\n", {5e-324, 1}, {1e308, 0});
+}
+
+TEST(PointGrid, RefusesCoordinatesThatAreOneOnlyForACoarserPitch) {
+  // x differs by 1e-7 of itself, which rounding explains; but it is 50 times the pitch that the points have in y.
+  expect_refused("1000000 0 1\n1000000.05 0.001 2\n", {"line 2", "x = 1000000.05 mm", "regular grid"});
+  expect_refused("0 1000000 1\n0.001 1000000.05 2\n", {"line 2", "y = 1000000.05 mm", "regular grid"});
+  test::expect_input_error([] { grid_of("1000000 0 1\n1000000.05 0 2\n", Point{0.001, 0.001}); }, {"line 2", "grid"});
+  EXPECT_EQ(grid_of("1000000 0 1\n1000000.0000001 0.001 2\n").grid.cols, 1);
+}
+
+TEST(PointGrid, AKnownPitchMustAgree) {
+  const std::string text = "0 0 1\n0.5 0 2\n0 0.5 3\n";
+  EXPECT_EQ(grid_of(text, Point{0.5, 0.5}).grid.pitch_x, 0.5);
+  EXPECT_EQ(grid_of(text, Point{0.5002, 0.5002}).grid.pitch_x, 0.5);
+  test::expect_input_error([&] { grid_of(text, Point{0.25, 0.25}); }, {"pitch of 0.5 mm", "--map-pixel", "0.25"});
+  test::expect_input_error([&] { grid_of(text, Point{0.5, 0.51}); }, {"pitch of 0.5 mm in y", "0.51"});
+  test::expect_input_error([&] { grid_of(text, {}, Point{0.0, 0.5}); }, {"begin at y = 0 mm", "--map-origin", "0.5"});
+  EXPECT_EQ(grid_of("1 1 5\n", Point{0.5, 0.25}).grid.pitch_y, 0.25);
+}
+
+TEST(PointGrid, AKnownPitchAndOriginAreTheGrid) {
+  const HeightMap map = grid_of("0.5 1 7\n", Point{0.5, 0.5}, Point{0.0, 0.0});
+  EXPECT_EQ(map.grid.rows, 3);
+  EXPECT_EQ(map.grid.cols, 2);
+  EXPECT_EQ(map.at(2, 1), 7.0);
+  EXPECT_EQ(map.valid_pixels(), 1);
+  test::expect_input_error(
+      [] {
+        grid_of("0.5 1 7\n-0.5 0 1\n", Point{0.5, 0.5}, Point{0.0, 0.0});
+      },
+      {"line 2", "x = -0.5 mm"});
+}
+
+}  // namespace
+}  // namespace dwell

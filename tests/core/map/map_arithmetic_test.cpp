@@ -1,0 +1,67 @@
+#include "core/map/map_arithmetic.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/core/base/expect_error.h"
+#include "tests/core/map/same_map.h"
+#include "tests/core/map/uneven_map.h"
+
+namespace dwell {
+namespace {
+
+using test::expect_input_error;
+using test::kNoData;
+using test::uneven_map;
+
+const Grid kGrid{2, 3, 0.3, 0.2, {-1.0, 4.0}};
+const double n = kNoData;
+
+TEST(MapDifference, SubtractsWhereBothHaveData) {
+  const HeightMap a(kGrid, {1, 2, n, 4, 5, 6}), b(kGrid, {10, n, 30, 1, 1, 8});
+  test::expect_same_map(difference(a, b), HeightMap(kGrid, {-9, n, n, 3, 4, -2}));
+  expect_input_error(
+      [&] {
+        difference(HeightMap(kGrid, {1, 2, 3, n, n, n}), HeightMap(kGrid, {n, n, n, 1, 2, 3}));
+      },
+      {"no pixel"});
+}
+
+TEST(MapMean, CountsThoseThatHaveData) {
+  const std::vector<HeightMap> maps{HeightMap(kGrid, {1, 2, n, 4, n, n}), HeightMap(kGrid, {3, n, 7, 5, n, n}),
+                                    HeightMap(kGrid, {8, 6, n, 9, 2, n})};
+  test::expect_same_map(mean_map(maps, 3), HeightMap(kGrid, {4, n, n, 6, n, n}));
+  test::expect_same_map(mean_map(maps, 2), HeightMap(kGrid, {4, 4, n, 6, n, n}));
+  test::expect_same_map(mean_map(maps, 1), HeightMap(kGrid, {4, 4, 7, 6, 2, n}));
+  expect_input_error([&] { mean_map(maps, 4); }, {"least = 4 of 3", "1 to 3"});
+  expect_input_error([&] { mean_map(maps, 0); }, {"least = 0"});
+}
+
+TEST(MapGrids, AgreeToAMillionthOfThePitch) {
+  EXPECT_EQ(grid_difference(kGrid, kGrid), "");
+  Grid other = kGrid;
+  other.origin.x += 0.9e-6 * kGrid.pitch_x;
+  EXPECT_EQ(grid_difference(kGrid, other), "");
+  const auto differs = [](auto change) {
+    Grid grid = kGrid;
+    change(grid);
+    EXPECT_NE(grid_difference(kGrid, grid), "");
+    expect_input_error(
+        [&] {
+          difference(HeightMap(kGrid, {1, 2, 3, 4, 5, 6}),
+                     HeightMap(grid, std::vector<double>(static_cast<std::size_t>(grid.size()))));
+        },
+        {"different grids", "1e-6 pixels"});
+  };
+  differs([](Grid& g) { g.origin.x += 2e-6 * g.pitch_x; });
+  differs([](Grid& g) { g.origin.y -= 2e-6 * g.pitch_y; });
+  differs([](Grid& g) { g.pitch_x *= 1.0 + 2e-6; });
+  differs([](Grid& g) { g.pitch_y *= 1.0 - 2e-6; });
+  differs([](Grid& g) { g.rows = 3; });
+  differs([](Grid& g) { std::swap(g.rows, g.cols); });
+  // Equal pitches to 1e-6 add up over many pixels.
+  const Grid wide{3, 1000, 0.3, 0.2, {}}, stretched{3, 1000, 0.3 * (1.0 + 1e-8), 0.2, {}};
+  EXPECT_NE(grid_difference(wide, stretched), "");
+}
+
+}  // namespace
+}  // namespace dwell

@@ -1,0 +1,154 @@
+#include "runs/campaigns/pareto.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <random>
+
+#include "core/base/number_text.h"
+#include "core/base/version.h"
+#include "runs/campaigns/pareto_output.h"
+#include "tests/core/base/expect_error.h"
+#include "tests/runs/plan/small_job.h"
+
+namespace dwell {
+namespace {
+
+using test::expect_input_error;
+using test::SmallJob;
+
+TEST(WeightList, ReadsRangesAndLists) {
+  const auto range = parse_weight_list("0.001:10:5", "--smoothnesses");
+  ASSERT_EQ(range.size(), 5u);
+  for (std::size_t k = 0; k < 5; ++k) EXPECT_NEAR(range[k], std::pow(10.0, static_cast<double>(k) - 3.0), 1e-12);
+  EXPECT_EQ(range.front(), 0.001);
+  EXPECT_EQ(range.back(), 10.0);
+  EXPECT_EQ(parse_weight_list("10:0.001:2", "x"), (std::vector<double>{0.001, 10.0}));
+  EXPECT_EQ(parse_weight_list("0.1", "x"), (std::vector<double>{0.1}));
+  EXPECT_EQ(parse_weight_list("1, 0,0.5,1", "x"), (std::vector<double>{0.0, 0.5, 1.0}));
+}
+
+TEST(WeightList, RefusesTheRestNamingOptionTextAndWhatIsAccepted) {
+  for (const char* text : {"", "0:1:3", "1:2:1", "1:2:2.5", "1:2", "1:2:3:4", "1:2:1001", "-1", "nan", "inf", "1,,2",
+                           "auto", "1:nan:3", "1;2"}) {
+    expect_input_error([&] { parse_weight_list(text, "--time-prices"); },
+                       {"--time-prices", "'" + std::string(text) + "'", "FROM:TO:COUNT", "list"});
+  }
+}
+
+/// Straight from the definition, every pair compared.
+bool on_front_by_definition(const std::vector<ParetoPoint>& points, std::size_t k) {
+  for (const ParetoPoint& other : points) {
+    const TradeOff &a = other.trade_off, &b = points[k].trade_off;
+    const int worse = (a.residual_rms > b.residual_rms) + (a.total > b.total) + (a.step_rms > b.step_rms);
+    const int better = (a.residual_rms < b.residual_rms) + (a.total < b.total) + (a.step_rms < b.step_rms);
+    if (worse == 0 && better > 0) return false;
+  }
+  return true;
+}
+
+TEST(ParetoFront, IsWhatTheDefinitionSays) {
+  for (unsigned seed = 1; seed <= 100; ++seed) {
+    std::mt19937 random(seed);
+    std::uniform_int_distribution<int> value(0, seed % 2 == 0 ? 5 : 1000);  // with and without ties
+    std::vector<ParetoPoint> points(1 + seed);
+    for (ParetoPoint& p : points) {
+      p.trade_off = {static_cast<double>(value(random)), static_cast<double>(value(random)),
+                     static_cast<double>(value(random))};
+    }
+    mark_front(points);
+    std::size_t front = 0;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      EXPECT_EQ(points[k].on_front, on_front_by_definition(points, k)) << seed << " " << k;
+      front += points[k].on_front;
+    }
+    EXPECT_GE(front, 1u);
+  }
+}
+
+ParetoRanges small_ranges() { return {{0.01, 0.1, 1.0}, {0.0, 1e-3}}; }
+
+TEST(ParetoSweep, HasEveryPairOnceAndWhatAPlanWithItHas) {
+  const SmallJob job;
+  const ParetoSweep sweep = sweep_weights(job.options, small_ranges(), {});
+  ASSERT_EQ(sweep.points.size(), 6u);
+  EXPECT_TRUE(sweep.limits.empty());
+  for (std::size_t k = 0; k < 6; ++k) {
+    const ParetoPoint& p = sweep.points[k];
+    EXPECT_EQ(p.weights, (Weights{small_ranges().smoothnesses[k / 2], small_ranges().time_prices[k % 2]}));
+    JobOptions options = job.options;
+    options.smoothness = {p.weights.smoothness};
+    options.time_price_nm2_per_s = {p.weights.time_price};
+    const Plan plan = make_plan(options, {});
+    EXPECT_NEAR(p.trade_off.residual_rms, plan.residual.rms, 1e-9 * plan.residual.rms);
+    EXPECT_EQ(p.trade_off.total, plan.dwell.sum());
+    EXPECT_EQ(p.trade_off.step_rms, plan.step_rms);
+    EXPECT_EQ(p.solver.operator_applications, plan.solver.operator_applications + 1);
+    EXPECT_EQ(p.on_front, on_front_by_definition(sweep.points, k));
+  }
+}
+
+TEST(ParetoSweep, HasRangesOfItsOwn) {
+  const SmallJob job;
+  const ParetoSweep sweep = sweep_weights(job.options, {}, {});
+  EXPECT_EQ(sweep.ranges.smoothnesses.size(), 5u);
+  ASSERT_EQ(sweep.ranges.time_prices.size(), 5u);
+  EXPECT_EQ(sweep.ranges.time_prices[0], 0.0);
+  EXPECT_EQ(sweep.points.size(), 25u);
+  // The prices matter: from the first to the last the machine time falls.
+  EXPECT_LT(sweep.points[4].trade_off.total, 0.95 * sweep.points[0].trade_off.total);
+}
+
+TEST(ParetoSweep, StopsWhenAsked) {
+  const SmallJob job;
+  std::vector<std::string> lines;
+  RunHooks hooks;
+  hooks.progress = [&lines](const std::string& line) { lines.push_back(line); };
+  hooks.stop = [&lines] { return !lines.empty() && lines.back().starts_with("solve 2 of 6"); };
+  EXPECT_THROW(sweep_weights(job.options, small_ranges(), hooks), Interrupted);
+}
+
+TEST(ParetoSweep, SaysWhereTheSolverDidNotConverge) {
+  SmallJob job;
+  job.options.max_solve_s = 1e-9;
+  const ParetoSweep sweep = sweep_weights(job.options, small_ranges(), {});
+  ASSERT_EQ(sweep.limits.size(), 1u);
+  EXPECT_TRUE(sweep.limits[0].starts_with("6 of 6 solves did not converge")) << sweep.limits[0];
+}
+
+TEST(WritePareto, TableAndJsonSayTheSame) {
+  const SmallJob job;
+  const ParetoSweep sweep = sweep_weights(job.options, small_ranges(), {});
+  const auto json = nlohmann::json::parse(pareto_json_text(sweep));
+  EXPECT_EQ(json["version"], version());
+  EXPECT_EQ(json["inputs"].size(), 1u);
+  EXPECT_EQ(json["options"]["path"], job.options.path);
+  EXPECT_FALSE(json["options"].contains("smoothness"));
+  ASSERT_EQ(json["points"].size(), 6u);
+
+  const std::string table = pareto_table_text(sweep);
+  EXPECT_TRUE(
+      table.starts_with("smoothness,time_price_nm2_per_s,residual_rms_nm,total_s,step_rms_s,objective_nm2,"
+                        "operator_applications,status,front\n"));
+  std::size_t at = table.find('\n') + 1;
+  for (const auto& p : json["points"]) {
+    const std::size_t end = table.find('\n', at);
+    ASSERT_NE(end, std::string::npos);
+    const std::string row = table.substr(at, end - at);
+    const std::vector<std::string_view> fields = split(row, ',');
+    ASSERT_EQ(fields.size(), 9u) << row;
+    std::size_t column = 0;
+    for (const char* key : {"smoothness", "time_price_nm2_per_s", "residual_rms_nm", "total_s", "step_rms_s",
+                            "objective_nm2", "operator_applications"}) {
+      EXPECT_EQ(parse_number(fields[column++]).value(), p[key].get<double>()) << key;
+    }
+    EXPECT_EQ(fields[7], p["status"].get<std::string>());
+    EXPECT_EQ(fields[8], p["front"].get<bool>() ? "yes" : "no");
+    at = end + 1;
+  }
+  EXPECT_EQ(at, table.size());
+}
+
+}  // namespace
+}  // namespace dwell

@@ -1,0 +1,189 @@
+#include "runs/job/input_files.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "core/base/whole_file.h"
+#include "core/formats/map_io.h"
+#include "core/map/value_units.h"
+#include "tests/core/base/expect_error.h"
+#include "tests/core/base/temporary_folder.h"
+
+namespace dwell {
+namespace {
+
+using test::expect_input_error;
+using test::TemporaryFolder;
+
+RemovalFunction tif_of(const std::string& text) {
+  JobOptions options;
+  options.tif = text;
+  std::vector<InputFile> inputs;
+  return load_removal_function(options, inputs);
+}
+
+TEST(Units, AreFactorsToNanometres) {
+  EXPECT_EQ(height_unit_nm("nm"), 1.0);
+  EXPECT_EQ(height_unit_nm("um"), 1e3);
+  EXPECT_EQ(height_unit_nm("mm"), 1e6);
+  EXPECT_EQ(height_unit_nm("m"), 1e9);
+  EXPECT_EQ(rate_unit_nm_per_s("nm/s"), 1.0);
+  EXPECT_EQ(rate_unit_nm_per_s("um/s"), 1e3);
+  EXPECT_DOUBLE_EQ(rate_unit_nm_per_s("um/min"), 1e3 / 60.0);
+  EXPECT_EQ(rate_unit_nm_per_s("m/s"), 1e9);
+  expect_input_error([] { height_unit_nm("NM"); }, {"'NM'", "nm, um, mm, m"});
+  expect_input_error([] { rate_unit_nm_per_s("nm"); }, {"'nm'", "nm/s, um/s, um/min, m/s"});
+}
+
+TEST(LoadMap, ScalesPlacesAndRecordsTheFile) {
+  const TemporaryFolder folder;
+  JobOptions options;
+  options.map = folder.file("map.csv", "1,2,nan\n4,5,6\n").string();
+  options.map_pixel_mm = 0.5;
+  options.map_unit = "um";
+  options.map_origin_mm = Point{-1.0, 7.0};
+  std::vector<InputFile> inputs;
+  const HeightMap map = load_map(options, inputs);
+  EXPECT_EQ(map.grid, (Grid{2, 3, 0.5, 0.5, {-1.0, 7.0}}));
+  EXPECT_EQ(map.at(0, 1), 2000.0);
+  EXPECT_EQ(map.at(1, 2), 6000.0);
+  EXPECT_TRUE(std::isnan(map.at(0, 2)));
+  ASSERT_EQ(inputs.size(), 1u);
+  EXPECT_EQ(inputs[0].role, "map");
+  EXPECT_EQ(inputs[0].file, options.map);
+  EXPECT_EQ(inputs[0].sha256, sha256_of_file(options.map));
+}
+
+TEST(LoadMap, SaysWhichOptionIsMissing) {
+  const TemporaryFolder folder;
+  JobOptions options;
+  std::vector<InputFile> inputs;
+  expect_input_error([&] { load_map(options, inputs); }, {"--map", "required"});
+  options.map = folder.file("map.csv", "1,2\n").string();
+  expect_input_error([&] { load_map(options, inputs); }, {"map.csv", "--map-pixel", "# pitch_mm"});
+  EXPECT_TRUE(inputs.empty());
+}
+
+TEST(LoadRemovalFunction, UnderstandsFormulas) {
+  const RemovalFunction gaussian = tif_of("gaussian:peak=8,fwhm=2,radius=3");
+  EXPECT_EQ(gaussian.kind, RemovalFunction::Kind::Gaussian);
+  EXPECT_EQ(gaussian.peak, 8.0);
+  EXPECT_EQ(gaussian.fwhm, 2.0);
+  EXPECT_EQ(gaussian.radius, 3.0);
+  const RemovalFunction by_sigma = tif_of("gaussian:peak=8,sigma=1,radius=4");
+  EXPECT_NEAR(by_sigma.fwhm, std::sqrt(8.0 * std::numbers::ln2), 1e-14);
+  EXPECT_NEAR(by_sigma.sigma, 1.0, 1e-14);
+  EXPECT_EQ(tif_of("gaussian:peak=8,fwhm=2").radius, 3.0);  // 1.5 FWHM unless it is said
+  const RemovalFunction disc = tif_of("disc:slope=2,radius=3");
+  EXPECT_EQ(disc.kind, RemovalFunction::Kind::Disc);
+  EXPECT_EQ(disc.peak, 6.0);
+}
+
+TEST(LoadRemovalFunction, RefusesBadFormulas) {
+  expect_input_error([] { tif_of(""); }, {"--tif", "required", "gaussian"});
+  expect_input_error([] { tif_of("gaussian:peak=8"); }, {"gaussian:peak=8", "fwhm or sigma"});
+  expect_input_error([] { tif_of("gaussian:peak=8,fwhm=2,sigma=1"); }, {"either fwhm or sigma"});
+  expect_input_error([] { tif_of("gaussian:fwhm=2"); }, {"peak"});
+  expect_input_error([] { tif_of("gaussian:peak=nan,fwhm=2"); }, {"peak", "nan"});
+  expect_input_error([] { tif_of("gaussian:peak=-1,fwhm=2"); }, {"peak", "-1", "> 0"});
+  expect_input_error([] { tif_of("gaussian:peak=1,fwhm=2,width=3"); }, {"width", "peak, fwhm, sigma, radius"});
+  expect_input_error([] { tif_of("disc:slope=1"); }, {"radius"});
+  expect_input_error([] { tif_of("disc:slope=1,radius=0"); }, {"radius", "> 0"});
+}
+
+TEST(LoadRemovalFunction, ReadsAFileWithItsUnitPitchAndAxis) {
+  const TemporaryFolder folder;
+  JobOptions options;
+  options.tif = folder.file("spot.csv", "0,0,0\n0,6,3\n0,0,0\n").string();
+  options.tif_pixel_mm = 0.5;
+  options.tif_unit = "um/min";
+  std::vector<InputFile> inputs;
+  const RemovalFunction middle = load_removal_function(options, inputs);
+  EXPECT_EQ(middle.kind, RemovalFunction::Kind::Measured);
+  EXPECT_DOUBLE_EQ(middle.peak, 100.0);           // 6 um/min
+  EXPECT_DOUBLE_EQ(middle.volume, 150.0 * 0.25);  // 9 um/min over pixels of 0.25 mm^2
+  EXPECT_DOUBLE_EQ(middle.samples.grid.origin.x, -0.5);
+  ASSERT_EQ(inputs.size(), 1u);
+  EXPECT_EQ(inputs[0].role, "tif");
+  EXPECT_EQ(inputs[0].sha256, sha256_of_file(options.tif));
+
+  options.tif_centre = "centroid";
+  EXPECT_NEAR(load_removal_function(options, inputs).samples.grid.origin.x, -2.0 / 3.0, 1e-14);
+  options.tif_centre = "0.75,0.25";
+  EXPECT_DOUBLE_EQ(load_removal_function(options, inputs).samples.grid.origin.x, -0.75);
+  EXPECT_DOUBLE_EQ(load_removal_function(options, inputs).samples.grid.origin.y, -0.25);
+}
+
+// As from an interferometer: the surface after 4 s, tilted, off its middle, and longer towards +x than towards -x.
+TEST(LoadRemovalFunction, CalibratesTheSurfaceThatASpotLeft) {
+  const TemporaryFolder folder;
+  HeightMap after(Grid{81, 101, 0.1, 0.1, {3.0, -2.0}});
+  const auto rate = [](double dx, double dy) {
+    const double lead = dx > 0.0 ? 1.1 : 0.6;
+    return 5.0 * std::exp(-0.5 * (dx * dx / (lead * lead) + dy * dy / (0.7 * 0.7)));
+  };
+  for (Index i = 0; i < after.grid.size(); ++i) {
+    const Point p = after.grid.centre(i);
+    after.values[static_cast<std::size_t>(i)] = 7.0 + 2.0 * p.x - p.y - 4.0 * rate(p.x - 7.8, p.y - 2.3);
+  }
+  write_map(folder.path() / "after.csv", after);
+  JobOptions options;
+  options.tif = (folder.path() / "after.csv").string();
+  std::vector<InputFile> inputs;
+  expect_input_error([&] { load_removal_function(options, inputs); }, {"after.csv", "--tif-dwell-time"});
+  options.tif_dwell_time_s = 4.0;
+  options.tif_centre = "7.8,2.3";
+  const RemovalFunction tif = load_removal_function(options, inputs);
+  EXPECT_NEAR(tif.peak, 5.0, 0.05);
+  EXPECT_NEAR(tif.volume, 5.0 * 2.0 * std::numbers::pi * 0.5 * (1.1 + 0.6) * 0.7, 0.3);
+  ASSERT_EQ(inputs.size(), 1U);
+  EXPECT_EQ(inputs[0].role, "tif");
+  const Grid& g = tif.samples.grid;
+  const auto at = [&](double x, double y) {
+    return tif.samples.at(std::lround((y - g.origin.y) / g.pitch_y), std::lround((x - g.origin.x) / g.pitch_x));
+  };
+  EXPECT_NEAR(at(1.2, 0.0), rate(1.2, 0.0), 0.1);
+  EXPECT_NEAR(at(-1.2, 0.0), rate(-1.2, 0.0), 0.1);
+  EXPECT_NEAR(at(0.5, 0.9), rate(0.5, 0.9), 0.1);
+  options.tif_dwell_time_s = 8.0;
+  EXPECT_NEAR(load_removal_function(options, inputs).peak, 0.5 * tif.peak, 1e-9);
+  options.tif_unit = "um/s";
+  expect_input_error([&] { load_removal_function(options, inputs); }, {"um/s", "nm, um, mm, m"});
+  options.tif_unit = "nm/s";
+  options.tif_centre = "middle";
+  expect_input_error([&] { load_removal_function(options, inputs); }, {"--tif-centre middle", "centroid"});
+  options.tif_centre = "auto";
+  options.tif_dwell_time_s.reset();
+  options.tif_unit = "nm";
+  expect_input_error([&] { load_removal_function(options, inputs); }, {"after.csv", "'nm'", "nm/s, um/s"});
+  options.tif = "gaussian:peak=8,fwhm=2";
+  options.tif_dwell_time_s = 4.0;
+  expect_input_error([&] { load_removal_function(options, inputs); }, {"--tif-dwell-time 4", "gaussian:peak=8"});
+}
+
+TEST(LoadRemovalFunction, RefusesASpotThatRemovesNothing) {
+  const TemporaryFolder folder;
+  JobOptions options;
+  options.tif_pixel_mm = 0.5;
+  std::vector<InputFile> inputs;
+  for (const char* rates : {"0,0\n0,0\n", "-1,-2\n-3,-1\n", "1,-2\n-3,nan\n"}) {
+    options.tif = folder.file("spot.csv", rates).string();
+    expect_input_error([&] { load_removal_function(options, inputs); }, {"spot.csv", "must be > 0"});
+  }
+}
+
+TEST(CheckToolFits, AllowsAStripNarrowerThanTheToolButNoMapSmallerBothWays) {
+  const RemovalFunction tif = gaussian_removal(1.0, 2.0, 3.0);
+  EXPECT_NO_THROW(check_tool_fits(tif, Grid{4, 40, 0.5, 0.5, {}}));
+  EXPECT_NO_THROW(check_tool_fits(tif, Grid{40, 4, 0.5, 0.5, {}}));
+  expect_input_error(
+      [&] {
+        check_tool_fits(tif, Grid{11, 11, 0.5, 0.5, {}});
+      },
+      {"6 mm", "5.5 x 5.5 mm", "--tif (its radius)", "--map-pixel"});
+}
+
+}  // namespace
+}  // namespace dwell

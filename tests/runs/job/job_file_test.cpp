@@ -1,0 +1,178 @@
+#include "runs/job/job_file.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/core/base/expect_error.h"
+#include "tests/core/base/temporary_folder.h"
+
+namespace dwell {
+namespace {
+
+using test::expect_input_error;
+using test::TemporaryFolder;
+
+JobOptions read(const TemporaryFolder& folder, const std::string& text, JobOptions options = {}) {
+  read_job_file(folder.file("job.toml", text), options);
+  return options;
+}
+
+/// Every option away from its default; the file names absolute.
+JobOptions unusual() {
+  JobOptions o;
+  o.map = "/data/a map \"of\" C:\\parts.csv";
+  o.map_pixel_mm = 0.1;
+  o.map_unit = "um";
+  o.map_origin_mm = Point{-12.5, 1.0 / 3.0};
+  o.map_steps = "crop:data; subtract:file=/data/b.csv,how=resample";
+  o.tif = "gaussian:peak=1,fwhm=2.8,radius=5";
+  o.tif_pixel_mm = 0.2;
+  o.tif_unit = "um/min";
+  o.tif_dwell_time_s = 4.5;
+  o.tif_centre = "0.5,-0.25";
+  o.tif_angle_deg = -37.5;
+  o.tif_flip = "y";
+  o.path = "nearest:cell=2,critical=-inf";
+  o.motion = "stop";
+  o.remove = "piston,tilt,power";
+  o.aperture = "rect:0,0,1,2";
+  o.min_dwell_s = 1.0 / 7.0;
+  o.max_feed_mm_per_min = 1e7;
+  o.smoothness = {1e-9};
+  o.time_price_nm2_per_s = {1.0 / 3.0, GoalKind::TotalAtMost};
+  o.solver = "dense-nnls";
+  o.max_solve_s = 12.5;
+  o.threads = 2;
+  o.gcode = "g93-per-minute";
+  o.lift_height_mm = 3.0;
+  o.out = "/tmp/plan";
+  return o;
+}
+
+TEST(JobFile, WrittenTextReadsBackEqualForEveryOption) {
+  const TemporaryFolder folder;
+  const JobOptions written = unusual(), defaults;
+  const JobOptions back = read(folder, job_file_text(written));
+  for (const JobOptionRecord& record : job_option_table()) {
+    EXPECT_NE(record.get(written), record.get(defaults)) << record.key << " is not tested";
+    EXPECT_EQ(record.get(back), record.get(written)) << record.key;
+  }
+}
+
+TEST(JobFile, WrittenDefaultsReadBackAsDefaultsWithAllOptionsExplained) {
+  const TemporaryFolder folder;
+  const JobOptions defaults;
+  const std::string text = job_file_text(defaults);
+  const JobOptions back = read(folder, text);
+  for (const JobOptionRecord& record : job_option_table()) {
+    EXPECT_EQ(record.get(back), record.get(defaults)) << record.key;
+    EXPECT_NE(text.find("# " + record.help), std::string::npos) << record.key;
+    EXPECT_NE(text.find(record.key + " ="), std::string::npos) << record.key;
+  }
+}
+
+TEST(JobFile, ComesOverTheOptionsItIsReadInto) {
+  const TemporaryFolder folder;
+  JobOptions before;
+  before.smoothness = {0.5};
+  before.min_dwell_s = 0.25;
+  const JobOptions after = read(folder, "smoothness = 0.75\n", before);
+  EXPECT_EQ(after.smoothness, WeightGoal{0.75});
+  EXPECT_EQ(after.min_dwell_s, 0.25);
+}
+
+TEST(JobFile, TakesWordsWhereAWeightIsLeftOpen) {
+  const TemporaryFolder folder;
+  const JobOptions o = read(folder, "smoothness = 'step RMS <= 0.004 s'\ntime_price_nm2_per_s = 'auto'\n");
+  EXPECT_EQ(o.smoothness, (WeightGoal{0.004, GoalKind::StepAtMost}));
+  EXPECT_EQ(o.time_price_nm2_per_s, (WeightGoal{0.0, GoalKind::Corner}));
+  const JobOptions back = read(folder, job_file_text(o));
+  EXPECT_EQ(back.smoothness, o.smoothness);
+  EXPECT_EQ(back.time_price_nm2_per_s, o.time_price_nm2_per_s);
+  expect_input_error([&] { read(folder, "smoothness = 'total<=3'\n"); },
+                     {"job.toml: smoothness", "'total<=3'", "step<=S", "residual<=NM"});
+  expect_input_error([&] { read(folder, "min_dwell_s = 'auto'\n"); }, {"job.toml: min_dwell_s", "without quotes"});
+}
+
+TEST(JobFile, TakesStepsAsOneStringOrAsAList) {
+  const TemporaryFolder folder;
+  const std::string file = (folder.path() / "ref.csv").string();
+  const std::string expected = "crop:data; subtract:file=" + file + "; fill";
+  EXPECT_EQ(read(folder, "map_steps = 'crop:data; subtract:ref.csv ;fill'\n").map_steps, expected);
+  EXPECT_EQ(read(folder, "map_steps = ['crop:data', 'subtract:ref.csv', 'fill']\n").map_steps, expected);
+  expect_input_error([&] { read(folder, "map_steps = ['crop:data', 3]\n"); },
+                     {"job.toml: map_steps", "a list of strings"});
+  expect_input_error([&] { read(folder, "map_steps = 'crip:data'\n"); },
+                     {"job.toml: map_steps", "unknown step 'crip'", "crop, keep"});
+  expect_input_error([&] { read(folder, "map = ['a.csv']\n"); }, {"job.toml: map", "a string (in quotes)"});
+}
+
+TEST(JobFile, TakesWholeAndRealNumbers) {
+  const TemporaryFolder folder;
+  const JobOptions o =
+      read(folder, "max_feed_mm_per_min = 3_000\nmin_dwell_s = 1e-1\nthreads = 2.0\nmap_origin_mm = '-1,2.5'\n");
+  EXPECT_EQ(o.max_feed_mm_per_min, 3000.0);
+  EXPECT_EQ(o.min_dwell_s, 0.1);
+  EXPECT_EQ(o.threads, 2);
+  ASSERT_TRUE(o.map_origin_mm.has_value());
+  EXPECT_EQ(o.map_origin_mm->x, -1.0);
+  EXPECT_EQ(o.map_origin_mm->y, 2.5);
+}
+
+TEST(JobFile, FileNamesAreRelativeToItsFolder) {
+  const TemporaryFolder folder;
+  const JobOptions o = read(folder, "map = 'maps/a.csv'\ntif = '../tif.csv'\npath = 'file:p.csv'\nout = 'plan'\n");
+  EXPECT_EQ(o.map, (folder.path() / "maps/a.csv").string());
+  EXPECT_EQ(o.tif, (folder.path().parent_path() / "tif.csv").string());
+  EXPECT_EQ(o.path, "file:" + (folder.path() / "p.csv").string());
+  EXPECT_EQ(o.out, (folder.path() / "plan").string());
+  const JobOptions absolute = read(folder,
+                                   "map = '/maps/a.csv'\ntif = 'disc:slope=1,radius=2'\n"
+                                   "path = 'raster:pitch=1'\n");
+  EXPECT_EQ(absolute.map, "/maps/a.csv");
+  EXPECT_EQ(absolute.tif, "disc:slope=1,radius=2");
+  EXPECT_EQ(absolute.path, "raster:pitch=1");
+}
+
+TEST(JobFile, RefusesAnUnknownFieldAndListsTheKnownOnes) {
+  const TemporaryFolder folder;
+  expect_input_error([&] { read(folder, "max_feed = 3000\n"); },
+                     {"job.toml", "unknown field 'max_feed'", "max_feed_mm_per_min", "map_pixel_mm"});
+  expect_input_error([&] { read(folder, "[map]\nfile = 'a.csv'\n"); }, {"job.toml", "map", "table", "string"});
+}
+
+TEST(JobFile, RefusesTheWrongType) {
+  const TemporaryFolder folder;
+  const auto refused = [&](const std::string& line, std::initializer_list<std::string> words) {
+    expect_input_error([&] { read(folder, line + "\n"); }, words);
+  };
+  refused("smoothness = '0.1'", {"job.toml: smoothness", "0.1", "string", "required a number"});
+  refused("smoothness = true", {"job.toml: smoothness", "boolean", "required a number"});
+  refused("map_origin_mm = [1, 2]", {"job.toml: map_origin_mm", "array", "required a string"});
+  refused("threads = 2024-01-01", {"job.toml: threads", "date", "required a number"});
+  refused("map = 5", {"job.toml: map", "5", "required a string"});
+}
+
+TEST(JobFile, RefusesValuesAsTheCommandLineDoes) {
+  const TemporaryFolder folder;
+  const auto refused = [&](const std::string& line, std::initializer_list<std::string> words) {
+    expect_input_error([&] { read(folder, line + "\n"); }, words);
+  };
+  refused("smoothness = nan", {"job.toml: smoothness", "nan", "required a number >= 0"});
+  refused("max_feed_mm_per_min = inf", {"job.toml: max_feed_mm_per_min", "inf", "required a number > 0"});
+  refused("threads = 2.5", {"job.toml: threads", "2.5", "whole number"});
+  refused("map_pixel_mm = -0.5", {"job.toml: map_pixel_mm", "-0.5", "required a number > 0"});
+  refused("map = ''", {"job.toml: map", "empty"});
+  refused("out = ''", {"job.toml: out", "empty"});
+  refused("path = 'file:'", {"job.toml: path", "name of a file"});
+}
+
+TEST(JobFile, NamesTheLineThatIsNotToml) {
+  const TemporaryFolder folder;
+  expect_input_error([&] { read(folder, "smoothness = 0.1\nmin_dwell_s =\n"); }, {"job.toml: line 2"});
+  expect_input_error([&] { read(folder, "smoothness = 1\nsmoothness = 2\n"); }, {"job.toml: line 2"});
+  JobOptions options;
+  expect_input_error([&] { read_job_file(folder.path() / "none.toml", options); }, {"none.toml", "No such file"});
+}
+
+}  // namespace
+}  // namespace dwell

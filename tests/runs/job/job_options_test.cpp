@@ -1,0 +1,122 @@
+#include "runs/job/job_options.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "tests/core/base/expect_error.h"
+
+namespace dwell {
+namespace {
+
+using test::expect_input_error;
+
+const JobOptionRecord& record_of(const std::string& flag) {
+  for (const JobOptionRecord& record : job_option_table()) {
+    if (record.flag == flag) return record;
+  }
+  throw std::logic_error("no option " + flag);
+}
+
+void set(JobOptions& options, const std::string& flag, const std::string& text) {
+  set_job_option(options, record_of(flag), text, "--" + flag);
+}
+
+TEST(JobOptionTable, KnowsEveryOptionOnceByFlagAndByKey) {
+  std::set<std::string> flags, keys;
+  for (const JobOptionRecord& record : job_option_table()) {
+    EXPECT_TRUE(flags.insert(record.flag).second) << record.flag;
+    EXPECT_TRUE(keys.insert(record.key).second) << record.key;
+    EXPECT_FALSE(record.help.empty()) << record.flag;
+    EXPECT_FALSE(record.value.empty()) << record.flag;
+  }
+  for (const char* flag :
+       {"map", "map-pixel", "map-unit", "map-origin", "tif", "tif-unit", "tif-pixel", "path", "motion", "remove",
+        "aperture", "min-dwell", "max-feed", "smoothness", "time-price", "solver", "threads", "gcode", "out"}) {
+    EXPECT_TRUE(flags.contains(flag)) << flag;
+  }
+}
+
+TEST(JobOptionTable, AcceptsItsOwnDefaults) {
+  const JobOptions defaults;
+  for (const JobOptionRecord& record : job_option_table()) {
+    const std::string text = record.get(defaults);
+    if (text.empty()) continue;
+    JobOptions options;
+    set(options, record.flag, text);
+    EXPECT_EQ(record.get(options), text) << record.flag;
+  }
+}
+
+TEST(JobOptionTable, GivesBackWhatItIsGiven) {
+  for (const auto& [flag, text] :
+       std::initializer_list<std::pair<const char*, const char*>>{{"map-pixel", "0.0938"},
+                                                                  {"map-unit", "um"},
+                                                                  {"map-origin", "-12.5,3"},
+                                                                  {"map-steps", "crop:data;fill:harmonic"},
+                                                                  {"tif-unit", "um/min"},
+                                                                  {"tif-centre", "0.25,-1"},
+                                                                  {"path", "nearest:cell=2"},
+                                                                  {"motion", "stop"},
+                                                                  {"remove", "none"},
+                                                                  {"aperture", "polygon:0,0,4,0,2,3"},
+                                                                  {"min-dwell", "0.1"},
+                                                                  {"max-feed", "1234.5"},
+                                                                  {"smoothness", "step<=0.004"},
+                                                                  {"time-price", "1e-07"},
+                                                                  {"solver", "dense-nnls"},
+                                                                  {"threads", "2"},
+                                                                  {"gcode", "g93-seconds"}}) {
+    JobOptions options;
+    set(options, flag, text);
+    EXPECT_EQ(record_of(flag).get(options), text) << flag;
+  }
+}
+
+TEST(JobOptionTable, RefusesWhatIsOutOfRangeNamingOptionValueAndRange) {
+  JobOptions options;
+  for (const char* flag : {"map-pixel", "tif-pixel", "max-feed", "max-solve", "lift-height"}) {
+    for (const char* text : {"0", "-1", "nan", "inf", "1e999", "1 mm", "abc"}) {
+      expect_input_error([&] { set(options, flag, text); }, {std::string("--") + flag, text, "required a number > 0"});
+    }
+  }
+  for (const char* flag : {"min-dwell", "smoothness", "time-price"}) {
+    for (const char* text : {"-1e-9", "nan", "inf", "x"}) {
+      expect_input_error([&] { set(options, flag, text); }, {std::string("--") + flag, text, "required a number >= 0"});
+    }
+  }
+  for (const char* text : {"-1", "1.5", "nan", "1025", "two"}) {
+    expect_input_error([&] { set(options, "threads", text); }, {"--threads", text, "whole number"});
+  }
+}
+
+TEST(JobOptionTable, RefusesUnknownWordsNamingTheAcceptedOnes) {
+  JobOptions options;
+  const auto refused = [&options](const char* flag, const char* text, std::initializer_list<std::string> words) {
+    expect_input_error([&] { set(options, flag, text); }, {std::string("--") + flag, text});
+    expect_input_error([&] { set(options, flag, text); }, words);
+  };
+  refused("map-unit", "inch", {"nm", "um", "mm"});
+  refused("tif-unit", "inch/s", {"nm/s", "um/min", "m/s"});
+  refused("tif-unit", "inch", {"nm", "um", "mm"});
+  refused("map-origin", "1", {"X,Y"});
+  refused("map-origin", "1,nan", {"X,Y"});
+  refused("tif-centre", "left", {"middle", "centroid", "X,Y"});
+  refused("path", "zigzag:pitch=1", {"raster", "nearest", "file"});
+  refused("motion", "go", {"moving", "stop"});
+  refused("remove", "piston,coma", {"piston", "tilt", "power"});
+  refused("aperture", "square:1", {"map", "rect", "circle", "ellipse", "annulus", "polygon"});
+  refused("map-steps", "polish:1", {"unknown step 'polish'", "resample"});
+  refused("solver", "magic", {"projected-cg", "dense-nnls"});
+  refused("gcode", "g95", {"g94", "g93-per-minute", "g93-seconds"});
+}
+
+TEST(JobOptionTable, RefusesEmptyText) {
+  JobOptions options;
+  for (const JobOptionRecord& record : job_option_table()) {
+    expect_input_error([&] { set(options, record.flag, ""); }, {"--" + record.flag, "empty"});
+  }
+}
+
+}  // namespace
+}  // namespace dwell
