@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "bench/solve_child.h"
+#include "solvers/solver_catalogue.h"
 
 namespace dwell::bench {
 namespace {

@@ -13,10 +13,12 @@
 #include "bench/reference.h"
 #include "bench/report.h"
 #include "bench/results.h"
+#include "bench/scenario_list.h"
 #include "bench/solve_run.h"
 #include "bench/suite.h"
 #include "core/base/errors.h"
 #include "core/base/whole_file.h"
+#include "solvers/solver_catalogue.h"
 
 namespace dwell::bench {
 namespace {

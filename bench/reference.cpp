@@ -8,6 +8,7 @@
 #include "bench/machine.h"
 #include "core/base/whole_file.h"
 #include "solvers/problem/certificate.h"
+#include "solvers/solver_catalogue.h"
 
 namespace dwell::bench {
 namespace {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <functional>
 #include <memory>
 #include <string>
@@ -39,8 +38,6 @@ struct Scenario {
   std::function<Parts()> make;
 };
 
-/// All scenarios, in the order of the report. Those of measured mirrors only if `data` has them.
-std::vector<Scenario> scenarios(const std::filesystem::path& data);
 /// Throws InputError naming the known ones.
 const Scenario& find_scenario(const std::vector<Scenario>& all, const std::string& name);
 

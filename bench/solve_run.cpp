@@ -13,6 +13,7 @@
 
 #include "core/base/errors.h"
 #include "solvers/problem/certificate.h"
+#include "solvers/solver_catalogue.h"
 
 namespace dwell::bench {
 namespace {

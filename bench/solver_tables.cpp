@@ -7,6 +7,7 @@
 
 #include "bench/json_access.h"
 #include "bench/suite.h"
+#include "solvers/solver_catalogue.h"
 
 namespace dwell::bench {
 namespace {
@@ -75,7 +76,7 @@ Json fastest_of_ours(const Json& all, const std::string& scenario) {
   Json best;
   for (const Json& run : all.at("results")) {
     if (text_of(run, "scenario") != scenario || run.at("threads").get<int>() != 2) continue;
-    if (is_peer(parse_solver_kind(text_of(run, "solver"))) || !seconds_to_1_percent(run)) continue;
+    if (solver_record(parse_solver_kind(text_of(run, "solver"))).peer || !seconds_to_1_percent(run)) continue;
     if (best.is_null() || *seconds_to_1_percent(run) < *seconds_to_1_percent(best)) best = run;
   }
   return best;
@@ -120,7 +121,7 @@ std::optional<PeerRatio> peer_ratio(const Json& all, const std::string& scenario
   std::string peer;
   for (const Json& run : list_of(all, "results")) {
     if (text_of(run, "scenario") != scenario || run.at("threads").get<int>() != 2 || !run.contains("reached")) continue;
-    if (!is_peer(parse_solver_kind(text_of(run, "solver")))) continue;
+    if (!solver_record(parse_solver_kind(text_of(run, "solver"))).peer) continue;
     const std::optional<double> seconds = seconds_to_1_percent(run);
     if (seconds && *seconds < arrived) {
       arrived = *seconds;

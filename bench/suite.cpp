@@ -6,26 +6,12 @@
 #include <map>
 
 #include "bench/reference.h"
-#include "bench/scenario.h"
+#include "bench/scenario_list.h"
 #include "bench/solve_child.h"
+#include "solvers/solver_catalogue.h"
 
 namespace dwell::bench {
 namespace {
-
-/// In the order of their turns, so that what the budget cuts off is what matters least: ours that is judged, the peers
-/// that are fastest on most scenarios, the others.
-constexpr SolverKind kTurns[] = {SolverKind::Auto,
-                                 SolverKind::Lbfgsb,
-                                 SolverKind::NloptLbfgs,
-                                 SolverKind::ProjectedLbfgs,
-                                 SolverKind::ProjectedCg,
-                                 SolverKind::NloptTnewton,
-                                 SolverKind::SpectralProjectedGradient,
-                                 SolverKind::Fourier,
-                                 SolverKind::Ceres,
-                                 SolverKind::DenseNnls,
-                                 SolverKind::NloptMma,
-                                 SolverKind::NloptSlsqp};
 
 /// Runs whoever has not had its turn in `round`, until that share of the budget is spent.
 struct Pass {
@@ -63,10 +49,11 @@ class Suite {
   Suite(const SuiteOptions& options, const Budget& budget)
       : options_(options), budget_(budget), all_(scenarios(options.data)) {
     for (const std::string& name : options.scenarios) find_scenario(all_, name);
-    for (const SolverKind kind : kTurns) {
+    // In the order of the catalogue, so that what the budget cuts off is what matters least.
+    for (const SolverRecord& solver : solver_catalogue()) {
       for (const Scenario& s : all_) {
-        if (!wanted(s) || (is_peer(kind) && !s.peers)) continue;
-        for (const int threads : {2, 1}) entries_.push_back({&s, kind, threads, {}});
+        if (!wanted(s) || (solver.peer && !s.peers)) continue;
+        for (const int threads : {2, 1}) entries_.push_back({&s, solver.kind, threads, {}});
       }
     }
   }
@@ -210,22 +197,6 @@ class Suite {
 };
 
 }  // namespace
-
-bool is_peer(SolverKind kind) {
-  switch (kind) {
-    case SolverKind::DenseNnls:
-    case SolverKind::Ceres:
-    case SolverKind::Lbfgsb:
-    case SolverKind::NloptLbfgs:
-    case SolverKind::NloptMma:
-    case SolverKind::NloptTnewton:
-    case SolverKind::NloptSlsqp:
-    case SolverKind::Fourier:
-      return true;
-    default:
-      return false;
-  }
-}
 
 nlohmann::json run_suite(const SuiteOptions& options, const Budget& budget) {
   Suite suite(options, budget);

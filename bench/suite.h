@@ -18,9 +18,6 @@ struct SuiteOptions {
   std::filesystem::path references;
 };
 
-/// Somebody else's method, or an oracle: measured where its size allows, and left out where a scenario has no peers.
-bool is_peer(SolverKind kind);
-
 /// Runs every solver on every scenario, each solve in a process of its own, in interleaved rounds: `auto` first, on two
 /// threads and on one, then the others on two; then again, on both, whoever came within 0.1 % of the reference, until
 /// the rounds or the budget are used up. The result has one entry a scenario, solver and number of threads:

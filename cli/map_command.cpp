@@ -9,13 +9,13 @@
 #include "cli/output_files.h"
 #include "cli/terminal.h"
 #include "core/base/errors.h"
+#include "core/base/threads.h"
 #include "core/formats/map_formats.h"
 #include "core/map/aperture.h"
 #include "runs/drawing/height_image.h"
 #include "runs/drawing/picture.h"
 #include "runs/job/input_files.h"
 #include "runs/map_steps/map_steps.h"
-#include "runs/plan/plan.h"
 #include "runs/reports/map_profile.h"
 #include "runs/reports/map_report.h"
 
@@ -75,7 +75,7 @@ void check_outputs(const MapArguments& a, const JobOptions& options) {
 
 /// The map as read and prepared by the steps, within the aperture.
 HeightMap prepared_map(const JobOptions& options, std::vector<InputFile>& inputs) {
-  HeightMap map = within(load_map(options, inputs, terminal_hooks()), parse_aperture(options.aperture));
+  HeightMap map = within(load_map(options, inputs, terminal_progress()), parse_aperture(options.aperture));
   finish_progress();
   if (options.aperture != "map") map.history.push_back(fmt::format("aperture {}", options.aperture));
   return map;

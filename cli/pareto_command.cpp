@@ -40,7 +40,7 @@ int run_pareto(const ParetoArguments& arguments) {
     ranges.smoothnesses = parse_weight_list(arguments.smoothnesses, "--smoothnesses");
   if (!arguments.time_prices.empty()) ranges.time_prices = parse_weight_list(arguments.time_prices, "--time-prices");
   OutputFolder folder(options.out, pareto_files());
-  const ParetoSweep sweep = sweep_weights(options, ranges, terminal_hooks());
+  const ParetoSweep sweep = sweep_weights(options, ranges, terminal_progress());
   const std::string json = write_pareto(sweep, folder);
   folder.commit();
   finish_progress();

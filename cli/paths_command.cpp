@@ -36,7 +36,8 @@ int run_paths(const PathsArguments& arguments) {
     throw InputError("--paths: required; for instance raster,spiral,random (--kinds lists all)");
   const JobOptions options = arguments.job->options();
   OutputFolder folder(options.out, path_comparison_files());
-  const PathComparison comparison = compare_paths(options, arguments.list, arguments.pitch, folder, terminal_hooks());
+  const PathComparison comparison =
+      compare_paths(options, arguments.list, arguments.pitch, folder, terminal_progress());
   const std::string json = write_path_comparison(comparison, folder);
   folder.commit();
   finish_progress();

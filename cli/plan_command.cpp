@@ -9,6 +9,7 @@
 #include "core/base/units.h"
 #include "runs/job/job_file.h"
 #include "runs/plan/plan_output.h"
+#include "solvers/solver_catalogue.h"
 
 namespace dwell::cli {
 namespace {
@@ -53,9 +54,9 @@ int run_plan(const PlanArguments& arguments) {
     return kDone;
   }
   OutputFolder folder(options.out);
-  const RunHooks hooks = terminal_hooks();
-  Plan plan = make_plan(options, hooks);
-  const WrittenPlan written = write_plan(plan, folder, hooks);
+  const Progress progress = terminal_progress();
+  Plan plan = make_plan(options, progress);
+  const WrittenPlan written = write_plan(plan, folder, progress);
   folder.commit();
   finish_progress();
   if (arguments.json) {

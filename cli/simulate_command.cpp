@@ -48,7 +48,7 @@ int run_simulate(const SimulateArguments& arguments) {
   if (!arguments.gcode.empty()) dialect = parse_gcode_dialect(arguments.gcode);
   const JobOptions options = arguments.job->options();
   check_outputs(arguments, options);
-  const Simulation s = simulate_file(arguments.program, dialect, options, terminal_hooks(), arguments.exact);
+  const Simulation s = simulate_file(arguments.program, dialect, options, terminal_progress(), arguments.exact);
   finish_progress();
   const std::string text = arguments.json ? simulation_json(s) : told(s);
   PendingFiles files;

@@ -27,11 +27,11 @@ void finish_progress() {
   line_open = false;
 }
 
-RunHooks terminal_hooks() {
+Progress terminal_progress() {
   using Clock = std::chrono::steady_clock;
-  RunHooks hooks;
+  Progress progress;
   const bool in_place = isatty(STDERR_FILENO) != 0;
-  hooks.progress = [in_place, next = Clock::now() + std::chrono::seconds(1)](const std::string& line) mutable {
+  progress.show = [in_place, next = Clock::now() + std::chrono::seconds(1)](const std::string& line) mutable {
     const auto now = Clock::now();
     if (now < next) return;
     next = now + std::chrono::seconds(1);
@@ -43,8 +43,8 @@ RunHooks terminal_hooks() {
     }
     std::fflush(stderr);
   };
-  hooks.stop = [] { return interrupted != 0; };
-  return hooks;
+  progress.stop = [] { return interrupted != 0; };
+  return progress;
 }
 
 }  // namespace dwell::cli

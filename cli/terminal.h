@@ -1,6 +1,6 @@
 #pragma once
 
-#include "runs/base/run_hooks.h"
+#include "core/base/progress.h"
 
 namespace dwell::cli {
 
@@ -9,7 +9,7 @@ enum ExitCode : int { kDone = 0, kInternalFault = 1, kBadInput = 2, kLimitReache
 
 /// Progress on standard error, from the second second on, one line a second (one line in place on a terminal); stops on
 /// SIGINT and SIGTERM.
-RunHooks terminal_hooks();
+Progress terminal_progress();
 
 /// Ends the line in place, if one is shown.
 void finish_progress();

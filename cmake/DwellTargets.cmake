@@ -2,9 +2,29 @@
 
 function(dwell_compile_options target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+    # False in g++ 12 wherever strings are put together (its bug 105651).
+    target_compile_options(${target} PRIVATE -Wno-restrict)
+  endif()
   if(DWELL_WARNINGS_AS_ERRORS)
     target_compile_options(${target} PRIVATE -Werror)
   endif()
+endfunction()
+
+# dwell_group_by_room(TARGET SOURCE...): with DWELL_UNITY, each folder of sources is compiled as one unit. Most of the time
+# of a build goes into the headers of other people (Eigen above all), which a unit then reads once. A folder is a room, so
+# that a new file touches its own room's unit only, and two files of one room may not define the same name.
+function(dwell_group_by_room target)
+  if(NOT DWELL_UNITY)
+    return()
+  endif()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  foreach(source IN LISTS ARGN)
+    cmake_path(GET source PARENT_PATH room)
+    cmake_path(RELATIVE_PATH room BASE_DIRECTORY ${PROJECT_SOURCE_DIR})
+    string(REPLACE / _ room "${room}")
+    set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${room})
+  endforeach()
 endfunction()
 
 function(dwell_library name)
@@ -24,4 +44,5 @@ function(dwell_library name)
     target_compile_options(dwell_${name} PUBLIC -march=native)
   endif()
   dwell_compile_options(dwell_${name})
+  dwell_group_by_room(dwell_${name} ${sources})
 endfunction()

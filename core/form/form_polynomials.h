@@ -1,11 +1,13 @@
 #pragma once
 
+#include <Eigen/Core>
+
 #include <array>
 #include <span>
 #include <vector>
 
 #include "core/base/grid.h"
-#include "core/form/form.h"
+#include "core/form/form_terms.h"
 
 namespace dwell {
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "core/base/point.h"
-#include "core/form/form.h"
+#include "core/form/form_terms.h"
 #include "core/form/zernike.h"
 
 namespace dwell {
@@ -28,7 +28,7 @@ struct PolynomialSpec {
 };
 
 /// Parses
-///   piston,tilt,power,astigmatism | none                       form terms (core/form/form.h)
+///   piston,tilt,power,astigmatism | none                       form terms (core/form/form_terms.h)
 ///   zernike-noll:1-36 | zernike-fringe:1-37 | zernike-ansi:0-35  [,x=MM,y=MM][,radius=MM][,obscuration=RATIO]
 ///   legendre:4 | chebyshev:4       all products of total degree <= 4, the rectangle of the valid pixels on [-1, 1]^2
 ///   legendre:4x3 | chebyshev:4x3   all products of degree <= 4 along x and <= 3 along y

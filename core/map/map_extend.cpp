@@ -132,8 +132,8 @@ void extend_by_gerchberg(const HeightMap& data, const std::vector<Index>& neares
                          const Progress& progress) {
   Gerchberg gerchberg(data, nearest, options, threads);
   do {
-    tell(progress, fmt::format("gerchberg: iteration {} of at most {}, change {:.1e}", summary.iterations,
-                               options.iterations, summary.change));
+    progress.step(fmt::format("gerchberg: iteration {} of at most {}, change {:.1e}", summary.iterations,
+                              options.iterations, summary.change));
     summary.change = gerchberg.iterate(options.shortest);
     ++summary.iterations;
   } while (summary.iterations < options.iterations && summary.change > options.tolerance);

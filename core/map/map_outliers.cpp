@@ -85,7 +85,7 @@ Index remove_outliers(HeightMap& map, const OutlierOptions& options, int threads
   std::vector<unsigned char> marked(map.values.size(), 0);
   const Index at_once = 2 * std::max(threads, 1);  // rows between reports: few, for a wide window takes its time
   for (Index first = 0; first < map.grid.rows; first += at_once) {
-    tell(progress, fmt::format("outliers: row {} of {}", first, map.grid.rows));
+    progress.step(fmt::format("outliers: row {} of {}", first, map.grid.rows));
     const Index end = std::min(first + at_once, map.grid.rows);
 #pragma omp parallel num_threads(threads)
     {

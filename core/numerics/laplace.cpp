@@ -209,8 +209,8 @@ void conjugate_gradients(Multigrid& multigrid, const Vector& b, Vector& x, Lapla
       throw std::runtime_error(fmt::format("Laplace's equation on {} pixels: residual {} after {} iterations",
                                            summary.unknowns, summary.residual, iteration));
     }
-    tell(progress, fmt::format("harmonic: {} pixels, iteration {}, residual {:.1e}", summary.unknowns, iteration,
-                               summary.residual));
+    progress.step(fmt::format("harmonic: {} pixels, iteration {}, residual {:.1e}", summary.unknowns, iteration,
+                              summary.residual));
     multigrid.apply(r, z);
     const double rho_new = r.dot(z);
     p = iteration == 0 ? z : Vector(z + (rho_new / rho) * p);
@@ -230,7 +230,7 @@ LaplaceSummary solve_laplace(const Grid& grid, std::span<const unsigned char> un
   const Places places = places_of(grid, unknown, values);
   summary.unknowns = places.count;
   if (places.count == 0) return summary;
-  tell(progress, fmt::format("harmonic: {} pixels, setting up", places.count));
+  progress.step(fmt::format("harmonic: {} pixels, setting up", places.count));
   const double mean = mean_held(places, values);
   const System system = five_point_system(grid, places, values, mean);
   Multigrid multigrid(system.a, places);

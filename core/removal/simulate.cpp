@@ -45,7 +45,7 @@ HeightMap simulate_exactly(const Program& program, const HeightMap& map, const R
   Vector removal = Vector::Zero(static_cast<Index>(pixels.size()));
   const std::size_t count = removing.strokes.size();
   for (std::size_t first = 0; first < count; first += kRun) {
-    tell(progress, fmt::format("{:.0f} %", 100.0 * static_cast<double>(first) / static_cast<double>(count)));
+    progress.step(fmt::format("{:.0f} %", 100.0 * static_cast<double>(first) / static_cast<double>(count)));
     const std::size_t size = std::min(kRun, count - first);
     const std::vector<Stroke> run(removing.strokes.begin() + static_cast<std::ptrdiff_t>(first),
                                   removing.strokes.begin() + static_cast<std::ptrdiff_t>(first + size));

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "runs/job/input_files.h"
+#include "runs/base/input_file.h"
 
 namespace dwell {
 

@@ -99,9 +99,9 @@ void mark_front(std::vector<ParetoPoint>& points) {
   }
 }
 
-ParetoSweep sweep_weights(const JobOptions& options, const ParetoRanges& ranges, const RunHooks& hooks) {
+ParetoSweep sweep_weights(const JobOptions& options, const ParetoRanges& ranges, const Progress& progress) {
   ParetoSweep sweep;
-  sweep.plan = prepare_plan(options, hooks);
+  sweep.plan = prepare_plan(options, progress);
   PlanProblem problem(sweep.plan);
   sweep.ranges = completed(ranges, problem.highest_price());
   const std::size_t rows = sweep.ranges.smoothnesses.size(), columns = sweep.ranges.time_prices.size();
@@ -113,9 +113,9 @@ ParetoSweep sweep_weights(const JobOptions& options, const ParetoRanges& ranges,
     const Weights weights{sweep.ranges.smoothnesses[row], sweep.ranges.time_prices[column]};
     const std::string stage = fmt::format("solve {} of {}: smoothness {:.4g}, time price {:.4g} nm^2/s", k + 1,
                                           rows * columns, weights.smoothness, weights.time_price);
-    WeightedDwell found = problem.solve(weights, std::move(dwell), options.max_solve_s, stage, hooks);
-    hooks.report(fmt::format("{}: residual {:.4g} nm RMS, total {:.5g} s, step {:.4g} s RMS", stage,
-                             found.trade_off.residual_rms, found.trade_off.total, found.trade_off.step_rms));
+    WeightedDwell found = problem.solve(weights, std::move(dwell), options.max_solve_s, stage, progress);
+    progress.report(fmt::format("{}: residual {:.4g} nm RMS, total {:.5g} s, step {:.4g} s RMS", stage,
+                                found.trade_off.residual_rms, found.trade_off.total, found.trade_off.step_rms));
     dwell = std::move(found.dwell);
     sweep.seconds += found.solver.seconds;
     ++found.solver.operator_applications;

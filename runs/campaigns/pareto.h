@@ -43,6 +43,6 @@ void mark_front(std::vector<ParetoPoint>& points);
 
 /// Solves the dwell problem of a job at every pair of weights, neighbours after each other, from the largest weights
 /// down. Throws as make_plan. options.max_solve_s bounds each solve.
-ParetoSweep sweep_weights(const JobOptions& options, const ParetoRanges& ranges, const RunHooks& hooks);
+ParetoSweep sweep_weights(const JobOptions& options, const ParetoRanges& ranges, const Progress& progress);
 
 }  // namespace dwell

@@ -19,11 +19,6 @@
 namespace dwell {
 namespace {
 
-/// Hooks whose lines begin with the path they are about.
-RunHooks named(const RunHooks& hooks, const std::string& stage) {
-  return {[hooks, stage](const std::string& line) { hooks.report(stage + ": " + line); }, hooks.stop};
-}
-
 /// The rapids, whose time the program does not say: up, and across. The way down is a feed move of the program.
 double lift_time(const PathMetrics& metrics, const JobOptions& o) {
   const double up = o.lift_height_mm * static_cast<double>(metrics.lifts);
@@ -59,29 +54,29 @@ std::optional<RippleSpectrum> waves_of(const HeightMap& residual, int threads) {
   }
 }
 
-void measure(const Plan& plan, double pitch, ComparedPath& path, const RunHooks& hooks) {
-  hooks.report("path: spacing, coverage, spanning tree");
+void measure(const Plan& plan, double pitch, ComparedPath& path, const Progress& progress) {
+  progress.report("path: spacing, coverage, spanning tree");
   path.metrics = plan.metrics;
   path.notes = plan.path.notes;
   path.spacing = path_spacing(plan.path, {.reach = 4.0 * plan.tif.radius});
-  hooks.check();
+  progress.check();
   path.coverage = path_coverage(plan.path, plan.figure, pitch).share();
-  hooks.check();
+  progress.check();
   path.tree_length = spanning_tree_length(plan.path.points);
-  hooks.check();
-  hooks.report("path: ripple at constant feed");
+  progress.check();
+  progress.report("path: ripple at constant feed");
   find_ripple(plan, path);
-  hooks.check();
+  progress.check();
 }
 
-void plan_one(const Plan& job, double pitch, ComparedPath& path, const OutputFolder& folder, const RunHooks& hooks) {
+void plan_one(const Plan& job, double pitch, ComparedPath& path, const OutputFolder& folder, const Progress& progress) {
   Plan plan = job;
   plan.options.path = path.listed.text;
-  lay_path(plan, hooks);
-  measure(plan, pitch, path, hooks);
-  find_dwell(plan, hooks);
+  lay_path(plan, progress);
+  measure(plan, pitch, path, progress);
+  find_dwell(plan, progress);
   OutputFolder own(folder.path(path.listed.name));
-  const WrittenPlan written = write_plan(plan, own, hooks);
+  const WrittenPlan written = write_plan(plan, own, progress);
   own.commit();
   path.limits = plan.limits;
   path.residual_rms = written.simulated.rms;
@@ -131,14 +126,14 @@ void mark_front(std::vector<ComparedPath>& paths) {
 }
 
 PathComparison compare_paths(const JobOptions& options, const std::string& list, std::optional<double> pitch,
-                             const OutputFolder& folder, const RunHooks& hooks) {
+                             const OutputFolder& folder, const Progress& progress) {
   const auto started = std::chrono::steady_clock::now();
   if (pitch && !(*pitch > 0.0 && std::isfinite(*pitch))) {
     throw InputError(fmt::format("--pitch: {}; required a finite number > 0, in mm", *pitch));
   }
   parse_path_list(list, pitch.value_or(1.0));  // refuses a wrong list before any work is done
   PathComparison comparison;
-  comparison.job = read_inputs(options, hooks);
+  comparison.job = read_inputs(options, progress);
   comparison.pitch_given = pitch.has_value();
   comparison.pitch = pitch.value_or(default_pitch(comparison.job.tif));
   comparison.before = radial_spectrum(comparison.job.figure, comparison.job.threads);
@@ -148,12 +143,12 @@ PathComparison compare_paths(const JobOptions& options, const std::string& list,
   for (std::size_t k = 0; k < comparison.paths.size(); ++k) {
     ComparedPath& path = comparison.paths[k];
     const std::string stage = fmt::format("path {} of {}, {}", k + 1, comparison.paths.size(), path.listed.text);
-    hooks.report(stage);
+    progress.report(stage);
     try {
-      plan_one(comparison.job, comparison.pitch, path, folder, named(hooks, stage));
+      plan_one(comparison.job, comparison.pitch, path, folder, progress.of_part(stage));
     } catch (const InputError& error) {
       path.failure = error.what();
-      hooks.report(stage + ": " + path.failure);
+      progress.report(stage + ": " + path.failure);
     }
   }
   const bool none = std::none_of(comparison.paths.begin(), comparison.paths.end(),

@@ -71,6 +71,6 @@ void mark_front(std::vector<ComparedPath>& paths);
 /// given. A path that cannot be planned is reported as such and the others go on. Throws InputError if none can,
 /// Interrupted, or as make_plan does for the inputs. Cost: that of the plans.
 PathComparison compare_paths(const JobOptions& options, const std::string& list, std::optional<double> pitch,
-                             const OutputFolder& folder, const RunHooks& hooks);
+                             const OutputFolder& folder, const Progress& progress);
 
 }  // namespace dwell

@@ -7,6 +7,7 @@
 #include "core/base/errors.h"
 #include "core/base/number_text.h"
 #include "core/base/spec_text.h"
+#include "core/base/threads.h"
 #include "core/base/whole_file.h"
 #include "core/formats/map_io.h"
 #include "core/formats/map_name.h"
@@ -15,7 +16,6 @@
 #include "core/tif/models/removal_models.h"
 #include "core/tif/removal_orientation.h"
 #include "runs/map_steps/map_steps.h"
-#include "runs/plan/plan.h"
 
 namespace dwell {
 
@@ -38,15 +38,12 @@ TifCentre parse_tif_centre(const std::string& text) {
   }
 }
 
-HeightMap load_map(const JobOptions& options, std::vector<InputFile>& inputs, const RunHooks& hooks) {
+HeightMap load_map(const JobOptions& options, std::vector<InputFile>& inputs, const Progress& progress) {
   if (options.map.empty()) throw InputError("--map: required; a height-error map, for instance mirror.csv");
   const MapReadOptions read{options.map_pixel_mm, options.map_origin_mm, height_unit_nm(options.map_unit), "map"};
   HeightMap map = read_map(options.map, read);
   inputs.push_back({"map", options.map, sha256_of_file(split_map_name(options.map).file)});
-  MapStepContext context{read, &inputs, thread_count(options.threads), [&hooks](const std::string& line) {
-                           hooks.report("map: " + line);
-                           return !(hooks.stop && hooks.stop());
-                         }};
+  MapStepContext context{read, &inputs, thread_count(options.threads), progress.of_part("map")};
   apply_map_steps(map, parse_map_steps(options.map_steps), context);
   return map;
 }

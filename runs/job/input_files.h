@@ -4,9 +4,10 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/progress.h"
 #include "core/map/height_map.h"
 #include "core/tif/removal_function.h"
-#include "runs/base/run_hooks.h"
+#include "runs/base/input_file.h"
 #include "runs/job/job_options.h"
 
 namespace dwell {
@@ -16,16 +17,9 @@ TifCentre parse_tif_centre(const std::string& text);
 /// "X,Y" [mm], both finite.
 Point parse_point(const std::string& text);
 
-/// A file that a run has read, as the user named it, with what it is and its SHA-256.
-struct InputFile {
-  std::string role;  // "map", "tif", "path", "program", or the step of a map's preparation that read it
-  std::string file;
-  std::string sha256;
-};
-
 /// Reads the map of a job, prepares it by the job's steps (runs/map_steps/map_steps.h) and appends all files read to
 /// `inputs`. Throws InputError, Interrupted.
-HeightMap load_map(const JobOptions& options, std::vector<InputFile>& inputs, const RunHooks& hooks = {});
+HeightMap load_map(const JobOptions& options, std::vector<InputFile>& inputs, const Progress& progress = {});
 
 /// Reads or makes the removal function of a job; a file is appended to `inputs`. Throws InputError.
 RemovalFunction load_removal_function(const JobOptions& options, std::vector<InputFile>& inputs);

@@ -16,7 +16,7 @@
 #include "runs/job/weight_option.h"
 #include "runs/map_steps/map_steps.h"
 #include "runs/programs/gcode_dialect.h"
-#include "solvers/problem/dwell_solver.h"
+#include "solvers/solver_catalogue.h"
 
 namespace dwell {
 namespace {
@@ -56,8 +56,8 @@ std::string shown(const std::optional<double>& value) { return value ? shown(*va
 /// The solvers, as a user names them.
 std::string solver_words() {
   std::string words;
-  for (const SolverKind kind : solver_kinds()) {
-    if (kind != SolverKind::Auto) words += (words.empty() ? "" : ", ") + to_string(kind);
+  for (const SolverRecord& solver : solver_catalogue()) {
+    if (solver.kind != SolverKind::Auto) words += (words.empty() ? "" : ", ") + solver.name;
   }
   return words;
 }

@@ -8,7 +8,7 @@
 #include "core/base/progress.h"
 #include "core/formats/map_io.h"
 #include "core/map/height_map.h"
-#include "runs/job/input_files.h"
+#include "runs/base/input_file.h"
 
 namespace dwell {
 

@@ -331,7 +331,7 @@ std::string rebased_map_steps(const std::string& text, const std::filesystem::pa
 void apply_map_steps(HeightMap& map, const std::vector<MapStep>& steps, MapStepContext& context) {
   for (const MapStep& step : steps) {
     const std::string text = to_string(step, true);
-    tell(context.progress, text);
+    context.progress.step(text);
     std::vector<std::string> history = map.history;
     std::string done;
     try {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "runs/base/run_hooks.h"
+#include "core/base/progress.h"
 #include "runs/map_steps/map_step.h"
 
 namespace dwell {

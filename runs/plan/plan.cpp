@@ -1,12 +1,12 @@
 #include "runs/plan/plan.h"
 
 #include <fmt/format.h>
-#include <omp.h>
 
 #include <cmath>
 #include <utility>
 
 #include "core/base/errors.h"
+#include "core/base/threads.h"
 #include "core/base/units.h"
 #include "core/base/whole_file.h"
 #include "core/map/aperture.h"
@@ -26,22 +26,22 @@ ToolPath rounded(ToolPath path) {
   return path;
 }
 
-void solve_dwell(Plan& plan, const RunHooks& hooks) {
+void solve_dwell(Plan& plan, const Progress& progress) {
   const JobOptions& o = plan.options;
-  hooks.report("solve: removal operator, target and form");
+  progress.report("solve: removal operator, target and form");
   PlanProblem problem(plan);
-  hooks.check();
+  progress.check();
   WeightedDwell found;
   if (plan.search) {
-    found = search_plan(problem, o, hooks, *plan.search);
+    found = search_plan(problem, o, progress, *plan.search);
   } else {
-    found = problem.solve({o.smoothness.value, o.time_price_nm2_per_s.value}, {}, o.max_solve_s, "solve", hooks);
+    found = problem.solve({o.smoothness.value, o.time_price_nm2_per_s.value}, {}, o.max_solve_s, "solve", progress);
   }
   plan.weights = found.weights;
   plan.dwell = std::move(found.dwell);
   plan.solver = std::move(found.solver);
   plan.step_rms = found.trade_off.step_rms;
-  hooks.report("solve: certificate");
+  progress.report("solve: certificate");
   plan.certificate = certify(problem.with(plan.weights), plan.dwell);
   plan.residual = map_statistics(problem.left_by(plan.dwell), plan.terms, plan.threads);
 }
@@ -67,62 +67,60 @@ void schedule_feed(Plan& plan) {
 
 }  // namespace
 
-int thread_count(int asked) { return asked > 0 ? asked : omp_get_num_procs(); }
-
 FeedLimits feed_limits(const JobOptions& o) { return {o.min_dwell_s, units::mm_per_s(o.max_feed_mm_per_min)}; }
 
-Plan read_inputs(const JobOptions& o, const RunHooks& hooks) {
+Plan read_inputs(const JobOptions& o, const Progress& progress) {
   Plan plan;
   plan.options = o;
   plan.threads = thread_count(o.threads);
-  HeightMap whole = load_map(o, plan.inputs, hooks);
+  HeightMap whole = load_map(o, plan.inputs, progress);
   plan.map_pixels = whole.valid_pixels();
   plan.map = within(std::move(whole), parse_aperture(o.aperture));
   plan.terms = parse_form_terms(o.remove);
   plan.figure = without_form(plan.map, plan.terms, plan.threads);
   plan.before = map_statistics(plan.figure, {}, plan.threads);
-  hooks.report(fmt::format("map: {} x {} pixels of {:.4g} mm, {} in the aperture, RMS {:.4g} nm", plan.map.grid.rows,
-                           plan.map.grid.cols, plan.map.grid.pitch_x, plan.before.valid_pixels, plan.before.rms));
+  progress.report(fmt::format("map: {} x {} pixels of {:.4g} mm, {} in the aperture, RMS {:.4g} nm", plan.map.grid.rows,
+                              plan.map.grid.cols, plan.map.grid.pitch_x, plan.before.valid_pixels, plan.before.rms));
   plan.tif = load_removal_function(o, plan.inputs);
   check_tool_fits(plan.tif, plan.map.grid);
   plan.kernel = removal_kernel(plan.tif, plan.map.grid.pitch_x, plan.map.grid.pitch_y);
-  hooks.check();
+  progress.check();
   return plan;
 }
 
-void lay_path(Plan& plan, const RunHooks& hooks) {
+void lay_path(Plan& plan, const Progress& progress) {
   const JobOptions& o = plan.options;
   if (o.path.empty())
     throw InputError("--path: required; for instance raster:pitch=1, nearest:cell=2 or file:path.csv");
   plan.motion = parse_motion(o.motion);
   const PathSpec spec = parse_path_spec(o.path);
-  plan.path = rounded(plan_path(spec, {plan.figure, plan.tif, feed_limits(o).max_feed, true, hooks.stop}));
-  hooks.check();
+  plan.path = rounded(plan_path(spec, {plan.figure, plan.tif, feed_limits(o).max_feed, true, progress.stop}));
+  progress.check();
   if (const auto* file = std::get_if<PathFromFile>(&spec)) {
     plan.inputs.push_back({"path", file->file.string(), sha256_of_file(file->file)});
   }
   plan.metrics = path_metrics(plan.path);
   plan.strokes = strokes_of(plan.path, plan.motion);
-  hooks.report(fmt::format("path: {} dwell points, {:.4g} mm", plan.path.size(), plan.metrics.length));
+  progress.report(fmt::format("path: {} dwell points, {:.4g} mm", plan.path.size(), plan.metrics.length));
 }
 
-void find_dwell(Plan& plan, const RunHooks& hooks) {
+void find_dwell(Plan& plan, const Progress& progress) {
   if (weights_are_searched(plan.options)) plan.search.emplace();
-  solve_dwell(plan, hooks);
+  solve_dwell(plan, progress);
   schedule_feed(plan);
 }
 
-Plan prepare_plan(const JobOptions& options, const RunHooks& hooks) {
-  Plan plan = read_inputs(options, hooks);
-  lay_path(plan, hooks);
-  hooks.check();
+Plan prepare_plan(const JobOptions& options, const Progress& progress) {
+  Plan plan = read_inputs(options, progress);
+  lay_path(plan, progress);
+  progress.check();
   return plan;
 }
 
-Plan make_plan(const JobOptions& options, const RunHooks& hooks) {
+Plan make_plan(const JobOptions& options, const Progress& progress) {
   weights_are_searched(options);  // refuses what cannot be searched before any work is done
-  Plan plan = prepare_plan(options, hooks);
-  find_dwell(plan, hooks);
+  Plan plan = prepare_plan(options, progress);
+  find_dwell(plan, progress);
   return plan;
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/progress.h"
 #include "core/form/form.h"
 #include "core/form/map_statistics.h"
 #include "core/map/height_map.h"
@@ -11,7 +12,6 @@
 #include "core/tif/removal_kernel.h"
 #include "paths/feed/feed.h"
 #include "paths/metrics/path_metrics.h"
-#include "runs/base/run_hooks.h"
 #include "runs/job/input_files.h"
 #include "runs/job/job_options.h"
 #include "runs/plan/plan_search.h"
@@ -55,23 +55,20 @@ struct Plan {
   std::vector<std::string> limits;
 };
 
-/// Plans a job. Throws InputError for anything the user gave that cannot be used, Interrupted if the hooks say stop.
+/// Plans a job. Throws InputError for anything the user gave that cannot be used, Interrupted if the progress say stop.
 /// Cost: the solver's operator applications dominate (docs/math.md).
-Plan make_plan(const JobOptions& options, const RunHooks& hooks);
+Plan make_plan(const JobOptions& options, const Progress& progress);
 
 /// The first part of make_plan: inputs read, path laid, no dwell yet.
-Plan prepare_plan(const JobOptions& options, const RunHooks& hooks);
+Plan prepare_plan(const JobOptions& options, const Progress& progress);
 
 /// The parts of both, for who plans several paths on one map: inputs read (options.path is not looked at); the path of
 /// plan.options laid; dwell and feed found.
-Plan read_inputs(const JobOptions& options, const RunHooks& hooks);
-void lay_path(Plan& plan, const RunHooks& hooks);
-void find_dwell(Plan& plan, const RunHooks& hooks);
+Plan read_inputs(const JobOptions& options, const Progress& progress);
+void lay_path(Plan& plan, const Progress& progress);
+void find_dwell(Plan& plan, const Progress& progress);
 
 /// The limits on dwell and speed that the options set.
 FeedLimits feed_limits(const JobOptions& options);
-
-/// The number of threads to run: `asked`, or one for every processor if 0.
-int thread_count(int asked);
 
 }  // namespace dwell

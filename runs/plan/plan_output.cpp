@@ -79,12 +79,12 @@ bool compare_with_table(Plan& plan, const Program& program, const MapStatistics&
 
 }  // namespace
 
-WrittenPlan write_plan(Plan& plan, const OutputFolder& folder, const RunHooks& hooks) {
-  hooks.report("write: feed table and program");
+WrittenPlan write_plan(Plan& plan, const OutputFolder& folder, const Progress& progress) {
+  progress.report("write: feed table and program");
   write_program(plan, folder);
-  hooks.check();
+  progress.check();
 
-  hooks.report("simulate: the program as read back from disk");
+  progress.report("simulate: the program as read back from disk");
   const Program program = read_program(folder.path("program.nc"));
   WrittenPlan written;
   written.residual = without_form(surface_after(plan.map, simulate(program, plan.map, plan.kernel, plan.threads)),
@@ -101,16 +101,16 @@ WrittenPlan write_plan(Plan& plan, const OutputFolder& folder, const RunHooks& h
   }
   written.table_has_same_steps =
       compare_with_table(plan, program, written.simulated, program_of(read_feed_table(folder.path("feed.csv"))));
-  hooks.check();
+  progress.check();
 
-  hooks.report("write: pictures and arrays");
+  progress.report("write: pictures and arrays");
   write_pictures(plan, written.residual, written.simulated, folder);
   write_map(folder.path("residual.npy"), written.residual);
   folder.write("dwell.npy", npy_bytes(std::span<const double>(plan.table.dwell_s)));
   if (plan.search) folder.write("search.csv", search_table_text(*plan.search));
   written.summary = plan_summary_text(plan, written);
   folder.write("summary.json", written.summary);
-  hooks.check();
+  progress.check();
   return written;
 }
 

@@ -22,7 +22,7 @@ struct WrittenPlan {
 /// from the solver's prediction by more than kSimulationTolerance, or the two files disagree, a sentence is added to
 /// plan.limits. feed.csv is read back as well: its steps are compared with those of program.nc, and simulated where
 /// they are not the same.
-WrittenPlan write_plan(Plan& plan, const OutputFolder& folder, const RunHooks& hooks);
+WrittenPlan write_plan(Plan& plan, const OutputFolder& folder, const Progress& progress);
 
 /// Relative difference of residual RMS between simulated program and solver that is accepted without a remark.
 inline constexpr double kSimulationTolerance = 0.03;

@@ -9,6 +9,7 @@
 #include "core/removal/removal_geometry.h"
 #include "core/removal/simulate.h"
 #include "paths/feed/plan_program.h"
+#include "solvers/solver_catalogue.h"
 
 namespace dwell {
 namespace {
@@ -55,21 +56,21 @@ const DwellProblem& PlanProblem::with(const Weights& weights) {
 }
 
 WeightedDwell PlanProblem::solve(const Weights& weights, Vector start, double max_seconds, const std::string& stage,
-                                 const RunHooks& hooks) {
-  hooks.check();
+                                 const Progress& progress) {
+  progress.check();
   with(weights);
   SolverOptions options;
   options.kind = kind_;
   options.max_seconds = max_seconds;
   options.progress = [&](const SolverProgress& p) {
-    hooks.report(fmt::format("{}: iteration {}, residual {:.4g} nm RMS, {:.1f} s", stage, p.iterations, p.residual_rms,
-                             p.seconds));
-    return !(hooks.stop && hooks.stop());
+    progress.report(fmt::format("{}: iteration {}, residual {:.4g} nm RMS, {:.1f} s", stage, p.iterations,
+                                p.residual_rms, p.seconds));
+    return !progress.stop_asked();
   };
   if (kind_ == SolverKind::Auto) start.resize(0);  // see solve() in the header
   WeightedDwell found{weights, std::move(start), {}, {}};
   found.solver = make_solver(options)->solve(problem_, found.dwell);
-  hooks.check();
+  progress.check();
   if (!found.solver.usable()) throw std::runtime_error("solver " + to_string(kind_) + ": " + found.solver.message);
   Vector residual;
   DwellObjective(problem_).residual(found.dwell, residual);

@@ -27,8 +27,8 @@ class PlanProblem {
   explicit PlanProblem(const Plan& plan);
 
   /// Solves from `start` (empty = lower bound; `auto` always starts there), for at most `max_seconds`, reporting as
-  /// `stage`. Throws Interrupted if the hooks say stop, std::runtime_error if the solver fails. Cost: the solve and one
-  /// operator application.
+  /// `stage`. Throws Interrupted if the progress say stop, std::runtime_error if the solver fails. Cost: the solve and
+  /// one operator application.
   ///
   /// Why `auto` takes no start: its coarse levels, which set the long waves, work from the lower bound only, and from
   /// the dwell of other weights its rule for settling is met long before those waves have followed. On a measured
@@ -36,7 +36,7 @@ class PlanProblem {
   /// instead of 6. From the lower bound its answer depends on the weights alone: the weights found, given as numbers,
   /// make the same plan.
   WeightedDwell solve(const Weights& weights, Vector start, double max_seconds, const std::string& stage,
-                      const RunHooks& hooks);
+                      const Progress& progress);
 
   /// The price of a second [nm^2/s] from which on the least dwell is optimal, smoothness aside: the steepest descent of
   /// half the mean square residual there. 1 if nothing descends. Cost: two operator applications.

@@ -85,7 +85,8 @@ bool weights_are_searched(const JobOptions& options) {
   return smoothness.kind != GoalKind::Fixed || price.kind != GoalKind::Fixed;
 }
 
-WeightedDwell search_plan(PlanProblem& problem, const JobOptions& options, const RunHooks& hooks, PlanSearch& search) {
+WeightedDwell search_plan(PlanProblem& problem, const JobOptions& options, const Progress& progress,
+                          PlanSearch& search) {
   WeightSearchOptions how;
   how.smoothness = options.smoothness;
   how.time_price = options.time_price_nm2_per_s;
@@ -101,10 +102,10 @@ WeightedDwell search_plan(PlanProblem& problem, const JobOptions& options, const
     const std::string stage = fmt::format("search {}: smoothness {:.4g}, time price {:.4g} nm^2/s", found.size() + 1,
                                           weights.smoothness, weights.time_price);
     found.push_back(
-        problem.solve(weights, nearest.start_for(weights, found), options.max_solve_s - sum.seconds, stage, hooks));
+        problem.solve(weights, nearest.start_for(weights, found), options.max_solve_s - sum.seconds, stage, progress));
     const WeightedDwell& f = found.back();
-    hooks.report(fmt::format("{}: residual {:.4g} nm RMS, total {:.5g} s, step {:.4g} s RMS", stage,
-                             f.trade_off.residual_rms, f.trade_off.total, f.trade_off.step_rms));
+    progress.report(fmt::format("{}: residual {:.4g} nm RMS, total {:.5g} s, step {:.4g} s RMS", stage,
+                                f.trade_off.residual_rms, f.trade_off.total, f.trade_off.step_rms));
     const long applications = f.solver.operator_applications + 1;
     search.trials.push_back({weights, f.trade_off, f.solver.objective, applications});
     sum.iterations += f.solver.iterations;

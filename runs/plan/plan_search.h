@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "runs/base/run_hooks.h"
+#include "core/base/progress.h"
 #include "runs/job/job_options.h"
 #include "solvers/weights/weight_search.h"
 
@@ -37,7 +37,8 @@ bool weights_are_searched(const JobOptions& options);
 /// applications, coarse work and seconds are the sums over all trials. --max-solve bounds the sum: where it ends the
 /// search, the best trial so far is taken and a sentence says so. Throws as PlanProblem::solve.
 /// Memory: one dwell vector a trial.
-WeightedDwell search_plan(PlanProblem& problem, const JobOptions& options, const RunHooks& hooks, PlanSearch& search);
+WeightedDwell search_plan(PlanProblem& problem, const JobOptions& options, const Progress& progress,
+                          PlanSearch& search);
 
 /// The text of search.csv (docs/formats.md).
 std::string search_table_text(const PlanSearch& search);

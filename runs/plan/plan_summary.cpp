@@ -6,6 +6,7 @@
 #include "core/base/version.h"
 #include "runs/base/inputs_json.h"
 #include "runs/plan/options_json.h"
+#include "solvers/solver_catalogue.h"
 
 namespace dwell {
 namespace {

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "core/base/progress.h"
 #include "core/form/map_statistics.h"
 #include "core/motion/program.h"
-#include "runs/base/run_hooks.h"
 #include "runs/job/input_files.h"
 #include "runs/job/job_options.h"
 #include "runs/programs/gcode_dialect.h"
@@ -38,7 +38,7 @@ struct Simulation {
 /// program that does not name its own. Uses of the job: map, tif, remove, aperture, threads. Throws InputError,
 /// Interrupted.
 Simulation simulate_file(const std::filesystem::path& program, std::optional<GcodeDialect> dialect,
-                         const JobOptions& options, const RunHooks& hooks, bool exact = false);
+                         const JobOptions& options, const Progress& progress, bool exact = false);
 
 /// As JSON text: program, map, residual, inputs; units in the keys.
 std::string simulation_json(const Simulation& simulation);

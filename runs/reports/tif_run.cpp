@@ -8,12 +8,12 @@
 #include "core/base/errors.h"
 #include "core/base/number_text.h"
 #include "core/base/spec_text.h"
+#include "core/base/threads.h"
 #include "core/base/units.h"
 #include "core/base/whole_file.h"
 #include "core/formats/map_io.h"
 #include "core/tif/models/removal_models.h"
 #include "core/tif/removal_orientation.h"
-#include "runs/plan/plan.h"
 
 namespace dwell {
 namespace {

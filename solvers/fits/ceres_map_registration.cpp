@@ -267,7 +267,7 @@ MapRegistration register_maps(const HeightMap& moving, const HeightMap& fixed, c
   HeightMap clear_moving, clear_fixed;
   std::tie(clear_moving, result.spikes_moving) = without_spikes(moving, threads, progress);
   std::tie(clear_fixed, result.spikes_fixed) = without_spikes(fixed, threads, progress);
-  tell(progress, "registration: coarse start");
+  progress.step("registration: coarse start");
   const Pair pair(clear_moving, clear_fixed);
   Parameters q{};
   result.before = size_of_difference(pair, q, options.level);
@@ -281,8 +281,8 @@ MapRegistration register_maps(const HeightMap& moving, const HeightMap& fixed, c
   Fit fit(pair, options, threads);
   constexpr int kPasses = 10;
   for (int pass = 0; pass < kPasses; ++pass) {
-    tell(progress, fmt::format("registration: {} pixels, pass {}, RMS {:.4g} nm", pixels.size(), pass + 1,
-                               rms(residuals(pair, q, pixels))));
+    progress.step(fmt::format("registration: {} pixels, pass {}, RMS {:.4g} nm", pixels.size(), pass + 1,
+                              rms(residuals(pair, q, pixels))));
     const Parameters before = q;
     result.iterations += fit.run(q, pixels);
     pixels = enough_pixels(pair, q);

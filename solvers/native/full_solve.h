@@ -1,6 +1,6 @@
 #pragma once
 
-#include "solvers/native/bounded_quadratic.h"
+#include "solvers/problem/box_minimiser.h"
 #include "solvers/problem/dwell_solver.h"
 
 namespace dwell {

@@ -23,7 +23,7 @@ nlopt_algorithm algorithm_of(SolverKind kind) {
     case SolverKind::NloptSlsqp:
       return NLOPT_LD_SLSQP;
     default:
-      throw std::logic_error(to_string(kind) + " is not a method of NLopt");
+      throw std::logic_error("this kind of solver is not a method of NLopt");
   }
 }
 

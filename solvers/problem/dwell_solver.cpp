@@ -7,66 +7,8 @@
 #include <stdexcept>
 
 #include "core/base/errors.h"
-#include "solvers/matched/auto_solver.h"
-#include "solvers/native/dense_nnls.h"
-#include "solvers/native/projected_cg.h"
-#include "solvers/native/projected_lbfgs.h"
-#include "solvers/native/spectral_projected_gradient.h"
-#include "solvers/peers/ceres_solver.h"
-#include "solvers/peers/fourier_deconvolution.h"
-#include "solvers/peers/lbfgsb_solver.h"
-#include "solvers/peers/nlopt_solver.h"
 
 namespace dwell {
-
-std::string to_string(SolverKind kind) {
-  switch (kind) {
-    case SolverKind::Auto:
-      return "auto";
-    case SolverKind::SpectralProjectedGradient:
-      return "spectral-projected-gradient";
-    case SolverKind::ProjectedCg:
-      return "projected-cg";
-    case SolverKind::ProjectedLbfgs:
-      return "projected-lbfgs";
-    case SolverKind::DenseNnls:
-      return "dense-nnls";
-    case SolverKind::Ceres:
-      return "ceres";
-    case SolverKind::Lbfgsb:
-      return "lbfgsb";
-    case SolverKind::NloptLbfgs:
-      return "nlopt-lbfgs";
-    case SolverKind::NloptMma:
-      return "nlopt-mma";
-    case SolverKind::NloptTnewton:
-      return "nlopt-tnewton";
-    case SolverKind::NloptSlsqp:
-      return "nlopt-slsqp";
-    case SolverKind::Fourier:
-      return "fourier";
-  }
-  return "unknown";
-}
-
-const std::vector<SolverKind>& solver_kinds() {
-  static const std::vector<SolverKind> kKinds{SolverKind::Auto,        SolverKind::SpectralProjectedGradient,
-                                              SolverKind::ProjectedCg, SolverKind::ProjectedLbfgs,
-                                              SolverKind::DenseNnls,   SolverKind::Ceres,
-                                              SolverKind::Lbfgsb,      SolverKind::NloptLbfgs,
-                                              SolverKind::NloptMma,    SolverKind::NloptTnewton,
-                                              SolverKind::NloptSlsqp,  SolverKind::Fourier};
-  return kKinds;
-}
-
-SolverKind parse_solver_kind(const std::string& text) {
-  std::string accepted;
-  for (SolverKind kind : solver_kinds()) {
-    if (text == to_string(kind)) return kind;
-    accepted += (accepted.empty() ? "" : ", ") + to_string(kind);
-  }
-  throw InputError(fmt::format("solver = '{}'; accepted: {}", text, accepted));
-}
 
 std::string to_string(SolverStatus status) {
   switch (status) {
@@ -125,34 +67,6 @@ SolverSummary DwellSolver::solve(const DwellProblem& problem, Vector& t) {
     summary.message = "failed: the dwell or its objective is not finite";
   }
   return summary;
-}
-
-std::unique_ptr<DwellSolver> make_solver(const SolverOptions& options) {
-  validate(options);
-  switch (options.kind) {
-    case SolverKind::Auto:
-      return std::make_unique<AutoSolver>(options);
-    case SolverKind::SpectralProjectedGradient:
-      return std::make_unique<SpectralProjectedGradient>(options);
-    case SolverKind::ProjectedCg:
-      return std::make_unique<ProjectedCg>(options);
-    case SolverKind::ProjectedLbfgs:
-      return std::make_unique<ProjectedLbfgs>(options);
-    case SolverKind::DenseNnls:
-      return std::make_unique<DenseNnls>(options);
-    case SolverKind::Ceres:
-      return std::make_unique<CeresSolver>(options);
-    case SolverKind::Lbfgsb:
-      return std::make_unique<LbfgsbSolver>(options);
-    case SolverKind::NloptLbfgs:
-    case SolverKind::NloptMma:
-    case SolverKind::NloptTnewton:
-    case SolverKind::NloptSlsqp:
-      return std::make_unique<NloptSolver>(options);
-    case SolverKind::Fourier:
-      return std::make_unique<FourierDeconvolution>(options);
-  }
-  throw InputError("SolverOptions.kind is not a known solver");
 }
 
 }  // namespace dwell

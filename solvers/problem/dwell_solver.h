@@ -1,15 +1,14 @@
 #pragma once
 
 #include <functional>
-#include <memory>
 #include <string>
-#include <vector>
 
 #include "solvers/problem/dwell_problem.h"
 
 namespace dwell {
 
-/// Solvers of the dwell problem. All solve the same problem to the same certificate.
+/// Solvers of the dwell problem. All solve the same problem to the same certificate. What is known of each (its name,
+/// what it is, how many dwell points it takes) stands in solvers/solver_catalogue.h.
 enum class SolverKind {
   Auto,  // native: most of the work on pixels matched to the removal function, judged on the full problem
   SpectralProjectedGradient,  // native, matrix-free: the simplest; one operator pair and three vectors an iteration
@@ -24,13 +23,6 @@ enum class SolverKind {
   NloptSlsqp,      // NLopt LD_SLSQP; small problems
   Fourier,         // Wiener deconvolution, clipped to the bounds: no optimum, but what many use
 };
-
-/// Every kind, in the order above.
-const std::vector<SolverKind>& solver_kinds();
-
-std::string to_string(SolverKind kind);
-/// Throws InputError naming the accepted words.
-SolverKind parse_solver_kind(const std::string& text);
 
 enum class SolverStatus {
   NotRun,
@@ -107,8 +99,5 @@ class DwellSolver {
  private:
   virtual void do_solve(const DwellProblem& problem, Vector& t, SolverSummary& summary) = 0;
 };
-
-/// Throws InputError for options that are out of range.
-std::unique_ptr<DwellSolver> make_solver(const SolverOptions& options);
 
 }  // namespace dwell

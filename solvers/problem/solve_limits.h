@@ -2,7 +2,7 @@
 
 #include <chrono>
 
-#include "solvers/native/bounded_quadratic.h"
+#include "solvers/problem/box_minimiser.h"
 #include "solvers/problem/dwell_solver.h"
 
 namespace dwell {

@@ -7,7 +7,7 @@
 
 #include "core/base/errors.h"
 #include "solvers/problem/certificate.h"
-#include "solvers/problem/dwell_solver.h"
+#include "solvers/solver_catalogue.h"
 #include "tests/solvers/problem/random_problem.h"
 
 namespace dwell {
@@ -161,7 +161,8 @@ INSTANTIATE_TEST_SUITE_P(Native, NativeSolvers,
                          });
 
 TEST(SolverKinds, WordsReadBack) {
-  for (SolverKind kind : solver_kinds()) {
+  for (const SolverRecord& record : solver_catalogue()) {
+    const SolverKind kind = record.kind;
     EXPECT_EQ(parse_solver_kind(to_string(kind)), kind);
   }
   EXPECT_THROW(parse_solver_kind("simplex"), InputError);

@@ -142,7 +142,7 @@ TEST(Extend, GerchbergEndsAtItsLimitAndSaysSo) {
   extended(uneven_map(), options, summary);
   EXPECT_EQ(summary.iterations, 3);
   EXPECT_GT(summary.change, 0.0);
-  EXPECT_THROW(extended(uneven_map(), options, summary, 1, [](const std::string&) { return false; }), Interrupted);
+  EXPECT_THROW(extended(uneven_map(), options, summary, 1, Progress{{}, [] { return true; }}), Interrupted);
 }
 
 TEST(Extend, RefusesOptionsOutOfRange) {

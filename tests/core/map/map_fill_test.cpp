@@ -142,7 +142,7 @@ TEST(FillHoles, LeavesLargeOnes) {
 
 TEST(FillHoles, StopsWhenToldAndRefusesAnEmptyMap) {
   HeightMap map = uneven_map();
-  EXPECT_THROW(fill_holes(map, {}, [](const std::string&) { return false; }), Interrupted);
+  EXPECT_THROW(fill_holes(map, {}, Progress{{}, [] { return true; }}), Interrupted);
   HeightMap empty(Grid{3, 2, 1, 1, {}});
   test::expect_input_error([&] { fill_holes(empty, {true, 0.0}); }, {"finite pixel"});
 }

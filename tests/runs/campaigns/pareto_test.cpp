@@ -103,10 +103,10 @@ TEST(ParetoSweep, HasRangesOfItsOwn) {
 TEST(ParetoSweep, StopsWhenAsked) {
   const SmallJob job;
   std::vector<std::string> lines;
-  RunHooks hooks;
-  hooks.progress = [&lines](const std::string& line) { lines.push_back(line); };
-  hooks.stop = [&lines] { return !lines.empty() && lines.back().starts_with("solve 2 of 6"); };
-  EXPECT_THROW(sweep_weights(job.options, small_ranges(), hooks), Interrupted);
+  Progress progress;
+  progress.show = [&lines](const std::string& line) { lines.push_back(line); };
+  progress.stop = [&lines] { return !lines.empty() && lines.back().starts_with("solve 2 of 6"); };
+  EXPECT_THROW(sweep_weights(job.options, small_ranges(), progress), Interrupted);
 }
 
 TEST(ParetoSweep, SaysWhereTheSolverDidNotConverge) {

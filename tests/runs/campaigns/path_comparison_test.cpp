@@ -120,9 +120,9 @@ TEST(PathComparison, GoesOnWhereAPathCannotBePlanned) {
 TEST(PathComparison, StopsWhenAsked) {
   SmallJob job;
   OutputFolder folder(job.options.out, path_comparison_files());
-  RunHooks hooks;
-  hooks.stop = [] { return true; };
-  EXPECT_THROW(compare_paths(job.options, "raster", {}, folder, hooks), Interrupted);
+  Progress progress;
+  progress.stop = [] { return true; };
+  EXPECT_THROW(compare_paths(job.options, "raster", {}, folder, progress), Interrupted);
 }
 
 }  // namespace

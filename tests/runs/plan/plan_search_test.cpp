@@ -159,19 +159,19 @@ TEST(PlanSearch, StopsBetweenAndWithinItsSolvesAndReportsEach) {
     SmallJob job;
     job.options.smoothness = {0.0, GoalKind::Corner};
     std::vector<std::string> lines;
-    RunHooks hooks;
-    hooks.progress = [&lines](const std::string& line) { lines.push_back(line); };
-    hooks.stop = [&] { return !lines.empty() && lines.back().find(at) != std::string::npos; };
-    EXPECT_THROW(make_plan(job.options, hooks), Interrupted) << at;
+    Progress progress;
+    progress.show = [&lines](const std::string& line) { lines.push_back(line); };
+    progress.stop = [&] { return !lines.empty() && lines.back().find(at) != std::string::npos; };
+    EXPECT_THROW(make_plan(job.options, progress), Interrupted) << at;
   }
   SmallJob job;
   job.options.smoothness = {0.0, GoalKind::Corner};
   std::size_t reported = 0;
-  RunHooks hooks;
-  hooks.progress = [&](const std::string& line) {
+  Progress progress;
+  progress.show = [&](const std::string& line) {
     reported += line.starts_with("search ") && line.find("total") != std::string::npos;
   };
-  EXPECT_EQ(make_plan(job.options, hooks).search->trials.size(), reported);
+  EXPECT_EQ(make_plan(job.options, progress).search->trials.size(), reported);
 }
 
 TEST(PlanSearch, TwoResidualTargetsAreRefused) {

@@ -157,10 +157,10 @@ TEST(MakePlan, SaysWhichInputIsMissing) {
 TEST(MakePlan, StopsWhenAskedAndReportsEveryStage) {
   const SmallJob job;
   std::vector<std::string> lines;
-  RunHooks hooks;
-  hooks.progress = [&lines](const std::string& line) { lines.push_back(line); };
-  hooks.stop = [&lines] { return !lines.empty() && lines.back().starts_with("solve"); };
-  EXPECT_THROW(make_plan(job.options, hooks), Interrupted);
+  Progress progress;
+  progress.show = [&lines](const std::string& line) { lines.push_back(line); };
+  progress.stop = [&lines] { return !lines.empty() && lines.back().starts_with("solve"); };
+  EXPECT_THROW(make_plan(job.options, progress), Interrupted);
   ASSERT_GE(lines.size(), 3u);
   EXPECT_TRUE(lines[0].starts_with("map: 22 x 30 pixels"));
   EXPECT_TRUE(lines[1].starts_with("path:"));

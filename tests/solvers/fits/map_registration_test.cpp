@@ -207,7 +207,7 @@ TEST(RegisterMaps, SaysWhatKeepsItFromRegistering) {
   options.rotation = false;
   expect_input_error([&] { register_maps(map_of(kMoving, waves), map_of(kFixed, waves), options); },
                      {"do not say how they lie"});
-  EXPECT_THROW(register_maps(moved({}), fixed, options, 1, [](const std::string&) { return false; }), Interrupted);
+  EXPECT_THROW(register_maps(moved({}), fixed, options, 1, Progress{{}, [] { return true; }}), Interrupted);
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "solvers/matched/smooth_dwell.h"
 #include "solvers/problem/certificate.h"
 #include "solvers/problem/full_hessian.h"
+#include "solvers/solver_catalogue.h"
 #include "tests/solvers/problem/allocation_count.h"
 
 namespace dwell {

@@ -15,6 +15,7 @@
 #include "solvers/peers/ceres_solver.h"
 #include "solvers/peers/nlopt_solver.h"
 #include "solvers/problem/certificate.h"
+#include "solvers/solver_catalogue.h"
 
 namespace dwell {
 namespace {
@@ -299,8 +300,9 @@ TEST(AdapterLimits, AreSaid) {
 }
 
 TEST(SolverKinds, HaveWordsThatReadBack) {
-  EXPECT_GE(solver_kinds().size(), 8U);
-  for (const SolverKind kind : solver_kinds()) EXPECT_EQ(parse_solver_kind(to_string(kind)), kind);
+  EXPECT_GE(solver_catalogue().size(), 8U);
+  for (const SolverRecord& solver : solver_catalogue())
+    EXPECT_EQ(parse_solver_kind(to_string(solver.kind)), solver.kind);
   EXPECT_THROW(parse_solver_kind("unknown"), InputError);
   EXPECT_THROW(parse_solver_kind(""), InputError);
 }

@@ -1,11 +1,10 @@
-#include "solvers/problem/dwell_solver.h"
-
 #include <gtest/gtest.h>
 
 #include <cstring>
 #include <limits>
 
 #include "solvers/problem/certificate.h"
+#include "solvers/solver_catalogue.h"
 #include "tests/core/base/expect_error.h"
 #include "tests/solvers/problem/small_problem.h"
 
