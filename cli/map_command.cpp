@@ -75,9 +75,9 @@ void check_outputs(const MapArguments& a, const JobOptions& options) {
 
 /// The map as read and prepared by the steps, within the aperture.
 HeightMap prepared_map(const JobOptions& options, std::vector<InputFile>& inputs) {
-  HeightMap map = within(load_map(options, inputs, terminal_progress()), parse_aperture(options.aperture));
+  HeightMap map = within(load_map(options, inputs, terminal_progress()), options.aperture);
   finish_progress();
-  if (options.aperture != "map") map.history.push_back(fmt::format("aperture {}", options.aperture));
+  if (options.aperture.kind != Aperture::Kind::Map) map.history.push_back("aperture " + to_string(options.aperture));
   return map;
 }
 

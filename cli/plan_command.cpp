@@ -8,7 +8,7 @@
 #include "cli/terminal.h"
 #include "core/base/units.h"
 #include "runs/job/job_file.h"
-#include "runs/plan/plan_output.h"
+#include "runs/reports/plan_output.h"
 #include "solvers/solver_catalogue.h"
 
 namespace dwell::cli {
@@ -20,29 +20,32 @@ struct PlanArguments {
   bool write_job = false;
 };
 
-void print_plan(const Plan& plan, const WrittenPlan& written) {
-  const Grid& g = plan.map.grid;
+void print_plan(const PlannedJob& plan, const WrittenPlan& written) {
+  const Grid& g = plan.part().map.grid;
   fmt::print("map       {} rows x {} columns of {:.6g} mm, {} pixels in the aperture\n", g.rows, g.cols, g.pitch_x,
-             plan.before.valid_pixels);
-  fmt::print("before    RMS {:.4g} nm, PV {:.4g} nm ({} removed)\n", plan.before.rms, plan.before.pv,
-             to_string(plan.terms));
+             plan.part().before.valid_pixels);
+  fmt::print("before    RMS {:.4g} nm, PV {:.4g} nm ({} removed)\n", plan.part().before.rms, plan.part().before.pv,
+             to_string(plan.part().form));
   fmt::print("tool      {}, peak {:.4g} nm/s, volume {:.4g} nm mm^2/s, FWHM {:.4g} mm, radius {:.4g} mm\n",
-             kind_of(plan.tif), plan.tif.peak, plan.tif.volume, plan.tif.fwhm, plan.tif.radius);
-  fmt::print("path      {}, {} points, {:.6g} mm, longest jump {:.4g} mm, {} lifts\n", plan.path.kind,
-             plan.metrics.points, plan.metrics.length, plan.metrics.longest_jump, plan.metrics.lifts);
-  for (const std::string& note : plan.path.notes) fmt::print("          {}\n", note);
-  fmt::print("weights   smoothness {:.4g}, time price {:.4g} nm^2/s ({})\n", plan.weights.smoothness,
-             plan.weights.time_price,
-             plan.search ? fmt::format("chosen from {} solves", plan.search->trials.size()) : "given");
-  fmt::print("solver    {}: {} after {} iterations, {} operator applications, {:.2f} s\n", to_string(plan.solver.kind),
-             to_string(plan.solver.status), plan.solver.iterations, plan.solver.operator_applications,
-             plan.solver.seconds);
-  fmt::print("dwell     total {:.2f} s, from {:.4g} s to {:.4g} s a point, step RMS {:.4g} s\n", plan.dwell.sum(),
-             plan.dwell.minCoeff(), plan.dwell.maxCoeff(), plan.step_rms);
+             kind_of(plan.part().tif), plan.part().tif.peak, plan.part().tif.volume, plan.part().tif.fwhm,
+             plan.part().tif.radius);
+  fmt::print("path      {}, {} points, {:.6g} mm, longest jump {:.4g} mm, {} lifts\n", plan.laid.path.kind,
+             plan.laid.metrics.points, plan.laid.metrics.length, plan.laid.metrics.longest_jump,
+             plan.laid.metrics.lifts);
+  for (const std::string& note : plan.laid.path.notes) fmt::print("          {}\n", note);
+  fmt::print("weights   smoothness {:.4g}, time price {:.4g} nm^2/s ({})\n", plan.dwell.weights.smoothness,
+             plan.dwell.weights.time_price,
+             plan.dwell.search ? fmt::format("chosen from {} solves", plan.dwell.search->trials.size()) : "given");
+  fmt::print("solver    {}: {} after {} iterations, {} operator applications, {:.2f} s\n",
+             to_string(plan.dwell.solver.kind), to_string(plan.dwell.solver.status), plan.dwell.solver.iterations,
+             plan.dwell.solver.operator_applications, plan.dwell.solver.seconds);
+  fmt::print("dwell     total {:.2f} s, from {:.4g} s to {:.4g} s a point, step RMS {:.4g} s\n",
+             plan.dwell.seconds.sum(), plan.dwell.seconds.minCoeff(), plan.dwell.seconds.maxCoeff(),
+             plan.dwell.step_rms);
   fmt::print("feed      {:.4g} to {:.4g} mm/min, {} of {} segments at a limit\n",
-             units::mm_per_min(plan.feed.min_speed), units::mm_per_min(plan.feed.max_speed), plan.feed.segments_limited,
-             plan.path.size());
-  fmt::print("predicted RMS {:.4g} nm, PV {:.4g} nm by the solver\n", plan.residual.rms, plan.residual.pv);
+             units::mm_per_min(plan.program.feed.min_speed), units::mm_per_min(plan.program.feed.max_speed),
+             plan.program.feed.segments_limited, plan.laid.path.size());
+  fmt::print("predicted RMS {:.4g} nm, PV {:.4g} nm by the solver\n", plan.dwell.residual.rms, plan.dwell.residual.pv);
   fmt::print("program   RMS {:.4g} nm, PV {:.4g} nm by simulating program.nc as read back, {:.2f} s\n",
              written.simulated.rms, written.simulated.pv, written.program_seconds);
 }
@@ -55,7 +58,7 @@ int run_plan(const PlanArguments& arguments) {
   }
   OutputFolder folder(options.out);
   const Progress progress = terminal_progress();
-  Plan plan = make_plan(options, progress);
+  const PlannedJob plan = plan_job(options, progress);
   const WrittenPlan written = write_plan(plan, folder, progress);
   folder.commit();
   finish_progress();
@@ -65,8 +68,8 @@ int run_plan(const PlanArguments& arguments) {
     print_plan(plan, written);
     fmt::print("written   {}\n", options.out);
   }
-  for (const std::string& limit : plan.limits) fmt::print(stderr, "dwell: limit reached: {}\n", limit);
-  return plan.limits.empty() ? kDone : kLimitReached;
+  for (const std::string& limit : written.limits) fmt::print(stderr, "dwell: limit reached: {}\n", limit);
+  return written.limits.empty() ? kDone : kLimitReached;
 }
 
 }  // namespace

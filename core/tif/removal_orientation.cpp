@@ -108,6 +108,17 @@ ToolOrientation::Flip parse_flip(const std::string& text) {
   throw InputError(fmt::format("'{}'; accepted: none, x, y", text));
 }
 
+std::string to_string(ToolOrientation::Flip flip) {
+  switch (flip) {
+    case ToolOrientation::Flip::X:
+      return "x";
+    case ToolOrientation::Flip::Y:
+      return "y";
+    default:
+      return "none";
+  }
+}
+
 RemovalFunction oriented(const RemovalFunction& tif, const ToolOrientation& orientation) {
   using Kind = RemovalFunction::Kind;
   if (tif.kind == Kind::Gaussian || tif.kind == Kind::Disc) return tif;

@@ -17,6 +17,7 @@ struct ToolOrientation {
 
 /// "none", "x" or "y". Throws InputError.
 ToolOrientation::Flip parse_flip(const std::string& text);
+std::string to_string(ToolOrientation::Flip flip);
 
 /// The removal function in that orientation. Samples are moved as they are for multiples of 90 degrees; other angles
 /// take the cubic B-spline through them at the finer of both pitches on a grid with a sample on the axis, scaled so

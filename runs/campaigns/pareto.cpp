@@ -101,8 +101,10 @@ void mark_front(std::vector<ParetoPoint>& points) {
 
 ParetoSweep sweep_weights(const JobOptions& options, const ParetoRanges& ranges, const Progress& progress) {
   ParetoSweep sweep;
-  sweep.plan = prepare_plan(options, progress);
-  PlanProblem problem(sweep.plan);
+  sweep.job = load_job(options, progress);
+  sweep.laid = lay_job_path(sweep.job, progress);
+  if (auto file = path_input(options)) sweep.job.inputs.push_back(std::move(*file));
+  PlanProblem problem(*sweep.job.part, sweep.laid, dwell_options(options));
   sweep.ranges = completed(ranges, problem.highest_price());
   const std::size_t rows = sweep.ranges.smoothnesses.size(), columns = sweep.ranges.time_prices.size();
   sweep.points.resize(rows * columns);

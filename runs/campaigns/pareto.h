@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "runs/plan/plan.h"
+#include "runs/job/planned_job.h"
 #include "solvers/problem/dwell_solver.h"
 #include "solvers/weights/weight_search.h"
 
@@ -30,7 +30,8 @@ struct ParetoPoint {
 };
 
 struct ParetoSweep {
-  Plan plan;  // inputs and path, without a dwell; its options' own weights are not used
+  Job job;        // its options' own weights are not used
+  LaidPath laid;  // of its path
   ParetoRanges ranges;
   std::vector<ParetoPoint> points;  // by smoothness, then by time price, ascending
   double seconds = 0.0;             // of all solves
@@ -42,7 +43,7 @@ struct ParetoSweep {
 void mark_front(std::vector<ParetoPoint>& points);
 
 /// Solves the dwell problem of a job at every pair of weights, neighbours after each other, from the largest weights
-/// down. Throws as make_plan. options.max_solve_s bounds each solve.
+/// down. Throws as plan_job. options.max_solve_s bounds each solve.
 ParetoSweep sweep_weights(const JobOptions& options, const ParetoRanges& ranges, const Progress& progress);
 
 }  // namespace dwell

@@ -6,7 +6,7 @@
 #include "core/base/version.h"
 #include "runs/base/inputs_json.h"
 #include "runs/campaigns/pareto_picture.h"
-#include "runs/plan/options_json.h"
+#include "runs/reports/options_json.h"
 
 namespace dwell {
 
@@ -36,18 +36,18 @@ std::string pareto_json_text(const ParetoSweep& sweep) {
                       {"status", to_string(p.solver.status)},
                       {"front", p.on_front}});
   }
-  Json options = options_json(sweep.plan);
+  Json options = options_json(sweep.job);
   for (const char* unused : {"smoothness", "time_price_nm2_per_s", "gcode", "lift_height_mm"}) options.erase(unused);
   const Json summary = {{"schema", 1},
                         {"version", version()},
                         {"points", points},
                         {"wall_s", sweep.seconds},
-                        {"before_rms_nm", sweep.plan.before.rms},
+                        {"before_rms_nm", sweep.job.part->before.rms},
                         {"smoothnesses", sweep.ranges.smoothnesses},
                         {"time_prices_nm2_per_s", sweep.ranges.time_prices},
                         {"limits", sweep.limits},
                         {"options", options},
-                        {"inputs", inputs_json(sweep.plan.inputs)}};
+                        {"inputs", inputs_json(sweep.job.inputs)}};
   return summary.dump(2) + "\n";
 }
 

@@ -14,7 +14,7 @@
 #include "paths/domain/widest_place.h"
 #include "paths/metrics/path_coverage.h"
 #include "paths/tours/spanning_tree.h"
-#include "runs/plan/plan_output.h"
+#include "runs/reports/plan_output.h"
 
 namespace dwell {
 namespace {
@@ -32,14 +32,14 @@ PsdCurve radial_spectrum(const HeightMap& map, int threads) {
 }
 
 /// On a square where the part is widest; a corner may lie beyond the disc by what the path overruns.
-void find_ripple(const Plan& plan, ComparedPath& path) {
-  const WidestPlace place = widest_place(plan.figure);
+void find_ripple(const Part& part, const LaidPath& laid, ComparedPath& path) {
+  const WidestPlace place = widest_place(part.figure);
   PathRippleOptions options;
-  options.threads = plan.threads;
+  options.threads = part.threads;
   options.centre = place.centre;
-  options.side = std::min(8.0 * plan.tif.radius, std::numbers::sqrt2 * place.radius);
+  options.side = std::min(8.0 * part.tif.radius, std::numbers::sqrt2 * place.radius);
   try {
-    path.ripple = path_ripple(plan.path, plan.tif, options);
+    path.ripple = path_ripple(laid.path, part.tif, options);
     path.ripple->removal = {};
   } catch (const InputError& error) {
     path.no_ripple = error.what();
@@ -54,40 +54,38 @@ std::optional<RippleSpectrum> waves_of(const HeightMap& residual, int threads) {
   }
 }
 
-void measure(const Plan& plan, double pitch, ComparedPath& path, const Progress& progress) {
-  progress.report("path: spacing, coverage, spanning tree");
-  path.metrics = plan.metrics;
-  path.notes = plan.path.notes;
-  path.spacing = path_spacing(plan.path, {.reach = 4.0 * plan.tif.radius});
+void measure(const Part& part, const LaidPath& laid, double pitch, ComparedPath& path, const Progress& progress) {
+  progress.step("path: spacing, coverage, spanning tree");
+  path.metrics = laid.metrics;
+  path.notes = laid.path.notes;
+  path.spacing = path_spacing(laid.path, {.reach = 4.0 * part.tif.radius});
   progress.check();
-  path.coverage = path_coverage(plan.path, plan.figure, pitch).share();
+  path.coverage = path_coverage(laid.path, part.figure, pitch).share();
   progress.check();
-  path.tree_length = spanning_tree_length(plan.path.points);
-  progress.check();
-  progress.report("path: ripple at constant feed");
-  find_ripple(plan, path);
+  path.tree_length = spanning_tree_length(laid.path.points);
+  progress.step("path: ripple at constant feed");
+  find_ripple(part, laid, path);
   progress.check();
 }
 
-void plan_one(const Plan& job, double pitch, ComparedPath& path, const OutputFolder& folder, const Progress& progress) {
-  Plan plan = job;
-  plan.options.path = path.listed.text;
-  lay_path(plan, progress);
-  measure(plan, pitch, path, progress);
-  find_dwell(plan, progress);
+void plan_one(Job job, double pitch, ComparedPath& path, const OutputFolder& folder, const Progress& progress) {
+  job.options.path = path.listed.text;
+  LaidPath laid = lay_job_path(job, progress);
+  measure(*job.part, laid, pitch, path, progress);
+  const PlannedJob plan = plan_job(std::move(job), std::move(laid), progress);
   OutputFolder own(folder.path(path.listed.name));
   const WrittenPlan written = write_plan(plan, own, progress);
   own.commit();
-  path.limits = plan.limits;
+  path.limits = written.limits;
   path.residual_rms = written.simulated.rms;
   path.residual_pv = written.simulated.pv;
-  path.spectrum = radial_spectrum(written.residual, plan.threads);
-  path.residual_ripple = waves_of(written.residual, plan.threads);
-  path.dwell_total = plan.dwell.sum();
-  path.step_rms = plan.step_rms;
-  path.lift_time = lift_time(plan.metrics, plan.options);
+  path.spectrum = radial_spectrum(written.residual, plan.part().threads);
+  path.residual_ripple = waves_of(written.residual, plan.part().threads);
+  path.dwell_total = plan.dwell.seconds.sum();
+  path.step_rms = plan.dwell.step_rms;
+  path.lift_time = lift_time(plan.laid.metrics, plan.job.options);
   path.total_time = written.program_seconds + path.lift_time;
-  path.solver = plan.solver;
+  path.solver = plan.dwell.solver;
 }
 
 std::array<double, 3> costs(const ComparedPath& p) { return {p.residual_rms, p.mid_rms().value_or(0.0), p.total_time}; }
@@ -133,10 +131,10 @@ PathComparison compare_paths(const JobOptions& options, const std::string& list,
   }
   parse_path_list(list, pitch.value_or(1.0));  // refuses a wrong list before any work is done
   PathComparison comparison;
-  comparison.job = read_inputs(options, progress);
+  comparison.job = load_job(options, progress);
   comparison.pitch_given = pitch.has_value();
-  comparison.pitch = pitch.value_or(default_pitch(comparison.job.tif));
-  comparison.before = radial_spectrum(comparison.job.figure, comparison.job.threads);
+  comparison.pitch = pitch.value_or(default_pitch(comparison.job.part->tif));
+  comparison.before = radial_spectrum(comparison.job.part->figure, comparison.job.part->threads);
   for (ListedPath& listed : parse_path_list(list, comparison.pitch)) {
     comparison.paths.emplace_back().listed = std::move(listed);
   }

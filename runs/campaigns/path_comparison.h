@@ -10,7 +10,7 @@
 #include "paths/metrics/ripple_spectrum.h"
 #include "runs/base/output_folder.h"
 #include "runs/job/path_list.h"
-#include "runs/plan/plan.h"
+#include "runs/job/planned_job.h"
 
 namespace dwell {
 
@@ -23,7 +23,7 @@ struct ComparedPath {
   PathSpacing spacing;       // to the neighbouring track
   double coverage = 0.0;     // share of the valid pixels within a pitch of the path (PathComparison::pitch)
   double tree_length = 0.0;  // no path through the points is shorter than their minimum spanning tree [mm]
-  std::vector<std::string> notes, limits;         // of the planner; of the plan (Plan::limits)
+  std::vector<std::string> notes, limits;         // of the planner; of the plan (WrittenPlan::limits)
   double residual_rms = 0.0;                      // of the program as read back, simulated [nm]
   double residual_pv = 0.0;                       // [nm]
   std::optional<RippleSpectrum> residual_ripple;  // of the residual; none where the map shows nothing of the band
@@ -49,7 +49,7 @@ struct ComparedPath {
 };
 
 struct PathComparison {
-  Plan job;            // inputs and options; its own path is not used
+  Job job;             // its own path is not used
   double pitch = 0.0;  // of the paths that said none [mm]
   bool pitch_given = false;
   std::vector<ComparedPath> paths;  // in the order of the list
@@ -69,7 +69,7 @@ void mark_front(std::vector<ComparedPath>& paths);
 /// Plans every path of `list` for the job, each wholly (path, dwell, program, simulation of the program as read back)
 /// and into a folder of its own name within `folder`. `pitch` [mm] is for the paths that say none; default_pitch if not
 /// given. A path that cannot be planned is reported as such and the others go on. Throws InputError if none can,
-/// Interrupted, or as make_plan does for the inputs. Cost: that of the plans.
+/// Interrupted, or as load_job does for the inputs. Cost: that of the plans.
 PathComparison compare_paths(const JobOptions& options, const std::string& list, std::optional<double> pitch,
                              const OutputFolder& folder, const Progress& progress);
 

@@ -8,7 +8,7 @@
 #include "core/base/version.h"
 #include "runs/base/inputs_json.h"
 #include "runs/drawing/line_chart.h"
-#include "runs/plan/options_json.h"
+#include "runs/reports/options_json.h"
 
 namespace dwell {
 namespace {
@@ -207,7 +207,7 @@ std::string path_comparison_json(const PathComparison& comparison) {
   options.erase("path");
   const Json summary = {{"schema", 1},
                         {"version", version()},
-                        {"before_rms_nm", comparison.job.before.rms},
+                        {"before_rms_nm", comparison.job.part->before.rms},
                         {"pitch_mm", comparison.pitch},
                         {"pitch_given", comparison.pitch_given},
                         {"paths", paths},
@@ -221,7 +221,7 @@ std::string path_comparison_text(const PathComparison& comparison) {
   std::size_t widest = 4;
   for (const ComparedPath& p : comparison.paths) widest = std::max(widest, p.listed.name.size());
   std::string text = fmt::format("before    RMS {:.4g} nm, PV {:.4g} nm; pitch {:.6g} mm where a path says none ({})\n",
-                                 comparison.job.before.rms, comparison.job.before.pv, comparison.pitch,
+                                 comparison.job.part->before.rms, comparison.job.part->before.pv, comparison.pitch,
                                  comparison.pitch_given ? "given" : "a quarter of the removal function's FWHM");
   text += fmt::format("  {:<{}} {:>12} {:>11} {:>9} {:>11} {:>8} {:>10} {:>6} {:>9} {:>10}\n", "path", widest,
                       "residual[nm]", "mid RMS[nm]", "total[s]", "step RMS[s]", "points", "length[mm]", "lifts",

@@ -31,7 +31,7 @@ void write_example(const std::filesystem::path& folder, const ExampleOptions& mi
   JobOptions job;
   job.map = "mirror.csv";
   job.tif = "tif.csv";
-  job.tif_centre = "centroid";
+  job.tif_centre = TifCentre{TifCentre::Kind::Centroid, {}};
   job.path = "raster:pitch=1";
   job.max_feed_mm_per_min = 3000.0;
   write_whole_file(folder / "demo.toml", job_file_text(job));

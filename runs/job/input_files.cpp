@@ -5,7 +5,6 @@
 #include <filesystem>
 
 #include "core/base/errors.h"
-#include "core/base/number_text.h"
 #include "core/base/spec_text.h"
 #include "core/base/threads.h"
 #include "core/base/whole_file.h"
@@ -18,25 +17,6 @@
 #include "runs/map_steps/map_steps.h"
 
 namespace dwell {
-
-Point parse_point(const std::string& text) {
-  const auto fields = split(text, ',');
-  if (fields.size() == 2) {
-    const auto x = finite_number(fields[0]), y = finite_number(fields[1]);
-    if (x && y) return {*x, *y};
-  }
-  throw InputError(fmt::format("'{}'; required X,Y in mm, for instance -12.5,3", text));
-}
-
-TifCentre parse_tif_centre(const std::string& text) {
-  if (text == "middle") return {TifCentre::Kind::Middle, {}};
-  if (text == "centroid") return {TifCentre::Kind::Centroid, {}};
-  try {
-    return {TifCentre::Kind::Given, parse_point(text)};
-  } catch (const InputError&) {
-    throw InputError(fmt::format("'{}'; accepted: auto, middle, centroid, or X,Y in mm", text));
-  }
-}
 
 HeightMap load_map(const JobOptions& options, std::vector<InputFile>& inputs, const Progress& progress) {
   if (options.map.empty()) throw InputError("--map: required; a height-error map, for instance mirror.csv");
@@ -58,19 +38,19 @@ RemovalFunction removal_of_spots(const JobOptions& options) {
   for (double& value : depth.values) value = -value;
   SpotOptions spots;
   spots.dwell_time = *options.tif_dwell_time_s;
-  if (options.tif_centre == "middle") {
+  if (options.tif_centre && options.tif_centre->kind == TifCentre::Kind::Middle) {
     throw InputError(
         "--tif-centre middle: a spot may lie anywhere in its file; accepted: auto, centroid, or X,Y in mm");
   }
-  if (options.tif_centre != "auto" && options.tif_centre != "centroid") {
-    spots.at = {parse_point(options.tif_centre)};
+  if (options.tif_centre && options.tif_centre->kind == TifCentre::Kind::Given) {
+    spots.at = {options.tif_centre->given};
     spots.centre = SpotCentre::Given;
   }
   return measured_removal(calibrate_spots(depth, spots).rates, {TifCentre::Kind::Given, {}});
 }
 
-TifCentre centre_of(const HeightMap& rates, const std::string& wanted) {
-  if (wanted != "auto") return parse_tif_centre(wanted);
+TifCentre centre_of(const HeightMap& rates, const std::optional<TifCentre>& wanted) {
+  if (wanted) return *wanted;
   const bool made_here =
       std::find(rates.history.begin(), rates.history.end(), kToolAxisAtOrigin) != rates.history.end();
   return made_here ? TifCentre{TifCentre::Kind::Given, {}} : TifCentre{};
@@ -87,7 +67,7 @@ RemovalFunction removal_of_rates(const JobOptions& options) {
 
 RemovalFunction load_removal_function(const JobOptions& options, std::vector<InputFile>& inputs) {
   if (options.tif.empty()) throw InputError("--tif: required; a file of rates, or gaussian:peak=1,fwhm=2.8,radius=5");
-  const ToolOrientation orientation{options.tif_angle_deg, parse_flip(options.tif_flip)};
+  const ToolOrientation orientation{options.tif_angle_deg, options.tif_flip};
   if (is_removal_model(split_kind(options.tif).first)) {
     if (options.tif_dwell_time_s) {
       throw InputError(
@@ -109,18 +89,6 @@ RemovalFunction load_removal_function(const JobOptions& options, std::vector<Inp
   }
   inputs.push_back({"tif", options.tif, sha256_of_file(file)});
   return tif;
-}
-
-void check_tool_fits(const RemovalFunction& tif, const Grid& map) {
-  if (2.0 * tif.radius > map.width() && 2.0 * tif.radius > map.height()) {
-    const bool measured = tif.kind == RemovalFunction::Kind::Measured;
-    throw InputError(fmt::format(
-        "removal function of {:.4g} mm diameter is larger than the map of {:.4g} x {:.4g} mm both ways; check {} and "
-        "--map-pixel (the map has {:.6g} mm)",
-        2.0 * tif.radius, map.width(), map.height(),
-        measured ? fmt::format("--tif-pixel (the file has {:.6g} mm)", tif.samples.grid.pitch_x) : "--tif (its radius)",
-        map.pitch_x));
-  }
 }
 
 }  // namespace dwell

@@ -12,11 +12,11 @@
 #include "core/motion/motion.h"
 #include "core/tif/removal_orientation.h"
 #include "paths/path_spec.h"
-#include "runs/job/input_files.h"
-#include "runs/job/weight_option.h"
+#include "runs/job/place_option.h"
 #include "runs/map_steps/map_steps.h"
 #include "runs/programs/gcode_dialect.h"
 #include "solvers/solver_catalogue.h"
+#include "solvers/weights/weight_option.h"
 
 namespace dwell {
 namespace {
@@ -77,9 +77,7 @@ std::vector<JobOptionRecord> make_table() {
       {"map-origin", "map_origin_mm", "X,Y",
        "position of the map's first pixel in mm (default 0,0 or what the file says)", false, false,
        [](Options& o, const std::string& t) { o.map_origin_mm = parse_point(t); },
-       [](const Options& o) {
-         return o.map_origin_mm ? fmt::format("{},{}", o.map_origin_mm->x, o.map_origin_mm->y) : "";
-       }},
+       [](const Options& o) { return o.map_origin_mm ? to_string(*o.map_origin_mm) : std::string(); }},
       {"map-steps", "map_steps", "STEPS",
        "how to prepare the map, before all else: STEP;STEP;... of docs/maps.md, as crop:rect:0,0,9,9;fill:harmonic",
        false, false, [](Options& o, const std::string& t) { parse_map_steps(t), o.map_steps = t; },
@@ -107,12 +105,8 @@ std::vector<JobOptionRecord> make_table() {
        "the tool axis in the removal function's file: middle (of its grid), centroid, X,Y in mm, or auto: 0,0 of a "
        "file "
        "that dwell tif wrote, the centroid of a spot, the middle of others",
-       false, false,
-       [](Options& o, const std::string& t) {
-         if (t != "auto") parse_tif_centre(t);
-         o.tif_centre = t;
-       },
-       [](const Options& o) { return o.tif_centre; }},
+       false, false, [](Options& o, const std::string& t) { o.tif_centre = parse_tif_centre(t); },
+       [](const Options& o) { return to_string(o.tif_centre); }},
       {"tif-angle", "tif_angle_deg", "DEG",
        "turns the removal function about the tool axis, counter-clockwise seen from +z, x to the right and y up, in "
        "degrees",
@@ -120,24 +114,24 @@ std::vector<JobOptionRecord> make_table() {
        [](const Options& o) { return shown(o.tif_angle_deg); }},
       {"tif-flip", "tif_flip", "AXIS",
        "mirrors the removal function before it is turned: x (+x becomes -x), y, or none", false, false,
-       [](Options& o, const std::string& t) { parse_flip(t), o.tif_flip = t; },
-       [](const Options& o) { return o.tif_flip; }},
+       [](Options& o, const std::string& t) { o.tif_flip = parse_flip(t); },
+       [](const Options& o) { return to_string(o.tif_flip); }},
       {"path", "path", "PATH",
        "KIND:OPTIONS, for instance raster:pitch=1, random:pitch=1,seed=2 or file:PATH.csv; dwell paths --kinds lists "
        "them all",
        false, false, [](Options& o, const std::string& t) { parse_path_spec(t), o.path = t; },
        [](const Options& o) { return o.path; }},
       {"motion", "motion", "HOW", "moving: the tool runs through; stop: it halts at every dwell point", false, false,
-       [](Options& o, const std::string& t) { parse_motion(t), o.motion = t; },
-       [](const Options& o) { return o.motion; }},
+       [](Options& o, const std::string& t) { o.motion = parse_motion(t); },
+       [](const Options& o) { return to_string(o.motion); }},
       {"remove", "remove", "TERMS", "form terms that do not count: piston,tilt,power,astigmatism or none", false, false,
-       [](Options& o, const std::string& t) { parse_form_terms(t), o.remove = t; },
-       [](const Options& o) { return o.remove; }},
+       [](Options& o, const std::string& t) { o.remove = parse_form_terms(t); },
+       [](const Options& o) { return to_string(o.remove); }},
       {"aperture", "aperture", "AREA",
        "what counts: map, rect:X0,Y0,X1,Y1, circle:X,Y,R, ellipse:X,Y,A,B[,DEG], annulus:X,Y,RIN,ROUT or "
        "polygon:X,Y,X,Y,...[/HOLE...] in mm",
-       false, false, [](Options& o, const std::string& t) { parse_aperture(t), o.aperture = t; },
-       [](const Options& o) { return o.aperture; }},
+       false, false, [](Options& o, const std::string& t) { o.aperture = parse_aperture(t); },
+       [](const Options& o) { return to_string(o.aperture); }},
       {"min-dwell", "min_dwell_s", "S", "shortest dwell time at a point in s", false, true,
        [](Options& o, const std::string& t) { o.min_dwell_s = not_negative(t); },
        [](const Options& o) { return shown(o.min_dwell_s); }},
@@ -156,8 +150,8 @@ std::vector<JobOptionRecord> make_table() {
        [](Options& o, const std::string& t) { o.time_price_nm2_per_s = parse_weight_goal(t, kTimePriceTarget); },
        [](const Options& o) { return to_string(o.time_price_nm2_per_s); }, true},
       {"solver", "solver", "NAME", "auto, or another of " + solver_words(), false, false,
-       [](Options& o, const std::string& t) { parse_solver_kind(t), o.solver = t; },
-       [](const Options& o) { return o.solver; }},
+       [](Options& o, const std::string& t) { o.solver = parse_solver_kind(t); },
+       [](const Options& o) { return to_string(o.solver); }},
       {"max-solve", "max_solve_s", "S", "time limit of the solver in s", false, true,
        [](Options& o, const std::string& t) { o.max_solve_s = positive(t); },
        [](const Options& o) { return shown(o.max_solve_s); }},
@@ -165,8 +159,8 @@ std::vector<JobOptionRecord> make_table() {
        [](Options& o, const std::string& t) { o.threads = whole(t); },
        [](const Options& o) { return fmt::format("{}", o.threads); }},
       {"gcode", "gcode", "DIALECT", "what F means in program.nc: g94, g93-per-minute or g93-seconds", false, false,
-       [](Options& o, const std::string& t) { parse_gcode_dialect(t), o.gcode = t; },
-       [](const Options& o) { return o.gcode; }},
+       [](Options& o, const std::string& t) { o.gcode = parse_gcode_dialect(t); },
+       [](const Options& o) { return to_string(o.gcode); }},
       {"lift-height", "lift_height_mm", "MM", "Z of lifted moves in program.nc in mm", false, true,
        [](Options& o, const std::string& t) { o.lift_height_mm = positive(t); },
        [](const Options& o) { return shown(o.lift_height_mm); }},

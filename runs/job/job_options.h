@@ -5,12 +5,19 @@
 #include <vector>
 
 #include "core/base/point.h"
+#include "core/form/form_terms.h"
+#include "core/map/aperture.h"
+#include "core/motion/motion.h"
+#include "core/tif/removal_function.h"
+#include "core/tif/removal_orientation.h"
+#include "runs/programs/gcode_dialect.h"
+#include "solvers/problem/dwell_solver.h"
 #include "solvers/weights/weight_search.h"
 
 namespace dwell {
 
-/// What a plan is made from, in the user's own words and units. One table of records (job_option_table) feeds the
-/// command line, the job file, the validation and the help text; defaults are those below.
+/// What a plan is made from, in the user's own units, each option as the value it stands for. One table of records
+/// (job_option_table) feeds the command line, the job file, the validation and the help text; defaults are those below.
 struct JobOptions {
   std::string map;
   std::optional<double> map_pixel_mm;
@@ -21,21 +28,21 @@ struct JobOptions {
   std::optional<double> tif_pixel_mm;
   std::string tif_unit = "nm/s";
   std::optional<double> tif_dwell_time_s;
-  std::string tif_centre = "auto";
+  std::optional<TifCentre> tif_centre;  // nothing: as the file says
   double tif_angle_deg = 0.0;
-  std::string tif_flip = "none";
+  ToolOrientation::Flip tif_flip = ToolOrientation::Flip::None;
   std::string path;
-  std::string motion = "moving";
-  std::string remove = "piston,tilt";
-  std::string aperture = "map";
+  Motion motion = Motion::Moving;
+  FormTerms remove{true, true};
+  Aperture aperture;
   double min_dwell_s = 0.0;
   double max_feed_mm_per_min = 3000.0;
   WeightGoal smoothness{0.1};
   WeightGoal time_price_nm2_per_s{0.0};
-  std::string solver = "auto";
+  SolverKind solver = SolverKind::Auto;
   double max_solve_s = 3600.0;
   int threads = 0;
-  std::string gcode = "g94";
+  GcodeDialect gcode = GcodeDialect::G94;
   double lift_height_mm = 10.0;
   std::string out;
 };

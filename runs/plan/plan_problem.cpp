@@ -14,17 +14,17 @@
 namespace dwell {
 namespace {
 
-std::shared_ptr<const RemovalGeometry> geometry_of(const Plan& plan) {
+std::shared_ptr<const RemovalGeometry> geometry_of(const Part& part, const LaidPath& laid) {
   return std::make_shared<const RemovalGeometry>(
-      RemovalGeometry{plan.map.grid, finite_pixels(plan.map), plan.kernel, plan.strokes, plan.threads});
+      RemovalGeometry{part.map.grid, finite_pixels(part.map), part.kernel, laid.strokes, part.threads});
 }
 
 /// What the dwell has to remove: the map, less what the moves between halts remove on their way.
-Vector target_of(const Plan& plan, const std::vector<Index>& pixels, double max_feed) {
-  HeightMap target = plan.map;
-  if (plan.motion == Motion::Stop) {
-    const Program moves = program_of(plan.path, std::vector<double>(plan.path.size(), 0.0), Motion::Stop, max_feed);
-    target = surface_after(plan.map, simulate(moves, plan.map, plan.kernel, plan.threads));
+Vector target_of(const Part& part, const LaidPath& laid, const std::vector<Index>& pixels, double max_feed) {
+  HeightMap target = part.map;
+  if (laid.motion == Motion::Stop) {
+    const Program moves = program_of(laid.path, std::vector<double>(laid.path.size(), 0.0), Motion::Stop, max_feed);
+    target = surface_after(part.map, simulate(moves, part.map, part.kernel, part.threads));
   }
   Vector z(static_cast<Index>(pixels.size()));
   for (std::size_t i = 0; i < pixels.size(); ++i)
@@ -34,18 +34,18 @@ Vector target_of(const Plan& plan, const std::vector<Index>& pixels, double max_
 
 }  // namespace
 
-PlanProblem::PlanProblem(const Plan& plan)
-    : grid_(plan.map.grid),
-      energy_(plan.kernel.energy),
-      kind_(parse_solver_kind(plan.options.solver)),
-      geometry_(geometry_of(plan)),
+PlanProblem::PlanProblem(const Part& part, const LaidPath& laid, const DwellOptions& options)
+    : grid_(part.map.grid),
+      energy_(part.kernel.energy),
+      kind_(options.solver),
+      geometry_(geometry_of(part, laid)),
       removal_(make_removal_operator(*geometry_)) {
-  const FeedLimits limits = feed_limits(plan.options);
+  const FeedLimits limits = options.machine.feed_limits();
   problem_.removal = removal_.get();
-  problem_.target = target_of(plan, geometry_->pixels, limits.max_feed);
-  problem_.form = form_basis(grid_, geometry_->pixels, plan.terms, {}, plan.threads);
-  problem_.smoothness = path_smoothness(plan.path, plan.strokes, plan.threads);
-  problem_.lower = minimum_dwell(plan.strokes, limits);
+  problem_.target = target_of(part, laid, geometry_->pixels, limits.max_feed);
+  problem_.form = form_basis(grid_, geometry_->pixels, part.form, {}, part.threads);
+  problem_.smoothness = path_smoothness(laid.path, laid.strokes, part.threads);
+  problem_.lower = minimum_dwell(laid.strokes, limits);
   problem_.geometry = geometry_;
 }
 

@@ -5,7 +5,9 @@
 #include <vector>
 
 #include "core/map/height_map.h"
-#include "runs/plan/plan.h"
+#include "runs/plan/dwell_options.h"
+#include "runs/plan/laid_path.h"
+#include "runs/plan/part.h"
 #include "solvers/problem/dwell_problem.h"
 #include "solvers/problem/dwell_solver.h"
 #include "solvers/weights/weight_search.h"
@@ -20,11 +22,11 @@ struct WeightedDwell {
   TradeOff trade_off;
 };
 
-/// The dwell problem of a plan whose inputs are read and whose path is laid, with the weights left open.
+/// The dwell problem of a part and a path laid on it, with the weights left open.
 class PlanProblem {
  public:
   /// Cost: the removal operator's setup, and with halting motion one simulation.
-  explicit PlanProblem(const Plan& plan);
+  PlanProblem(const Part& part, const LaidPath& laid, const DwellOptions& options);
 
   /// Solves from `start` (empty = lower bound; `auto` always starts there), for at most `max_seconds`, reporting as
   /// `stage`. Throws Interrupted if the progress say stop, std::runtime_error if the solver fails. Cost: the solve and

@@ -6,13 +6,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/threads.h"
 #include "core/base/version.h"
 #include "core/base/whole_file.h"
-#include "core/map/aperture.h"
 #include "core/removal/simulate.h"
-#include "core/tif/removal_kernel.h"
 #include "runs/base/inputs_json.h"
+#include "runs/job/job.h"
 #include "runs/programs/program_reader.h"
 
 namespace dwell {
@@ -38,24 +36,22 @@ Simulation simulate_file(const std::filesystem::path& program, std::optional<Gco
   progress.report("read: program, map and removal function");
   s.program = read_program(program, dialect);
   s.inputs.push_back({"program", program.string(), sha256_of_file(program)});
-  const HeightMap map = within(load_map(options, s.inputs, progress), parse_aperture(options.aperture));
-  const RemovalFunction tif = load_removal_function(options, s.inputs);
-  check_tool_fits(tif, map.grid);
-  const RemovalKernel kernel = removal_kernel(tif, map.grid.pitch_x, map.grid.pitch_y);
-  s.terms = parse_form_terms(options.remove);
-  s.before = map_statistics(map, s.terms, thread_count(options.threads));
-  progress.check();
-  progress.report(fmt::format("simulate: {} steps", s.program.steps.size()));
-  s.removal = simulate(s.program, map, kernel, thread_count(options.threads));
+  const Job job = load_job(options, progress);
+  const Part& part = *job.part;
+  s.inputs.insert(s.inputs.end(), job.inputs.begin(), job.inputs.end());
+  s.terms = part.form;
+  s.before = part.before;
+  progress.step(fmt::format("simulate: {} steps", s.program.steps.size()));
+  s.removal = simulate(s.program, part.map, part.kernel, part.threads);
   if (exact) {
     HeightMap removal =
-        simulate_exactly(s.program, map, tif, thread_count(options.threads), progress.of_part("simulate exactly"));
+        simulate_exactly(s.program, part.map, part.tif, part.threads, progress.of_part("simulate exactly"));
     s.spline_error = spline_error(s.removal, removal);
     s.removal = std::move(removal);
   }
   progress.check();
-  s.residual = without_form(surface_after(map, s.removal), s.terms, thread_count(options.threads));
-  s.after = map_statistics(s.residual, {}, thread_count(options.threads));
+  s.residual = without_form(surface_after(part.map, s.removal), s.terms, part.threads);
+  s.after = map_statistics(s.residual, {}, part.threads);
   return s;
 }
 

@@ -8,7 +8,7 @@
 #include "core/base/progress.h"
 #include "core/form/map_statistics.h"
 #include "core/motion/program.h"
-#include "runs/job/input_files.h"
+#include "runs/base/input_file.h"
 #include "runs/job/job_options.h"
 #include "runs/programs/gcode_dialect.h"
 

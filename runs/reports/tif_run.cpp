@@ -14,6 +14,7 @@
 #include "core/formats/map_io.h"
 #include "core/tif/models/removal_models.h"
 #include "core/tif/removal_orientation.h"
+#include "runs/job/place_option.h"
 
 namespace dwell {
 namespace {
@@ -44,8 +45,7 @@ void refuse_unused(const TifJob& job) {
   const JobOptions& o = job.job;
   only(o.map_pixel_mm || o.map_origin_mm || o.map_unit != "nm", measured, "--map-pixel, --map-origin or --map-unit",
        "--spot or --trench (for a file of rates: --tif-pixel, --tif-unit)");
-  only(o.tif_pixel_mm || o.tif_unit != "nm/s" || o.tif_centre != "auto", !measured,
-       "--tif-pixel, --tif-unit or --tif-centre",
+  only(o.tif_pixel_mm || o.tif_unit != "nm/s" || o.tif_centre, !measured, "--tif-pixel, --tif-unit or --tif-centre",
        "a file of rates (for --spot and --trench: --map-pixel, --map-unit, --centre)");
 }
 
@@ -176,7 +176,7 @@ TifResult make_tif(const TifJob& job) {
   TifResult result;
   if (job.job.tif.empty()) {
     const RemovalFunction tif = find_removal(job, result);
-    result.rates = oriented(tif, {job.job.tif_angle_deg, parse_flip(job.job.tif_flip)}).samples;
+    result.rates = oriented(tif, {job.job.tif_angle_deg, job.job.tif_flip}).samples;
   } else {
     const RemovalFunction tif = load_removal_function(job.job, result.inputs);
     result.source = kind_of(tif);

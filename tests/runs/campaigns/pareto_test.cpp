@@ -80,11 +80,11 @@ TEST(ParetoSweep, HasEveryPairOnceAndWhatAPlanWithItHas) {
     JobOptions options = job.options;
     options.smoothness = {p.weights.smoothness};
     options.time_price_nm2_per_s = {p.weights.time_price};
-    const Plan plan = make_plan(options, {});
-    EXPECT_NEAR(p.trade_off.residual_rms, plan.residual.rms, 1e-9 * plan.residual.rms);
-    EXPECT_EQ(p.trade_off.total, plan.dwell.sum());
-    EXPECT_EQ(p.trade_off.step_rms, plan.step_rms);
-    EXPECT_EQ(p.solver.operator_applications, plan.solver.operator_applications + 1);
+    const PlannedJob plan = plan_job(options, {});
+    EXPECT_NEAR(p.trade_off.residual_rms, plan.dwell.residual.rms, 1e-9 * plan.dwell.residual.rms);
+    EXPECT_EQ(p.trade_off.total, plan.dwell.seconds.sum());
+    EXPECT_EQ(p.trade_off.step_rms, plan.dwell.step_rms);
+    EXPECT_EQ(p.solver.operator_applications, plan.dwell.solver.operator_applications + 1);
     EXPECT_EQ(p.on_front, on_front_by_definition(sweep.points, k));
   }
 }

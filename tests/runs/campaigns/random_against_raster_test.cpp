@@ -29,7 +29,7 @@ TEST(ZhaRandomPath, ClipsThePeakThatTheRasterLeavesAtEqualMidBandRms) {
   job.map = (folder.path() / "map.csv").string();
   write_map(job.map, form_alone());
   job.tif = "gaussian:peak=10,fwhm=3,radius=4.5";
-  job.remove = "piston";
+  job.remove = {true, false};
   job.max_feed_mm_per_min = 6000.0;
   job.threads = 2;
   OutputFolder out(folder.path() / "paths", path_comparison_files());

@@ -8,6 +8,8 @@
 #include "core/base/whole_file.h"
 #include "core/formats/map_io.h"
 #include "core/map/value_units.h"
+#include "runs/job/place_option.h"
+#include "runs/plan/part.h"
 #include "tests/core/base/expect_error.h"
 #include "tests/core/base/temporary_folder.h"
 
@@ -109,9 +111,9 @@ TEST(LoadRemovalFunction, ReadsAFileWithItsUnitPitchAndAxis) {
   EXPECT_EQ(inputs[0].role, "tif");
   EXPECT_EQ(inputs[0].sha256, sha256_of_file(options.tif));
 
-  options.tif_centre = "centroid";
+  options.tif_centre = parse_tif_centre("centroid");
   EXPECT_NEAR(load_removal_function(options, inputs).samples.grid.origin.x, -2.0 / 3.0, 1e-14);
-  options.tif_centre = "0.75,0.25";
+  options.tif_centre = parse_tif_centre("0.75,0.25");
   EXPECT_DOUBLE_EQ(load_removal_function(options, inputs).samples.grid.origin.x, -0.75);
   EXPECT_DOUBLE_EQ(load_removal_function(options, inputs).samples.grid.origin.y, -0.25);
 }
@@ -134,7 +136,7 @@ TEST(LoadRemovalFunction, CalibratesTheSurfaceThatASpotLeft) {
   std::vector<InputFile> inputs;
   expect_input_error([&] { load_removal_function(options, inputs); }, {"after.csv", "--tif-dwell-time"});
   options.tif_dwell_time_s = 4.0;
-  options.tif_centre = "7.8,2.3";
+  options.tif_centre = parse_tif_centre("7.8,2.3");
   const RemovalFunction tif = load_removal_function(options, inputs);
   EXPECT_NEAR(tif.peak, 5.0, 0.05);
   EXPECT_NEAR(tif.volume, 5.0 * 2.0 * std::numbers::pi * 0.5 * (1.1 + 0.6) * 0.7, 0.3);
@@ -152,9 +154,9 @@ TEST(LoadRemovalFunction, CalibratesTheSurfaceThatASpotLeft) {
   options.tif_unit = "um/s";
   expect_input_error([&] { load_removal_function(options, inputs); }, {"um/s", "nm, um, mm, m"});
   options.tif_unit = "nm/s";
-  options.tif_centre = "middle";
+  options.tif_centre = parse_tif_centre("middle");
   expect_input_error([&] { load_removal_function(options, inputs); }, {"--tif-centre middle", "centroid"});
-  options.tif_centre = "auto";
+  options.tif_centre = parse_tif_centre("auto");
   options.tif_dwell_time_s.reset();
   options.tif_unit = "nm";
   expect_input_error([&] { load_removal_function(options, inputs); }, {"after.csv", "'nm'", "nm/s, um/s"});
@@ -182,7 +184,7 @@ TEST(CheckToolFits, AllowsAStripNarrowerThanTheToolButNoMapSmallerBothWays) {
       [&] {
         check_tool_fits(tif, Grid{11, 11, 0.5, 0.5, {}});
       },
-      {"6 mm", "5.5 x 5.5 mm", "--tif (its radius)", "--map-pixel"});
+      {"6 mm", "5.5 x 5.5 mm", "its radius", "the map's pixel pitch"});
 }
 
 }  // namespace

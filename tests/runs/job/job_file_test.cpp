@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "runs/job/place_option.h"
 #include "tests/core/base/expect_error.h"
 #include "tests/core/base/temporary_folder.h"
 
@@ -28,21 +29,21 @@ JobOptions unusual() {
   o.tif_pixel_mm = 0.2;
   o.tif_unit = "um/min";
   o.tif_dwell_time_s = 4.5;
-  o.tif_centre = "0.5,-0.25";
+  o.tif_centre = parse_tif_centre("0.5,-0.25");
   o.tif_angle_deg = -37.5;
-  o.tif_flip = "y";
+  o.tif_flip = ToolOrientation::Flip::Y;
   o.path = "nearest:cell=2,critical=-inf";
-  o.motion = "stop";
-  o.remove = "piston,tilt,power";
-  o.aperture = "rect:0,0,1,2";
+  o.motion = Motion::Stop;
+  o.remove = {true, true, true};
+  o.aperture = parse_aperture("rect:0,0,1,2");
   o.min_dwell_s = 1.0 / 7.0;
   o.max_feed_mm_per_min = 1e7;
   o.smoothness = {1e-9};
   o.time_price_nm2_per_s = {1.0 / 3.0, GoalKind::TotalAtMost};
-  o.solver = "dense-nnls";
+  o.solver = SolverKind::DenseNnls;
   o.max_solve_s = 12.5;
   o.threads = 2;
-  o.gcode = "g93-per-minute";
+  o.gcode = GcodeDialect::G93PerMinute;
   o.lift_height_mm = 3.0;
   o.out = "/tmp/plan";
   return o;

@@ -10,8 +10,9 @@
 #include <sstream>
 
 #include "core/base/whole_file.h"
-#include "runs/plan/plan.h"
-#include "runs/plan/plan_output.h"
+#include "runs/job/place_option.h"
+#include "runs/job/planned_job.h"
+#include "runs/reports/plan_output.h"
 #include "runs/reports/simulation.h"
 #include "tests/core/base/temporary_folder.h"
 
@@ -103,9 +104,9 @@ class Orientation : public testing::TestWithParam<Case> {
       o.map_origin_mm = kOrigin;
     }
     o.tif = folder.file("tif.csv", matrix_csv(15, 15, {-3.5, -3.5}, rate)).string();
-    o.tif_centre = "0,0";
+    o.tif_centre = parse_tif_centre("0,0");
     o.path = fmt::format("raster:pitch=0.5,angle={}", GetParam().angle);
-    o.remove = "none";
+    o.remove = {};
     o.max_feed_mm_per_min = 1e5;  // so fast that passing removes next to nothing
     o.smoothness = {1e-4};
     o.threads = 1;
@@ -197,16 +198,17 @@ void expect_tool_as_measured(const HeightMap& removal, const std::array<Eigen::V
 TEST_P(Orientation, BumpIsRemovedWhereItIsByTheToolAsMeasured) {
   JobOptions o = options();
   o.out = (folder.path() / "plan").string();
-  Plan plan = make_plan(o, {});
+  PlannedJob plan = plan_job(o, {});
   std::array<Eigen::VectorXd, 4> by_formula;
   for (const char* dialect : {"g94", "g93-per-minute", "g93-seconds"}) {
-    plan.options.gcode = dialect;
+    plan.job.options.gcode = parse_gcode_dialect(dialect);
     OutputFolder out(o.out);
     write_plan(plan, out, {});
     out.commit();
     const auto rows = table_rows(read_whole_file(std::filesystem::path(o.out) / "feed.csv"));
-    ASSERT_EQ(rows.size(), plan.path.size());
-    if (by_formula[0].size() == 0) by_formula = removals_by_formula(plan.map.grid, rows);  // the dialect changes none
+    ASSERT_EQ(rows.size(), plan.laid.path.size());
+    if (by_formula[0].size() == 0)
+      by_formula = removals_by_formula(plan.part().map.grid, rows);  // the dialect changes none
     for (const char* name : {"program.nc", "feed.csv"}) {
       SCOPED_TRACE(fmt::format("{} {}", dialect, name));
       const Simulation read_back = simulate_file(std::filesystem::path(o.out) / name, std::nullopt, o, {});

@@ -1,13 +1,13 @@
-#include "runs/plan/plan_search.h"
-
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
 
-#include "runs/plan/plan_output.h"
+#include "runs/job/planned_job.h"
 #include "runs/plan/plan_problem.h"
+#include "runs/plan/weight_choice.h"
+#include "runs/reports/plan_output.h"
 #include "tests/core/base/expect_error.h"
 #include "tests/runs/plan/small_job.h"
 
@@ -18,140 +18,141 @@ using test::expect_input_error;
 using test::SmallJob;
 
 /// Figures of the plan that the weights given as numbers make.
-Plan plan_with(const SmallJob& job, const Weights& weights) {
+PlannedJob plan_with(const SmallJob& job, const Weights& weights) {
   JobOptions options = job.options;
   options.smoothness = {weights.smoothness};
   options.time_price_nm2_per_s = {weights.time_price};
-  return make_plan(options, {});
+  return plan_job(options, {});
 }
 
 TEST(PlanSearch, NoneWhereBothWeightsAreNumbers) {
   const SmallJob job;
-  const Plan plan = make_plan(job.options, {});
-  EXPECT_FALSE(plan.search.has_value());
-  EXPECT_EQ(plan.weights, (Weights{0.01, 0.0}));
+  const PlannedJob plan = plan_job(job.options, {});
+  EXPECT_FALSE(plan.dwell.search.has_value());
+  EXPECT_EQ(plan.dwell.weights, (Weights{0.01, 0.0}));
 }
 
 TEST(PlanSearch, ReportedFiguresAreThoseOfTheDwell) {
   const SmallJob job;
-  const Plan plan = plan_with(job, {0.05, 1e-4});
-  const PathSmoothness d = path_smoothness(plan.path, plan.strokes);
+  const PlannedJob plan = plan_with(job, {0.05, 1e-4});
+  const PathSmoothness d = path_smoothness(plan.laid.path, plan.laid.strokes);
   double sum = 0.0;
   Index links = 0;
-  for (Index j = 1; j < plan.dwell.size(); ++j) {
+  for (Index j = 1; j < plan.dwell.seconds.size(); ++j) {
     if (!d.linked(j)) continue;
-    sum += std::pow(d.scale(j) * plan.dwell[j] - d.scale(j - 1) * plan.dwell[j - 1], 2);
+    sum += std::pow(d.scale(j) * plan.dwell.seconds[j] - d.scale(j - 1) * plan.dwell.seconds[j - 1], 2);
     ++links;
   }
-  EXPECT_NEAR(plan.step_rms, std::sqrt(sum / static_cast<double>(links)), 1e-12 * plan.step_rms);
-  EXPECT_EQ(plan.weights, (Weights{0.05, 1e-4}));
+  EXPECT_NEAR(plan.dwell.step_rms, std::sqrt(sum / static_cast<double>(links)), 1e-12 * plan.dwell.step_rms);
+  EXPECT_EQ(plan.dwell.weights, (Weights{0.05, 1e-4}));
 }
 
 TEST(PlanSearch, AStepTargetIsMetByThePlan) {
   SmallJob job;
-  const double rough = plan_with(job, {1e-4, 0.0}).step_rms, smooth = plan_with(job, {1.0, 0.0}).step_rms;
+  const double rough = plan_with(job, {1e-4, 0.0}).dwell.step_rms, smooth = plan_with(job, {1.0, 0.0}).dwell.step_rms;
   ASSERT_LT(smooth, 0.9 * rough);
   job.options.smoothness = {std::sqrt(rough * smooth), GoalKind::StepAtMost};
-  const Plan plan = make_plan(job.options, {});
-  EXPECT_TRUE(plan.limits.empty());
-  EXPECT_LE(plan.step_rms, job.options.smoothness.value);
-  EXPECT_GE(plan.step_rms, 0.97 * job.options.smoothness.value);
-  EXPECT_GT(plan.weights.smoothness, 1e-4);
-  EXPECT_LT(plan.weights.smoothness, 1.0);
-  EXPECT_EQ(plan.weights.time_price, 0.0);
+  const PlannedJob plan = plan_job(job.options, {});
+  EXPECT_TRUE(plan.limits().empty());
+  EXPECT_LE(plan.dwell.step_rms, job.options.smoothness.value);
+  EXPECT_GE(plan.dwell.step_rms, 0.97 * job.options.smoothness.value);
+  EXPECT_GT(plan.dwell.weights.smoothness, 1e-4);
+  EXPECT_LT(plan.dwell.weights.smoothness, 1.0);
+  EXPECT_EQ(plan.dwell.weights.time_price, 0.0);
 }
 
 TEST(PlanSearch, ATotalTargetIsMetByThePlan) {
   SmallJob job;
-  const double free = make_plan(job.options, {}).dwell.sum();
+  const double free = plan_job(job.options).dwell.seconds.sum();
   job.options.time_price_nm2_per_s = {0.9 * free, GoalKind::TotalAtMost};
-  const Plan plan = make_plan(job.options, {});
-  EXPECT_TRUE(plan.limits.empty());
-  EXPECT_LE(plan.dwell.sum(), 0.9 * free);
-  EXPECT_GE(plan.dwell.sum(), 0.95 * 0.9 * free);  // from one price to the next the solver's total jumps by 3 %
-  EXPECT_GT(plan.weights.time_price, 0.0);
-  EXPECT_EQ(plan.weights.smoothness, 0.01);
+  const PlannedJob plan = plan_job(job.options, {});
+  EXPECT_TRUE(plan.limits().empty());
+  EXPECT_LE(plan.dwell.seconds.sum(), 0.9 * free);
+  EXPECT_GE(plan.dwell.seconds.sum(), 0.95 * 0.9 * free);  // from one price to the next the solver's total jumps by 3 %
+  EXPECT_GT(plan.dwell.weights.time_price, 0.0);
+  EXPECT_EQ(plan.dwell.weights.smoothness, 0.01);
 }
 
 TEST(PlanSearch, AResidualTargetIsMetByEitherWeight) {
   const SmallJob plain;
-  const double best = make_plan(plain.options, {}).residual.rms;
+  const double best = plan_job(plain.options).dwell.residual.rms;
   for (const bool smooth : {true, false}) {
     SmallJob job;
     (smooth ? job.options.smoothness : job.options.time_price_nm2_per_s) = {2.0 * best, GoalKind::ResidualAtMost};
-    const Plan plan = make_plan(job.options, {});
-    EXPECT_TRUE(plan.limits.empty());
-    EXPECT_LE(plan.residual.rms, 2.0 * best * (1.0 + 1e-9)) << smooth;
+    const PlannedJob plan = plan_job(job.options, {});
+    EXPECT_TRUE(plan.limits().empty());
+    EXPECT_LE(plan.dwell.residual.rms, 2.0 * best * (1.0 + 1e-9)) << smooth;
     // On so small a job the solver's own noise steers the last solves of the search.
-    EXPECT_GE(plan.residual.rms, 1.5 * best) << smooth;
+    EXPECT_GE(plan.dwell.residual.rms, 1.5 * best) << smooth;
   }
 }
 
 TEST(PlanSearch, TheWeightsFoundGivenAsNumbersMakeTheSamePlan) {
   SmallJob job;
   job.options.smoothness = {0.0, GoalKind::Corner};
-  const Plan found = make_plan(job.options, {});
-  const Plan given = plan_with(job, found.weights);
-  EXPECT_EQ(found.dwell, given.dwell);
-  EXPECT_EQ(found.residual.rms, given.residual.rms);
-  EXPECT_GT(found.weights.smoothness, 1e-3);
-  EXPECT_LT(found.weights.smoothness, 10.0);
+  const PlannedJob found = plan_job(job.options, {});
+  const Plan given = plan_with(job, found.dwell.weights);
+  EXPECT_EQ(found.dwell.seconds, given.dwell.seconds);
+  EXPECT_EQ(found.dwell.residual.rms, given.dwell.residual.rms);
+  EXPECT_GT(found.dwell.weights.smoothness, 1e-3);
+  EXPECT_LT(found.dwell.weights.smoothness, 10.0);
 }
 
 TEST(PlanSearch, StartsOtherSolversFromADwellFoundBefore) {
   SmallJob job;
-  job.options.solver = "projected-cg";
-  const Plan prepared = prepare_plan(job.options, {});
-  PlanProblem problem(prepared);
+  job.options.solver = SolverKind::ProjectedCg;
+  const Job prepared = load_job(job.options);
+  const LaidPath laid = lay_job_path(prepared);
+  PlanProblem problem(*prepared.part, laid, dwell_options(job.options));
   const WeightedDwell cold = problem.solve({0.01, 0.0}, {}, 60.0, "solve", {});
   const WeightedDwell warm = problem.solve({0.01, 0.0}, cold.dwell, 60.0, "solve", {});
   EXPECT_LT(warm.solver.operator_applications, cold.solver.operator_applications);
   job.options.time_price_nm2_per_s = {0.95 * cold.dwell.sum(), GoalKind::TotalAtMost};
-  const Plan plan = make_plan(job.options, {});
-  EXPECT_TRUE(plan.limits.empty());
-  EXPECT_LE(plan.dwell.sum(), 0.95 * cold.dwell.sum());
+  const PlannedJob plan = plan_job(job.options, {});
+  EXPECT_TRUE(plan.limits().empty());
+  EXPECT_LE(plan.dwell.seconds.sum(), 0.95 * cold.dwell.sum());
 }
 
 TEST(PlanSearch, CountsTheWorkOfEverySolve) {
   SmallJob job;
   job.options.smoothness = {0.0, GoalKind::Corner};
-  const Plan plan = make_plan(job.options, {});
+  const PlannedJob plan = plan_job(job.options, {});
   long sum = 0;
-  for (const PlanTrial& t : plan.search->trials) sum += t.operator_applications;
-  EXPECT_EQ(plan.solver.operator_applications, sum);
-  EXPECT_GE(plan.search->trials.size(), 7u);
-  EXPECT_LE(plan.search->trials.size(), 20u);
-  const PlanTrial& chosen = plan.search->trials[plan.search->chosen];
-  EXPECT_EQ(chosen.weights, plan.weights);
-  EXPECT_EQ(chosen.trade_off.total, plan.dwell.sum());
-  EXPECT_NEAR(chosen.trade_off.residual_rms, plan.residual.rms, 1e-9 * plan.residual.rms);
-  EXPECT_NEAR(chosen.objective, plan.certificate.objective, 1e-6 * plan.certificate.objective);
+  for (const PlanTrial& t : plan.dwell.search->trials) sum += t.operator_applications;
+  EXPECT_EQ(plan.dwell.solver.operator_applications, sum);
+  EXPECT_GE(plan.dwell.search->trials.size(), 7u);
+  EXPECT_LE(plan.dwell.search->trials.size(), 20u);
+  const PlanTrial& chosen = plan.dwell.search->trials[plan.dwell.search->chosen];
+  EXPECT_EQ(chosen.weights, plan.dwell.weights);
+  EXPECT_EQ(chosen.trade_off.total, plan.dwell.seconds.sum());
+  EXPECT_NEAR(chosen.trade_off.residual_rms, plan.dwell.residual.rms, 1e-9 * plan.dwell.residual.rms);
+  EXPECT_NEAR(chosen.objective, plan.dwell.certificate.objective, 1e-6 * plan.dwell.certificate.objective);
 }
 
 TEST(PlanSearch, ATargetOutOfReachIsSaidAndTheNearestPlanMade) {
   SmallJob job;
   job.options.time_price_nm2_per_s = {1e-6, GoalKind::ResidualAtMost};
-  const Plan plan = make_plan(job.options, {});
-  ASSERT_EQ(plan.limits.size(), 1u);
-  for (const char* part : {"--time-price 'residual<=1e-06'", "not met", "residual RMS", " nm", "time price 0 nm^2/s"}) {
-    EXPECT_NE(plan.limits[0].find(part), std::string::npos) << part << " in: " << plan.limits[0];
+  const PlannedJob plan = plan_job(job.options, {});
+  ASSERT_EQ(plan.limits().size(), 1u);
+  for (const char* part : {"time price 'residual<=1e-06'", "not met", "residual RMS", " nm", "time price 0 nm^2/s"}) {
+    EXPECT_NE(plan.limits()[0].find(part), std::string::npos) << part << " in: " << plan.limits()[0];
   }
-  EXPECT_EQ(plan.weights.time_price, 0.0);
-  EXPECT_LE(plan.residual.rms, 0.1 * plan.before.rms);
+  EXPECT_EQ(plan.dwell.weights.time_price, 0.0);
+  EXPECT_LE(plan.dwell.residual.rms, 0.1 * plan.part().before.rms);
 }
 
 TEST(PlanSearch, ATimeLimitEndsTheSearchWithThePlanItHas) {
   SmallJob job;
   job.options.smoothness = {0.0, GoalKind::Corner};
   job.options.max_solve_s = 1e-9;
-  const Plan plan = make_plan(job.options, {});
-  EXPECT_EQ(plan.search->trials.size(), 1u);
+  const PlannedJob plan = plan_job(job.options, {});
+  EXPECT_EQ(plan.dwell.search->trials.size(), 1u);
   const auto said = [&plan](const char* part) {
-    return std::any_of(plan.limits.begin(), plan.limits.end(),
+    return std::any_of(plan.limits().begin(), plan.limits().end(),
                        [&](const std::string& limit) { return limit.find(part) != std::string::npos; });
   };
   EXPECT_TRUE(said("search of the weights ended after 1 solve"));
-  EXPECT_TRUE(said("--max-solve is 1e-09 s"));
+  EXPECT_TRUE(said("the time limit on solving is 1e-09 s"));
 }
 
 TEST(PlanSearch, StopsBetweenAndWithinItsSolvesAndReportsEach) {
@@ -162,7 +163,7 @@ TEST(PlanSearch, StopsBetweenAndWithinItsSolvesAndReportsEach) {
     Progress progress;
     progress.show = [&lines](const std::string& line) { lines.push_back(line); };
     progress.stop = [&] { return !lines.empty() && lines.back().find(at) != std::string::npos; };
-    EXPECT_THROW(make_plan(job.options, progress), Interrupted) << at;
+    EXPECT_THROW(plan_job(job.options, progress), Interrupted) << at;
   }
   SmallJob job;
   job.options.smoothness = {0.0, GoalKind::Corner};
@@ -171,36 +172,37 @@ TEST(PlanSearch, StopsBetweenAndWithinItsSolvesAndReportsEach) {
   progress.show = [&](const std::string& line) {
     reported += line.starts_with("search ") && line.find("total") != std::string::npos;
   };
-  EXPECT_EQ(make_plan(job.options, progress).search->trials.size(), reported);
+  EXPECT_EQ(plan_job(job.options, progress).dwell.search->trials.size(), reported);
 }
 
 TEST(PlanSearch, TwoResidualTargetsAreRefused) {
   SmallJob job;
   job.options.smoothness = {0.2, GoalKind::ResidualAtMost};
   job.options.time_price_nm2_per_s = {0.1, GoalKind::ResidualAtMost};
-  expect_input_error([&] { make_plan(job.options, {}); },
-                     {"--smoothness 'residual<=0.2'", "--time-price 'residual<=0.1'", "step<=S", "total<=S"});
+  expect_input_error([&] { plan_job(job.options, {}); },
+                     {"smoothness 'residual<=0.2'", "time price 'residual<=0.1'", "step<=S", "total<=S"});
 }
 
 TEST(WritePlan, SearchIsInTheSummaryAndInItsOwnTable) {
   SmallJob job;
   job.options.smoothness = {0.0, GoalKind::Corner};
-  Plan plan = make_plan(job.options, {});
+  PlannedJob plan = plan_job(job.options, {});
   const OutputFolder folder(job.options.out);
   const auto summary = nlohmann::json::parse(write_plan(plan, folder, {}).summary);
   const auto& weights = summary.at("weights");
-  EXPECT_EQ(weights.at("smoothness"), plan.weights.smoothness);
+  EXPECT_EQ(weights.at("smoothness"), plan.dwell.weights.smoothness);
   EXPECT_EQ(weights.at("time_price_nm2_per_s"), 0.0);
-  EXPECT_EQ(weights.at("search").at("trials").size(), plan.search->trials.size());
-  EXPECT_EQ(weights["search"]["trials"][plan.search->chosen]["smoothness"], plan.weights.smoothness);
+  EXPECT_EQ(weights.at("search").at("trials").size(), plan.dwell.search->trials.size());
+  EXPECT_EQ(weights["search"]["trials"][plan.dwell.search->chosen]["smoothness"], plan.dwell.weights.smoothness);
   EXPECT_NE(weights["search"]["criterion"].get<std::string>().find("corner"), std::string::npos);
   EXPECT_EQ(summary["options"]["smoothness"], "auto");
 
-  const std::string table = search_table_text(*plan.search);
+  const std::string table = write_trials(*plan.dwell.search);
   EXPECT_TRUE(
       table.starts_with("smoothness,time_price_nm2_per_s,residual_rms_nm,total_s,step_rms_s,objective_nm2,"
                         "operator_applications,chosen\n"));
-  EXPECT_EQ(static_cast<std::size_t>(std::count(table.begin(), table.end(), '\n')), plan.search->trials.size() + 1);
+  EXPECT_EQ(static_cast<std::size_t>(std::count(table.begin(), table.end(), '\n')),
+            plan.dwell.search->trials.size() + 1);
   std::size_t chosen = 0;
   for (std::size_t at = table.find(",1\n"); at != std::string::npos; at = table.find(",1\n", at + 1)) ++chosen;
   EXPECT_EQ(chosen, 1u);

@@ -1,5 +1,3 @@
-#include "runs/plan/plan.h"
-
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -11,7 +9,8 @@
 #include "core/base/whole_file.h"
 #include "core/removal/simulate.h"
 #include "paths/feed/plan_program.h"
-#include "runs/plan/plan_output.h"
+#include "runs/job/planned_job.h"
+#include "runs/reports/plan_output.h"
 #include "tests/core/base/expect_error.h"
 #include "tests/runs/plan/small_job.h"
 
@@ -22,80 +21,82 @@ using test::expect_input_error;
 using test::small_map;
 using test::SmallJob;
 
-double rms_after(const Plan& plan, const Program& program) {
-  return map_statistics(surface_after(plan.map, simulate(program, plan.map, plan.kernel, 1)), plan.terms).rms;
+double rms_after(const PlannedJob& plan, const Program& program) {
+  return map_statistics(surface_after(plan.part().map, simulate(program, plan.part().map, plan.part().kernel, 1)),
+                        plan.part().form)
+      .rms;
 }
 
 TEST(MakePlan, CorrectsTheMapAndItsCertificateSaysTheSameResidual) {
   const SmallJob job;
-  const Plan plan = make_plan(job.options, {});
-  EXPECT_TRUE(plan.limits.empty());
-  EXPECT_LE(plan.residual.rms, 0.1 * plan.before.rms);
-  EXPECT_GT(plan.residual.rms, 0.0);
-  EXPECT_NEAR(plan.certificate.residual_rms, plan.residual.rms, 1e-9 * plan.residual.rms);
-  EXPECT_LE(plan.certificate.bound_violation, 0.0);
-  EXPECT_LE(plan.certificate.projected_gradient, 1e-3);
-  EXPECT_EQ(plan.map_pixels, small_map().valid_pixels());
+  const PlannedJob plan = plan_job(job.options, {});
+  EXPECT_TRUE(plan.limits().empty());
+  EXPECT_LE(plan.dwell.residual.rms, 0.1 * plan.part().before.rms);
+  EXPECT_GT(plan.dwell.residual.rms, 0.0);
+  EXPECT_NEAR(plan.dwell.certificate.residual_rms, plan.dwell.residual.rms, 1e-9 * plan.dwell.residual.rms);
+  EXPECT_LE(plan.dwell.certificate.bound_violation, 0.0);
+  EXPECT_LE(plan.dwell.certificate.projected_gradient, 1e-3);
+  EXPECT_EQ(plan.job.map_pixels, small_map().valid_pixels());
 }
 
 TEST(MakePlan, PreparesItsMapAndSaysHow) {
   SmallJob job;
   job.options.map_steps = "crop:rect:-4.25,1.75,8,12;fill:all";
-  const Plan plan = make_plan(job.options, {});
-  EXPECT_EQ(plan.map.grid.cols, 25);
-  EXPECT_EQ(plan.map.valid_pixels(), plan.map.grid.size());
-  EXPECT_EQ(plan.map_pixels, plan.map.grid.size());
-  ASSERT_EQ(plan.map.history.size(), 2u);
-  OutputFolder folder(job.options.out);
-  Plan written = plan;
-  const auto summary = nlohmann::json::parse(write_plan(written, folder, {}).summary);
-  EXPECT_EQ(summary["map"]["history"], plan.map.history);
+  const PlannedJob plan = plan_job(job.options, {});
+  EXPECT_EQ(plan.part().map.grid.cols, 25);
+  EXPECT_EQ(plan.part().map.valid_pixels(), plan.part().map.grid.size());
+  EXPECT_EQ(plan.job.map_pixels, plan.part().map.grid.size());
+  ASSERT_EQ(plan.part().map.history.size(), 2u);
+  const OutputFolder folder(job.options.out);
+  const auto summary = nlohmann::json::parse(write_plan(plan, folder, {}).summary);
+  EXPECT_EQ(summary["map"]["history"], plan.part().map.history);
   EXPECT_EQ(summary["options"]["map_steps"], job.options.map_steps);
-  EXPECT_NE(plan.map.history[1].find("fill:how=harmonic,all (1 holes"), std::string::npos) << plan.map.history[1];
+  EXPECT_NE(plan.part().map.history[1].find("fill:how=harmonic,all (1 holes"), std::string::npos)
+      << plan.part().map.history[1];
 }
 
 TEST(MakePlan, KeepsTheLowerBoundsOfTimeAndFeed) {
   SmallJob job;
   job.options.min_dwell_s = 0.15;
   job.options.max_feed_mm_per_min = 300.0;  // 5 mm/s: a stroke of 1 mm takes 0.2 s
-  const Plan plan = make_plan(job.options, {});
+  const PlannedJob plan = plan_job(job.options, {});
   Index at_limit = 0;
-  for (std::size_t j = 0; j < plan.strokes.size(); ++j) {
-    const double least = std::max(0.15, plan.strokes[j].length() / 5.0);
-    const double dwell = plan.dwell[static_cast<Index>(j)];
+  for (std::size_t j = 0; j < plan.laid.strokes.size(); ++j) {
+    const double least = std::max(0.15, plan.laid.strokes[j].length() / 5.0);
+    const double dwell = plan.dwell.seconds[static_cast<Index>(j)];
     EXPECT_GE(dwell, least) << j;
     if (dwell <= least * (1.0 + 1e-9)) ++at_limit;
-    EXPECT_LE(plan.table.feed_mm_per_min[j], 300.0);
+    EXPECT_LE(plan.program.table.feed_mm_per_min[j], 300.0);
   }
   EXPECT_GT(at_limit, 0);
-  EXPECT_EQ(plan.feed.segments_limited, at_limit);
-  EXPECT_EQ(plan.feed.segments_infeasible, 0);
-  EXPECT_LE(units::mm_per_min(plan.feed.max_speed), 300.0 * (1.0 + 1e-12));
+  EXPECT_EQ(plan.program.feed.segments_limited, at_limit);
+  EXPECT_EQ(plan.program.feed.segments_infeasible, 0);
+  EXPECT_LE(units::mm_per_min(plan.program.feed.max_speed), 300.0 * (1.0 + 1e-12));
 }
 
 TEST(MakePlan, PredictsWhatTheRunningToolDoes) {
   const SmallJob job;
-  const Plan plan = make_plan(job.options, {});
-  EXPECT_NEAR(rms_after(plan, program_of(plan.table)), plan.residual.rms, 1e-3 * plan.residual.rms);
+  const PlannedJob plan = plan_job(job.options, {});
+  EXPECT_NEAR(rms_after(plan, program_of(plan.program.table)), plan.dwell.residual.rms, 1e-3 * plan.dwell.residual.rms);
 }
 
 TEST(MakePlan, StopMotionCountsWhatTheMovesBetweenHaltsRemove) {
   SmallJob job;
-  job.options.motion = "stop";
+  job.options.motion = Motion::Stop;
   job.options.max_feed_mm_per_min = 600.0;
-  const Plan plan = make_plan(job.options, {});
-  EXPECT_NEAR(rms_after(plan, program_of(plan.table)), plan.residual.rms, 1e-3 * plan.residual.rms);
+  const PlannedJob plan = plan_job(job.options, {});
+  EXPECT_NEAR(rms_after(plan, program_of(plan.program.table)), plan.dwell.residual.rms, 1e-3 * plan.dwell.residual.rms);
   // Not counting them would show: the halts alone leave another surface.
-  Program halts = program_of(plan.table);
+  Program halts = program_of(plan.program.table);
   for (ProgramStep& step : halts.steps) step.removes = step.removes && step.start == step.finish;
-  EXPECT_GT(std::abs(rms_after(plan, halts) - plan.residual.rms), 0.1 * plan.residual.rms);
+  EXPECT_GT(std::abs(rms_after(plan, halts) - plan.dwell.residual.rms), 0.1 * plan.dwell.residual.rms);
 }
 
 TEST(MakePlan, PlansForTheApertureAlone) {
   for (const char* aperture : {"rect:0,3,6,9.3", "circle:3,6,3.3"}) {
     SmallJob job;
-    job.options.aperture = aperture;
-    const Plan plan = make_plan(job.options, {});
+    job.options.aperture = parse_aperture(aperture);
+    const PlannedJob plan = plan_job(job.options, {});
     const HeightMap whole = small_map();
     Index expected = 0;
     for (Index i = 0; i < whole.grid.size(); ++i) {
@@ -104,21 +105,22 @@ TEST(MakePlan, PlansForTheApertureAlone) {
           aperture[0] == 'r' ? p.x >= 0 && p.x <= 6 && p.y >= 3 && p.y <= 9.3 : std::hypot(p.x - 3.0, p.y - 6.0) <= 3.3;
       const bool counts = inside && std::isfinite(whole.values[static_cast<std::size_t>(i)]);
       expected += counts;
-      EXPECT_EQ(std::isfinite(plan.map.values[static_cast<std::size_t>(i)]), counts) << aperture << " pixel " << i;
+      EXPECT_EQ(std::isfinite(plan.part().map.values[static_cast<std::size_t>(i)]), counts)
+          << aperture << " pixel " << i;
     }
-    EXPECT_EQ(plan.before.valid_pixels, expected) << aperture;
-    EXPECT_EQ(plan.residual.valid_pixels, expected) << aperture;
-    EXPECT_LE(plan.residual.rms, 0.1 * plan.before.rms) << aperture;
+    EXPECT_EQ(plan.part().before.valid_pixels, expected) << aperture;
+    EXPECT_EQ(plan.dwell.residual.valid_pixels, expected) << aperture;
+    EXPECT_LE(plan.dwell.residual.rms, 0.1 * plan.part().before.rms) << aperture;
   }
 }
 
 TEST(MakePlan, FollowsANearestNeighbourPath) {
   SmallJob job;
   job.options.path = "nearest:cell=1,critical=-inf";
-  const Plan plan = make_plan(job.options, {});
-  EXPECT_EQ(plan.path.kind, "nearest");
-  EXPECT_LE(plan.residual.rms, 0.5 * plan.before.rms);
-  EXPECT_NEAR(rms_after(plan, program_of(plan.table)), plan.residual.rms, 1e-3 * plan.residual.rms);
+  const PlannedJob plan = plan_job(job.options, {});
+  EXPECT_EQ(plan.laid.path.kind, "nearest");
+  EXPECT_LE(plan.dwell.residual.rms, 0.5 * plan.part().before.rms);
+  EXPECT_NEAR(rms_after(plan, program_of(plan.program.table)), plan.dwell.residual.rms, 1e-3 * plan.dwell.residual.rms);
 }
 
 TEST(MakePlan, FollowsAPathFromAFile) {
@@ -133,25 +135,25 @@ TEST(MakePlan, FollowsAPathFromAFile) {
   }
   const std::filesystem::path file = job.folder.file("path.csv", text);
   job.options.path = "file:" + file.string();
-  const Plan plan = make_plan(job.options, {});
-  ASSERT_EQ(plan.path.size(), 13u * 17u);
-  EXPECT_EQ(plan.path.points[17].x, 11.0);
-  EXPECT_EQ(plan.path.points[17].y, 2.0);
-  EXPECT_EQ(plan.metrics.lifts, 1);
-  ASSERT_EQ(plan.inputs.size(), 2u);  // map and path; the tool is a formula
-  EXPECT_EQ(plan.inputs[1].role, "path");
-  EXPECT_EQ(plan.inputs[1].sha256, sha256_of_file(file));
-  EXPECT_LE(plan.residual.rms, 0.2 * plan.before.rms);
+  const PlannedJob plan = plan_job(job.options, {});
+  ASSERT_EQ(plan.laid.path.size(), 13u * 17u);
+  EXPECT_EQ(plan.laid.path.points[17].x, 11.0);
+  EXPECT_EQ(plan.laid.path.points[17].y, 2.0);
+  EXPECT_EQ(plan.laid.metrics.lifts, 1);
+  ASSERT_EQ(plan.job.inputs.size(), 2u);  // map and path; the tool is a formula
+  EXPECT_EQ(plan.job.inputs[1].role, "path");
+  EXPECT_EQ(plan.job.inputs[1].sha256, sha256_of_file(file));
+  EXPECT_LE(plan.dwell.residual.rms, 0.2 * plan.part().before.rms);
 }
 
 TEST(MakePlan, SaysWhichInputIsMissing) {
   SmallJob job;
   job.options.path.clear();
-  expect_input_error([&] { make_plan(job.options, {}); }, {"--path", "raster:pitch=1"});
+  expect_input_error([&] { plan_job(job.options, {}); }, {"--path", "raster:pitch=1"});
   job.options.tif.clear();
-  expect_input_error([&] { make_plan(job.options, {}); }, {"--tif"});
+  expect_input_error([&] { plan_job(job.options, {}); }, {"--tif"});
   job.options.map.clear();
-  expect_input_error([&] { make_plan(job.options, {}); }, {"--map"});
+  expect_input_error([&] { plan_job(job.options, {}); }, {"--map"});
 }
 
 TEST(MakePlan, StopsWhenAskedAndReportsEveryStage) {
@@ -160,14 +162,14 @@ TEST(MakePlan, StopsWhenAskedAndReportsEveryStage) {
   Progress progress;
   progress.show = [&lines](const std::string& line) { lines.push_back(line); };
   progress.stop = [&lines] { return !lines.empty() && lines.back().starts_with("solve"); };
-  EXPECT_THROW(make_plan(job.options, progress), Interrupted);
+  EXPECT_THROW(plan_job(job.options, progress), Interrupted);
   ASSERT_GE(lines.size(), 3u);
   EXPECT_TRUE(lines[0].starts_with("map: 22 x 30 pixels"));
   EXPECT_TRUE(lines[1].starts_with("path:"));
 }
 
 std::map<std::string, std::string> written_files(const JobOptions& options) {
-  Plan plan = make_plan(options, {});
+  PlannedJob plan = plan_job(options, {});
   OutputFolder folder(options.out);
   write_plan(plan, folder, {});
   folder.commit();
@@ -204,24 +206,24 @@ TEST(WritePlan, TheSameJobGivesTheSameBytesButForTheWallTime) {
 TEST(WritePlan, ProgramOnDiskLeavesWhatTheSolverPredicts) {
   for (const char* motion : {"moving", "stop"}) {
     SmallJob job;
-    job.options.motion = motion;
-    Plan plan = make_plan(job.options, {});
+    job.options.motion = parse_motion(motion);
+    PlannedJob plan = plan_job(job.options, {});
     const OutputFolder folder(job.options.out);
     const WrittenPlan written = write_plan(plan, folder, {});
-    EXPECT_NEAR(written.simulated.rms, plan.residual.rms, 1e-3 * plan.residual.rms) << motion;
-    EXPECT_TRUE(plan.limits.empty()) << motion;
+    EXPECT_NEAR(written.simulated.rms, plan.dwell.residual.rms, 1e-3 * plan.dwell.residual.rms) << motion;
+    EXPECT_TRUE(plan.limits().empty()) << motion;
   }
 }
 
 TEST(MakePlan, OneAndTwoThreadsAgree) {
   SmallJob job;
-  const Plan one = make_plan(job.options, {});
+  const PlannedJob one = plan_job(job.options, {});
   job.options.threads = 2;
-  const Plan two = make_plan(job.options, {});
-  EXPECT_EQ(two.threads, 2);
-  EXPECT_NEAR(two.residual.rms, one.residual.rms, 1e-6 * one.residual.rms);
-  EXPECT_NEAR(two.dwell.sum(), one.dwell.sum(), 1e-6 * one.dwell.sum());
-  EXPECT_LE((two.dwell - one.dwell).norm(), 1e-6 * one.dwell.norm());
+  const PlannedJob two = plan_job(job.options, {});
+  EXPECT_EQ(two.part().threads, 2);
+  EXPECT_NEAR(two.dwell.residual.rms, one.dwell.residual.rms, 1e-6 * one.dwell.residual.rms);
+  EXPECT_NEAR(two.dwell.seconds.sum(), one.dwell.seconds.sum(), 1e-6 * one.dwell.seconds.sum());
+  EXPECT_LE((two.dwell.seconds - one.dwell.seconds).norm(), 1e-6 * one.dwell.seconds.norm());
 }
 
 }  // namespace

@@ -7,7 +7,8 @@
 
 #include "core/base/whole_file.h"
 #include "core/formats/map_io.h"
-#include "runs/plan/plan.h"
+#include "runs/job/place_option.h"
+#include "runs/job/planned_job.h"
 #include "runs/reports/simulation.h"
 #include "runs/reports/tif_picture.h"
 #include "runs/reports/tif_report.h"
@@ -148,13 +149,13 @@ TEST(TurnedTool, ActsAtTheRightPlaceInASimulation) {
   JobOptions options;
   options.map = (folder.path() / "map.csv").string();
   options.tif = (folder.path() / "tif.csv").string();
-  options.tif_centre = "0,0";
-  options.remove = "none";
+  options.tif_centre = parse_tif_centre("0,0");
+  options.remove = {};
   options.threads = 1;
   for (const auto& [angle, flip] :
        {std::pair{0.0, "none"}, {90.0, "none"}, {90.0, "x"}, {-90.0, "y"}, {30.0, "none"}}) {
     options.tif_angle_deg = angle;
-    options.tif_flip = flip;
+    options.tif_flip = parse_flip(flip);
     const Simulation s = simulate_file(program, std::nullopt, options, {});
     const double a = angle * 3.14159265358979323846 / 180.0;
     for (Index i = 0; i < s.removal.grid.size(); ++i) {
@@ -183,19 +184,19 @@ TEST(TurnedTool, PlansWithTheToolThatActs) {
   options.tif = "mrf:lead=1.8,trail=0.7,width=2,peak=12";
   options.tif_angle_deg = 90.0;
   options.path = "raster:pitch=0.5,overrun=2";
-  options.remove = "none";
+  options.remove = {};
   options.smoothness = {1e-4};
   options.max_feed_mm_per_min = 1e5;
   options.threads = 1;
-  const Plan plan = make_plan(options, {});
+  const PlannedJob plan = plan_job(options, {});
   double square = 0.0, before = 0.0;
   for (Index i = 0; i < map.grid.size(); i += 7) {
     const Point x = map.grid.centre(i);
     double removed = 0.0;
-    for (std::size_t j = 0; j < plan.path.points.size(); ++j) {
-      const Point d = x - plan.path.points[j];  // the ribbon runs to +y: long before (-y), short behind
+    for (std::size_t j = 0; j < plan.laid.path.points.size(); ++j) {
+      const Point d = x - plan.laid.path.points[j];  // the ribbon runs to +y: long before (-y), short behind
       const double u = d.y / (d.y < 0.0 ? 1.8 : 0.7), v = d.x;
-      removed += plan.dwell[static_cast<Index>(j)] * 12.0 * std::exp2(-(u * u + v * v));
+      removed += plan.dwell.seconds[static_cast<Index>(j)] * 12.0 * std::exp2(-(u * u + v * v));
     }
     square += std::pow(map.values[static_cast<std::size_t>(i)] - removed, 2);
     before += std::pow(map.values[static_cast<std::size_t>(i)], 2);

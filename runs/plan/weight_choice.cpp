@@ -1,13 +1,11 @@
-#include "runs/plan/plan_search.h"
+#include "runs/plan/weight_choice.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <limits>
 
-#include "core/base/errors.h"
-#include "runs/job/weight_option.h"
-#include "runs/plan/plan_problem.h"
+#include "solvers/weights/weight_option.h"
 
 namespace dwell {
 namespace {
@@ -39,34 +37,33 @@ class NearestDwell {
   double least_smoothness_, least_price_;
 };
 
-std::string criterion_of(const char* flag, const WeightGoal& goal, const WeightRange& range, const char* unit) {
+std::string criterion_of(const char* weight, const WeightGoal& goal, const WeightRange& range, const char* unit) {
   switch (goal.kind) {
     case GoalKind::Fixed:
-      return fmt::format("--{}: {}{}", flag, goal.value, unit);
+      return fmt::format("{}: {}{}", weight, goal.value, unit);
     case GoalKind::Corner:
-      return fmt::format(
-          "--{}: corner of the L-curve (largest distance from its chord, log-log) from {:.3g} to {:.3g}{}", flag,
-          range.corner_least, range.corner_most, unit);
+      return fmt::format("{}: corner of the L-curve (largest distance from its chord, log-log) from {:.3g} to {:.3g}{}",
+                         weight, range.corner_least, range.corner_most, unit);
     case GoalKind::ResidualAtMost:
-      return fmt::format("--{}: largest up to {:.3g}{} with residual RMS <= {} nm", flag, range.most, unit, goal.value);
+      return fmt::format("{}: largest up to {:.3g}{} with residual RMS <= {} nm", weight, range.most, unit, goal.value);
     default:
-      return fmt::format("--{}: least up to {:.3g}{} with {} <= {} s", flag, range.most, unit, quantity_of(goal.kind),
+      return fmt::format("{}: least up to {:.3g}{} with {} <= {} s", weight, range.most, unit, quantity_of(goal.kind),
                          goal.value);
   }
 }
 
 /// A sentence if the chosen trial misses a target.
-void report_miss(const char* flag, const WeightGoal& goal, const WeightRange& range, const char* unit,
-                 PlanSearch& search) {
+void report_miss(const char* weight, const WeightGoal& goal, const WeightRange& range, const char* unit,
+                 WeightTrials& search) {
   if (goal.kind == GoalKind::Fixed || goal.kind == GoalKind::Corner) return;
-  const PlanTrial& best = search.trials[search.chosen];
+  const TriedWeights& best = search.trials[search.chosen];
   const double reached = quantity_of(goal.kind, best.trade_off);
   if (reached <= goal.value) return;
   search.limits.push_back(
-      fmt::format("--{} '{}' is not met: {} weights tried from 0 to {:.3g}{}; the nearest has {} {:.6g} {} (smoothness "
+      fmt::format("{} '{}' is not met: {} weights tried from 0 to {:.3g}{}; the nearest has {} {:.6g} {} (smoothness "
                   "{:.4g}, time "
                   "price {:.4g} nm^2/s)",
-                  flag, to_string(goal), search.trials.size(), range.most, unit, quantity_of(goal.kind), reached,
+                  weight, to_string(goal), search.trials.size(), range.most, unit, quantity_of(goal.kind), reached,
                   unit_of(goal.kind), best.weights.smoothness, best.weights.time_price));
 }
 
@@ -74,22 +71,11 @@ constexpr const char* kPriceUnit = " nm^2/s";
 
 }  // namespace
 
-bool weights_are_searched(const JobOptions& options) {
-  const WeightGoal &smoothness = options.smoothness, &price = options.time_price_nm2_per_s;
-  if (smoothness.kind == GoalKind::ResidualAtMost && price.kind == GoalKind::ResidualAtMost) {
-    throw InputError(fmt::format(
-        "--smoothness '{}' and --time-price '{}' leave open which weight takes up the residual; required for one of "
-        "them: a number, auto, 'step<=S' (smoothness) or 'total<=S' (time price)",
-        to_string(smoothness), to_string(price)));
-  }
-  return smoothness.kind != GoalKind::Fixed || price.kind != GoalKind::Fixed;
-}
-
-WeightedDwell search_plan(PlanProblem& problem, const JobOptions& options, const Progress& progress,
-                          PlanSearch& search) {
+WeightedDwell choose_weights(PlanProblem& problem, const DwellOptions& options, const Progress& progress,
+                             WeightTrials& search) {
   WeightSearchOptions how;
   how.smoothness = options.smoothness;
-  how.time_price = options.time_price_nm2_per_s;
+  how.time_price = options.time_price;
   how.time_price_range = time_price_range(problem.highest_price());
   const NearestDwell nearest(how.smoothness_range, how.time_price_range);
 
@@ -97,12 +83,12 @@ WeightedDwell search_plan(PlanProblem& problem, const JobOptions& options, const
   SolverSummary sum;
   bool out_of_time = false;
   const auto evaluate = [&](const Weights& weights) -> std::optional<TradeOff> {
-    out_of_time = !found.empty() && sum.seconds >= options.max_solve_s;
+    out_of_time = !found.empty() && sum.seconds >= options.max_seconds;
     if (out_of_time) return std::nullopt;
     const std::string stage = fmt::format("search {}: smoothness {:.4g}, time price {:.4g} nm^2/s", found.size() + 1,
                                           weights.smoothness, weights.time_price);
     found.push_back(
-        problem.solve(weights, nearest.start_for(weights, found), options.max_solve_s - sum.seconds, stage, progress));
+        problem.solve(weights, nearest.start_for(weights, found), options.max_seconds - sum.seconds, stage, progress));
     const WeightedDwell& f = found.back();
     progress.report(fmt::format("{}: residual {:.4g} nm RMS, total {:.5g} s, step {:.4g} s RMS", stage,
                                 f.trade_off.residual_rms, f.trade_off.total, f.trade_off.step_rms));
@@ -116,13 +102,14 @@ WeightedDwell search_plan(PlanProblem& problem, const JobOptions& options, const
   };
   search.chosen = search_weights(how, evaluate).chosen;
   search.criterion = criterion_of("smoothness", how.smoothness, how.smoothness_range, "") + "; " +
-                     criterion_of("time-price", how.time_price, how.time_price_range, kPriceUnit);
+                     criterion_of("time price", how.time_price, how.time_price_range, kPriceUnit);
   if (out_of_time) {
-    search.limits.push_back(fmt::format("the search of the weights ended after {} solves; --max-solve is {} s",
-                                        found.size(), options.max_solve_s));
+    search.limits.push_back(
+        fmt::format("the search of the weights ended after {} solves; the time limit on solving is {} s", found.size(),
+                    options.max_seconds));
   }
   report_miss("smoothness", how.smoothness, how.smoothness_range, "", search);
-  report_miss("time-price", how.time_price, how.time_price_range, kPriceUnit, search);
+  report_miss("time price", how.time_price, how.time_price_range, kPriceUnit, search);
 
   WeightedDwell chosen = std::move(found[search.chosen]);
   chosen.solver.iterations = sum.iterations;
@@ -130,18 +117,6 @@ WeightedDwell search_plan(PlanProblem& problem, const JobOptions& options, const
   chosen.solver.coarse_pairs = sum.coarse_pairs;
   chosen.solver.seconds = sum.seconds;
   return chosen;
-}
-
-std::string search_table_text(const PlanSearch& search) {
-  std::string text =
-      "smoothness,time_price_nm2_per_s,residual_rms_nm,total_s,step_rms_s,objective_nm2,operator_applications,chosen\n";
-  for (std::size_t k = 0; k < search.trials.size(); ++k) {
-    const PlanTrial& t = search.trials[k];
-    text += fmt::format("{},{},{},{},{},{},{},{}\n", t.weights.smoothness, t.weights.time_price,
-                        t.trade_off.residual_rms, t.trade_off.total, t.trade_off.step_rms, t.objective,
-                        t.operator_applications, k == search.chosen ? 1 : 0);
-  }
-  return text;
 }
 
 }  // namespace dwell

@@ -1,4 +1,4 @@
-#include "runs/job/weight_option.h"
+#include "solvers/weights/weight_option.h"
 
 #include <gtest/gtest.h>
 

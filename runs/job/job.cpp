@@ -1,0 +1,65 @@
+#include "runs/job/job.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+#include <variant>
+
+#include "core/base/errors.h"
+#include "core/base/whole_file.h"
+#include "core/map/aperture.h"
+#include "runs/job/input_files.h"
+
+namespace dwell {
+namespace {
+
+PathSpec required_path(const JobOptions& options) {
+  if (options.path.empty())
+    throw InputError("--path: required; for instance raster:pitch=1, nearest:cell=2 or file:path.csv");
+  return parse_path_spec(options.path);
+}
+
+/// Says besides with which flags a tool that does not fit is mended.
+void check_fits_with_flags(const RemovalFunction& tif, const Grid& map) {
+  try {
+    check_tool_fits(tif, map);
+  } catch (const InputError& error) {
+    const bool measured = tif.kind == RemovalFunction::Kind::Measured;
+    throw InputError(
+        fmt::format("{}: {} and --map-pixel", error.what(), measured ? "--tif-pixel" : "--tif (its radius)"));
+  }
+}
+
+}  // namespace
+
+DwellOptions dwell_options(const JobOptions& o) {
+  return {{o.min_dwell_s, o.max_feed_mm_per_min}, o.smoothness, o.time_price_nm2_per_s, o.solver, o.max_solve_s};
+}
+
+Job load_job(const JobOptions& options, const Progress& progress) {
+  Job job;
+  job.options = options;
+  HeightMap map = load_map(options, job.inputs, progress);
+  job.map_pixels = map.valid_pixels();
+  map = within(std::move(map), options.aperture);
+  progress.check();
+  RemovalFunction tif = load_removal_function(options, job.inputs);
+  check_fits_with_flags(tif, map.grid);
+  job.part = std::make_shared<const Part>(
+      make_part(std::move(map), std::move(tif), options.remove, options.threads, progress));
+  return job;
+}
+
+LaidPath lay_job_path(const Job& job, const Progress& progress) {
+  const double max_feed = dwell_options(job.options).machine.feed_limits().max_feed;
+  return lay_path(*job.part, required_path(job.options), job.options.motion, max_feed, progress);
+}
+
+std::optional<InputFile> path_input(const JobOptions& options) {
+  const PathSpec spec = required_path(options);
+  const auto* file = std::get_if<PathFromFile>(&spec);
+  if (!file) return std::nullopt;
+  return InputFile{"path", file->file.string(), sha256_of_file(file->file)};
+}
+
+}  // namespace dwell

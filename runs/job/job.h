@@ -1,0 +1,35 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "runs/base/input_file.h"
+#include "runs/job/job_options.h"
+#include "runs/plan/dwell_options.h"
+#include "runs/plan/laid_path.h"
+#include "runs/plan/part.h"
+
+namespace dwell {
+
+/// What a user asked for, with its files read: the values that a plan is made from. Copies share the part.
+struct Job {
+  JobOptions options;
+  std::vector<InputFile> inputs;  // all files read
+  Index map_pixels = 0;           // valid pixels of the map before the aperture
+  std::shared_ptr<const Part> part;
+};
+
+/// Reads map and removal function and makes the part; the path is not looked at. Throws InputError naming flag or file,
+/// Interrupted.
+Job load_job(const JobOptions& options, const Progress& progress = {});
+
+/// The path of a job, planned or read from its file, laid on the part. Throws InputError.
+LaidPath lay_job_path(const Job& job, const Progress& progress = {});
+/// The file that the path of these options comes from, if it does, with its hash.
+std::optional<InputFile> path_input(const JobOptions& options);
+
+/// What of the options the dwell and the machine depend on.
+DwellOptions dwell_options(const JobOptions& options);
+
+}  // namespace dwell

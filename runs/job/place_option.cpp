@@ -1,0 +1,44 @@
+#include "runs/job/place_option.h"
+
+#include <fmt/format.h>
+
+#include "core/base/errors.h"
+#include "core/base/number_text.h"
+
+namespace dwell {
+
+Point parse_point(const std::string& text) {
+  const auto fields = split(text, ',');
+  if (fields.size() == 2) {
+    const auto x = finite_number(fields[0]), y = finite_number(fields[1]);
+    if (x && y) return {*x, *y};
+  }
+  throw InputError(fmt::format("'{}'; required X,Y in mm, for instance -12.5,3", text));
+}
+
+std::string to_string(const Point& point) { return fmt::format("{},{}", point.x, point.y); }
+
+std::optional<TifCentre> parse_tif_centre(const std::string& text) {
+  if (text == "auto") return std::nullopt;
+  if (text == "middle") return TifCentre{TifCentre::Kind::Middle, {}};
+  if (text == "centroid") return TifCentre{TifCentre::Kind::Centroid, {}};
+  try {
+    return TifCentre{TifCentre::Kind::Given, parse_point(text)};
+  } catch (const InputError&) {
+    throw InputError(fmt::format("'{}'; accepted: auto, middle, centroid, or X,Y in mm", text));
+  }
+}
+
+std::string to_string(const std::optional<TifCentre>& centre) {
+  if (!centre) return "auto";
+  switch (centre->kind) {
+    case TifCentre::Kind::Middle:
+      return "middle";
+    case TifCentre::Kind::Centroid:
+      return "centroid";
+    default:
+      return to_string(centre->given);
+  }
+}
+
+}  // namespace dwell

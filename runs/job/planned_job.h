@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "runs/job/job.h"
+#include "runs/plan/dwell_plan.h"
+#include "runs/plan/laid_path.h"
+#include "runs/plan/machine_program.h"
+
+namespace dwell {
+
+/// A job and the values planned for it, before anything is written.
+struct PlannedJob {
+  Job job;
+  LaidPath laid;
+  DwellPlan dwell;
+  MachineProgram program;
+
+  const Part& part() const { return *job.part; }
+  /// Limits that were reached, one sentence each; not empty = exit code 3.
+  std::vector<std::string> limits() const;
+};
+
+/// Plans a job. Throws InputError for anything the user gave that cannot be used, Interrupted. Cost: the solver's
+/// operator applications dominate (docs/math.md).
+PlannedJob plan_job(const JobOptions& options, const Progress& progress = {});
+
+/// The same for a job that is loaded, on a path that is laid.
+PlannedJob plan_job(Job job, LaidPath laid, const Progress& progress = {});
+
+}  // namespace dwell

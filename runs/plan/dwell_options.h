@@ -1,0 +1,22 @@
+#pragma once
+
+#include "runs/plan/machine_limits.h"
+#include "solvers/problem/dwell_solver.h"
+#include "solvers/weights/weight_search.h"
+
+namespace dwell {
+
+/// How dwell times are to be found.
+struct DwellOptions {
+  MachineLimits machine;
+  WeightGoal smoothness{0.1};  // weight of smooth feed against residual, dimensionless
+  WeightGoal time_price{0.0};  // price of a second of machine time [nm^2/s]
+  SolverKind solver = SolverKind::Auto;
+  double max_seconds = 3600.0;  // wall clock for all solves together [s]; > 0
+};
+
+/// Whether an option leaves a weight to a search. Throws InputError where both weights are to be the largest that hold
+/// a residual: many pairs do, and none is the largest.
+bool weights_are_searched(const DwellOptions& options);
+
+}  // namespace dwell

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/form/map_statistics.h"
+#include "runs/plan/dwell_options.h"
+#include "runs/plan/laid_path.h"
+#include "runs/plan/part.h"
+#include "runs/plan/weight_trials.h"
+#include "solvers/problem/certificate.h"
+#include "solvers/problem/dwell_solver.h"
+
+namespace dwell {
+
+/// How long the tool dwells at every point of a laid path, and how good that answer is. Third of the four values of a
+/// plan.
+struct DwellPlan {
+  Weights weights;                     // given, or found by
+  std::optional<WeightTrials> search;  // nothing = both given
+  Vector seconds;                      // of every dwell point, in path order
+  double step_rms = 0.0;               // |D t| / sqrt(number of links) [s]
+  SolverSummary solver;
+  Certificate certificate;
+  MapStatistics residual;           // as the solver predicts, form terms removed
+  std::vector<std::string> limits;  // that were reached, one sentence each
+};
+
+/// Solves the dwell problem of a part and a path laid on it. Throws InputError for options that contradict each other
+/// (weights_are_searched), Interrupted, std::runtime_error if the solver fails. Cost: the solver's operator
+/// applications dominate (docs/math.md).
+DwellPlan find_dwell(const Part& part, const LaidPath& laid, const DwellOptions& options,
+                     const Progress& progress = {});
+
+}  // namespace dwell

@@ -1,0 +1,43 @@
+#include "runs/plan/part.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "core/base/errors.h"
+#include "core/base/threads.h"
+#include "core/form/form.h"
+
+namespace dwell {
+
+Part make_part(HeightMap map, RemovalFunction tif, const FormTerms& form, int threads, const Progress& progress) {
+  check_tool_fits(tif, map.grid);
+  Part part;
+  part.threads = thread_count(threads);
+  part.map = std::move(map);
+  part.form = form;
+  part.figure = without_form(part.map, form, part.threads);
+  progress.check();
+  part.before = map_statistics(part.figure, {}, part.threads);
+  const Grid& grid = part.map.grid;
+  progress.step(fmt::format("map: {} x {} pixels of {:.4g} mm, {} in the aperture, RMS {:.4g} nm", grid.rows, grid.cols,
+                            grid.pitch_x, part.before.valid_pixels, part.before.rms));
+  part.tif = std::move(tif);
+  part.kernel = removal_kernel(part.tif, grid.pitch_x, grid.pitch_y);
+  progress.check();
+  return part;
+}
+
+void check_tool_fits(const RemovalFunction& tif, const Grid& map) {
+  const double diameter = 2.0 * tif.radius;
+  if (!(diameter > map.width() && diameter > map.height())) return;
+  const bool measured = tif.kind == RemovalFunction::Kind::Measured;
+  throw InputError(fmt::format(
+      "removal function of {:.4g} mm diameter is larger than the map of {:.4g} x {:.4g} mm both ways; check {} and the "
+      "map's pixel pitch (it has {:.6g} mm)",
+      diameter, map.width(), map.height(),
+      measured ? fmt::format("its pixel pitch (it has {:.6g} mm)", tif.samples.grid.pitch_x) : "its radius",
+      map.pitch_x));
+}
+
+}  // namespace dwell

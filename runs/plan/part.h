@@ -1,0 +1,33 @@
+#pragma once
+
+#include "core/base/progress.h"
+#include "core/form/form_terms.h"
+#include "core/form/map_statistics.h"
+#include "core/map/height_map.h"
+#include "core/tif/removal_function.h"
+#include "core/tif/removal_kernel.h"
+
+namespace dwell {
+
+/// What is to be worked, and with what: the surface and the tool, before there is a path. First of the four values of a
+/// plan: Part -> LaidPath -> DwellPlan -> MachineProgram, each made by a function of values (docs/tree.md).
+struct Part {
+  HeightMap map;         // as measured, NaN = outside the part [nm]
+  FormTerms form;        // that the specification does not count
+  HeightMap figure;      // the map, form terms removed [nm]
+  MapStatistics before;  // of the figure
+  RemovalFunction tif;
+  RemovalKernel kernel;  // the removal function on the map's pixels
+  int threads = 1;       // that everything made from the part runs on
+};
+
+/// Makes a part of a map [nm] and a removal function [nm/s]. `threads` = 0 takes one for every processor. Throws
+/// InputError if the tool does not fit (check_tool_fits) or the map has no finite pixel, Interrupted. Cost: a few
+/// passes over the map.
+Part make_part(HeightMap map, RemovalFunction tif, const FormTerms& form, int threads = 0,
+               const Progress& progress = {});
+
+/// Throws InputError if the tool is wider than the map both ways: nearly always a wrong pitch or unit of length.
+void check_tool_fits(const RemovalFunction& tif, const Grid& map);
+
+}  // namespace dwell

@@ -1,0 +1,127 @@
+#include "runs/reports/plan_output.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/base/units.h"
+#include "core/base/version.h"
+#include "core/formats/map_io.h"
+#include "core/formats/npy.h"
+#include "core/removal/simulate.h"
+#include "runs/drawing/path_picture.h"
+#include "runs/drawing/picture.h"
+#include "runs/programs/gcode.h"
+#include "runs/programs/program_reader.h"
+#include "runs/reports/plan_summary.h"
+
+namespace dwell {
+namespace {
+
+void write_program(const PlannedJob& plan, const OutputFolder& folder) {
+  FeedTable table = plan.program.table;
+  table.version = version();
+  std::vector<std::string> header = {fmt::format("dwell {}", version())};
+  for (const InputFile& input : plan.job.inputs) {
+    table.inputs.emplace_back(input.role + " " + input.file, input.sha256);
+    header.push_back(fmt::format("input: {} {} sha256={}", input.role, input.file, input.sha256));
+  }
+  folder.write("feed.csv", feed_table_text(table));
+  GcodeOptions gcode;
+  gcode.dialect = plan.job.options.gcode;
+  gcode.lift_height_mm = plan.job.options.lift_height_mm;
+  gcode.max_feed_mm_per_min = table.max_feed_mm_per_min;
+  gcode.header = header;
+  folder.write("program.nc", gcode_text(program_of(table), gcode));
+}
+
+void write_pictures(const PlannedJob& plan, const HeightMap& after, const MapStatistics& left,
+                    const OutputFolder& folder) {
+  const std::string removed = to_string(plan.part().form);
+  folder.write("before.png",
+               map_picture(plan.part().figure, {fmt::format("Before: RMS {:.4g} nm, PV {:.4g} nm ({} removed)",
+                                                            plan.part().before.rms, plan.part().before.pv, removed),
+                                                "nm",
+                                                true,
+                                                {},
+                                                {}}));
+  folder.write("after.png",
+               map_picture(after, {fmt::format("After (simulated program): RMS {:.4g} nm, PV {:.4g} nm ({} removed)",
+                                               left.rms, left.pv, removed),
+                                   "nm",
+                                   true,
+                                   {},
+                                   {}}));
+  folder.write(
+      "dwell.png",
+      dwell_picture(plan.laid.path, plan.program.table.dwell_s,
+                    {fmt::format("Dwell: {} points, total {:.4g} s", plan.laid.path.size(), plan.dwell.seconds.sum()),
+                     "s",
+                     false,
+                     {},
+                     {}}));
+  const std::string path = fmt::format("Path: {}, {} points, {:.4g} mm, {} lifts", plan.laid.path.kind,
+                                       plan.laid.path.size(), plan.laid.metrics.length, plan.laid.metrics.lifts);
+  folder.write("path.png", path_picture(plan.part().figure, plan.laid.path, path));
+  folder.write("path_detail.png",
+               path_detail_picture(plan.part().figure, plan.laid.path, "Path, detail: " + plan.laid.path.kind));
+}
+
+bool differs(double a, double b, double tolerance) {
+  return !(std::abs(a - b) <= tolerance * std::max(std::abs(a), std::abs(b)));
+}
+
+/// feed.csv and program.nc are two writings of one program: they must remove the same. Where their steps differ by more
+/// than rounding, what the table removes is simulated as well, and a difference is a limit.
+void compare_with_table(const PlannedJob& plan, const Program& program, const Program& table, WrittenPlan& written) {
+  const Part& part = plan.part();
+  written.table_has_same_steps =
+      same_removing_steps(program, table, units::mm_per_s(plan.job.options.max_feed_mm_per_min));
+  if (written.table_has_same_steps) return;
+  const MapStatistics from_table = map_statistics(
+      surface_after(part.map, simulate(table, part.map, part.kernel, part.threads)), part.form, part.threads);
+  if (differs(written.simulated.rms, from_table.rms, 1e-3)) {
+    written.limits.push_back(
+        fmt::format("program.nc leaves {:.6g} nm RMS but feed.csv {:.6g} nm", written.simulated.rms, from_table.rms));
+  }
+}
+
+}  // namespace
+
+WrittenPlan write_plan(const PlannedJob& plan, const OutputFolder& folder, const Progress& progress) {
+  progress.report("write: feed table and program");
+  write_program(plan, folder);
+  progress.check();
+
+  progress.report("simulate: the program as read back from disk");
+  const Program program = read_program(folder.path("program.nc"));
+  WrittenPlan written;
+  written.limits = plan.limits();
+  written.residual = without_form(
+      surface_after(plan.part().map, simulate(program, plan.part().map, plan.part().kernel, plan.part().threads)),
+      plan.part().form, plan.part().threads);
+  written.simulated = map_statistics(written.residual, {}, plan.part().threads);
+  written.program_seconds = program.total_seconds();
+  if (differs(written.simulated.rms, plan.dwell.residual.rms, kSimulationTolerance)) {
+    written.limits.push_back(fmt::format("the simulated program leaves {:.4g} nm RMS, the solver expected {:.4g} nm",
+                                         written.simulated.rms, plan.dwell.residual.rms));
+  }
+  if (!(written.simulated.rms <= plan.part().before.rms)) {
+    written.limits.push_back(fmt::format("the program leaves more than there was: {:.4g} nm RMS, before {:.4g} nm",
+                                         written.simulated.rms, plan.part().before.rms));
+  }
+  compare_with_table(plan, program, program_of(read_feed_table(folder.path("feed.csv"))), written);
+  progress.check();
+
+  progress.report("write: pictures and arrays");
+  write_pictures(plan, written.residual, written.simulated, folder);
+  write_map(folder.path("residual.npy"), written.residual);
+  folder.write("dwell.npy", npy_bytes(std::span<const double>(plan.program.table.dwell_s)));
+  if (plan.dwell.search) folder.write("search.csv", write_trials(*plan.dwell.search));
+  written.summary = plan_summary_text(plan, written);
+  folder.write("summary.json", written.summary);
+  progress.check();
+  return written;
+}
+
+}  // namespace dwell
