@@ -11,7 +11,7 @@ namespace dwell::bench {
 namespace {
 
 constexpr double kTolerances[] = {1e-3, 1e-4, 1e-5, 1e-6};
-constexpr double kShortest = 2.0;  // a solve with less time than that would tell nothing [s]
+constexpr double kShortestProof = 2.0;  // a solve with less time than that would tell nothing [s]
 
 /// Whether the answer passes, by the certificate alone. The bounds have to hold exactly.
 bool certified(const nlohmann::json& run, double tolerance) {
@@ -22,7 +22,7 @@ bool certified(const nlohmann::json& run, double tolerance) {
          within("bound_violation", 0.0);
 }
 
-std::string in_words(const nlohmann::json& run) {
+std::string certificate_in_words(const nlohmann::json& run) {
   for (const char* why : {"killed", "refused", "skipped"}) {
     if (run.contains(why)) return run[why].get<std::string>();
   }
@@ -43,7 +43,7 @@ nlohmann::json run_certificates(const CertificateRunOptions& options, const Budg
       const double left = budget.left(share) - around;
       if (!go_on) {
         run = {{"skipped", "the one before was not reached"}};
-      } else if (left < kShortest) {
+      } else if (left < kShortestProof) {
         run = {{"skipped", "no time left"}};
       } else {
         run = solve_in_child({.scenario = options.scenario,
@@ -61,7 +61,7 @@ nlohmann::json run_certificates(const CertificateRunOptions& options, const Budg
       run.update(
           {{"scenario", options.scenario}, {"solver", to_string(kind)}, {"threads", 2}, {"tolerance", tolerance}});
       fmt::print("{:7.1f} s  {:18} {:14} to certificate {:g}: {}\n", budget.spent(), options.scenario, to_string(kind),
-                 tolerance, in_words(run));
+                 tolerance, certificate_in_words(run));
       std::fflush(stdout);
       all.push_back(std::move(run));
     }

@@ -12,12 +12,12 @@
 namespace dwell::bench {
 namespace {
 
-constexpr double kPitch = 0.1;  // [mm]
-constexpr double kRms = 100.0;  // of a made-up mirror [nm]
+constexpr double kMirrorPitch = 0.1;  // [mm]
+constexpr double kMirrorRms = 100.0;  // of a made-up mirror [nm]
 constexpr double kFwhmPerSigma = 2.3548200450309493;
 constexpr double kOverrun = 2.0;  // how far dwell points lie beyond the part [sigma]
 
-double sigma_of(Index n) { return static_cast<double>(n) / 50.0 * kPitch; }
+double sigma_of(Index n) { return static_cast<double>(n) / 50.0 * kMirrorPitch; }
 
 RemovalFunction gaussian(Index n) { return gaussian_removal(1.0, kFwhmPerSigma * sigma_of(n), 3.5 * sigma_of(n)); }
 
@@ -41,7 +41,7 @@ ToolPath lattice_path(const Grid& grid, Index step, double overrun, const std::f
 
 Parts square_mirror(Index n, Index step) {
   Parts p;
-  p.map = noise_mirror(n, kPitch, kRms, 1);
+  p.map = noise_mirror(n, kMirrorPitch, kMirrorRms, 1);
   p.tif = gaussian(n);
   p.path = lattice_path(p.map.grid, step, kOverrun * sigma_of(n), [](Point) { return true; });
   return p;
@@ -49,8 +49,8 @@ Parts square_mirror(Index n, Index step) {
 
 Parts ring_mirror(Index n, Index step) {
   Parts p;
-  p.map = noise_mirror(n, kPitch, kRms, 2);
-  const double outer = 0.5 * kPitch * static_cast<double>(n), inner = 0.25 * outer;
+  p.map = noise_mirror(n, kMirrorPitch, kMirrorRms, 2);
+  const double outer = 0.5 * kMirrorPitch * static_cast<double>(n), inner = 0.25 * outer;
   cut_ring(p.map, inner, outer);
   p.tif = gaussian(n);
   const double beyond = kOverrun * sigma_of(n);
@@ -77,8 +77,8 @@ ToolPath spiral_path(Index points, double radius) {
 
 Parts spiral_mirror(Index n, Index points) {
   Parts p;
-  p.map = noise_mirror(n, kPitch, kRms, 3);
-  const double outer = 0.5 * kPitch * static_cast<double>(n);
+  p.map = noise_mirror(n, kMirrorPitch, kMirrorRms, 3);
+  const double outer = 0.5 * kMirrorPitch * static_cast<double>(n);
   cut_ring(p.map, 0.0, outer);
   p.tif = gaussian(n);
   p.path = spiral_path(points, outer + kOverrun * sigma_of(n));
@@ -89,7 +89,7 @@ Parts spiral_mirror(Index n, Index points) {
 /// The spot of the example, skewed and off its middle, on its own pitch.
 Parts measured_spot(Index n, Index step) {
   Parts p;
-  p.map = noise_mirror(n, kPitch, kRms, 4);
+  p.map = noise_mirror(n, kMirrorPitch, kMirrorRms, 4);
   ExampleTifOptions spot;
   spot.fwhm = kFwhmPerSigma * sigma_of(n);
   spot.pitch = spot.fwhm / 24.0;

@@ -23,16 +23,16 @@
 namespace dwell::bench {
 namespace {
 
-constexpr double kPitch = 1.0;
+constexpr double kMicroPitch = 1.0;
 constexpr Index kLatticeStep = 4;      // a dwell point at every 4th pixel, both ways
 constexpr Index kLargestSparse = 256;  // the matrix of 512 pixels would fill the memory
 
-Grid square_grid(long size) { return Grid{size, size, kPitch, kPitch, {0.0, 0.0}}; }
+Grid square_grid(long size) { return Grid{size, size, kMicroPitch, kMicroPitch, {0.0, 0.0}}; }
 
 /// The Gaussian of the scenarios: sigma = size / 50 pixels, cut at 3.5 sigma.
 RemovalKernel gaussian_kernel(long size) {
-  const double sigma = static_cast<double>(size) / 50.0 * kPitch;
-  return removal_kernel(gaussian_removal(1.0, 2.3548200450309493 * sigma, 3.5 * sigma), kPitch, kPitch);
+  const double sigma = static_cast<double>(size) / 50.0 * kMicroPitch;
+  return removal_kernel(gaussian_removal(1.0, 2.3548200450309493 * sigma, 3.5 * sigma), kMicroPitch, kMicroPitch);
 }
 
 std::vector<Index> all_pixels(const Grid& grid) {
@@ -110,7 +110,7 @@ void time_nearest_path(benchmark::State& state, long edge) {
   RandomNumbers random(3);
   for (double& v : map.values) v = 1.0 + random.uniform();
   NearestOptions options;
-  options.cell = kPitch;
+  options.cell = kMicroPitch;
   for (auto _ : state) benchmark::DoNotOptimize(nearest_path(map, options).path.points.data());
 }
 

@@ -80,7 +80,7 @@ nlohmann::json run_case(const PlanCase& plan, int threads, double limit, const s
           {"step_rms", summary.at("dwell").at("step_rms_s")}};
 }
 
-std::string in_words(const nlohmann::json& result) {
+std::string plan_in_words(const nlohmann::json& result) {
   for (const char* why : {"failed", "skipped"}) {
     if (result.contains(why)) return fmt::format("{}: {}", why, result[why].get<std::string>());
   }
@@ -103,7 +103,8 @@ nlohmann::json run_plans(const PlanRunOptions& options, const Budget& budget) {
     nlohmann::json result = limit < 1.0 ? nlohmann::json{{"skipped", "no time left"}}
                                         : run_case(plan, options.threads, limit, scratch.path());
     result.update({{"name", plan.name}, {"what", plan.what}, {"size", plan.size}, {"threads", options.threads}});
-    fmt::print("{:7.1f} s  plan {:20} {} threads: {}\n", budget.spent(), plan.name, options.threads, in_words(result));
+    fmt::print("{:7.1f} s  plan {:20} {} threads: {}\n", budget.spent(), plan.name, options.threads,
+               plan_in_words(result));
     std::fflush(stdout);
     all.push_back(std::move(result));
   }

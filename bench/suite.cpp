@@ -21,7 +21,7 @@ struct Pass {
 constexpr Pass kPasses[] = {{0, 0.7}, {1, 0.9}, {0, 1.0}, {2, 1.0}};
 constexpr Pass kQuickPasses[] = {{0, 1.0}, {1, 1.0}};
 
-constexpr double kShortest = 1.0;  // a solve with less time than that is not worth its instance [s]
+constexpr double kShortestSolve = 1.0;  // a solve with less time than that is not worth its instance [s]
 
 struct Statistics {
   double median, fastest, slowest;
@@ -112,7 +112,7 @@ class Suite {
       if (pass.round < first_turn(entry) || entry.runs.size() + first_turn(entry) > pass.round) continue;
       if (pass.round > 0 && !worth_repeating(entry)) continue;
       const double left = budget_.left(pass.share) - around_[entry.scenario];
-      if (left < kShortest) continue;
+      if (left < kShortestSolve) continue;
       entry.runs.push_back(run_once(entry, left));
     }
   }

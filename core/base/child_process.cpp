@@ -23,9 +23,9 @@ namespace {
   throw std::runtime_error(fmt::format("cannot {}: {}", what, std::generic_category().message(errno)));
 }
 
-struct Descriptor {
+struct MemoryFile {
   int number;
-  ~Descriptor() { ::close(number); }
+  ~MemoryFile() { ::close(number); }
 };
 
 bool write_all(int descriptor, const char* bytes, std::size_t size) {
@@ -105,7 +105,7 @@ ChildAnswer::~ChildAnswer() {
 std::optional<ChildAnswer> output_of_child(const std::function<void(const AnswerSink&)>& work,
                                            const ChildLimits& limits) {
   // A file in memory rather than a pipe: the copy never waits for a reader, and the reader only for its end.
-  const Descriptor answer{::memfd_create("dwell", MFD_CLOEXEC)};
+  const MemoryFile answer{::memfd_create("dwell", MFD_CLOEXEC)};
   if (answer.number < 0) fail("make a file in memory");
   const pid_t child = ::fork();
   if (child < 0) fail("start a process");

@@ -15,6 +15,7 @@ struct Point {
   friend bool operator==(Point a, Point b) = default;
 };
 
+inline double dot(Point a, Point b) { return a.x * b.x + a.y * b.y; }
 inline double length(Point a) { return std::hypot(a.x, a.y); }
 inline double distance(Point a, Point b) { return length(a - b); }
 inline Point midpoint(Point a, Point b) { return 0.5 * (a + b); }

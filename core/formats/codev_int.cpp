@@ -15,7 +15,7 @@
 namespace dwell {
 namespace {
 
-constexpr char kComment = '!';
+constexpr char kCodevComment = '!';
 
 std::string_view first_word(std::string_view line) {
   line = trim(line);
@@ -25,7 +25,7 @@ std::string_view first_word(std::string_view line) {
 /// The line that says what the data are; false if there is none. The title before it may be missing.
 bool find_data_line(TextLines& lines) {
   for (int candidates = 0; candidates < 2 && lines.next();) {
-    if (lines.line().starts_with(kComment)) continue;
+    if (lines.line().starts_with(kCodevComment)) continue;
     ++candidates;
     const std::string_view word = first_word(lines.line());
     TextLines below = lines;  // a title may begin like a data line
@@ -140,7 +140,7 @@ MapSource parse_codev_int(std::string_view text, const std::string& where) {
   const double no_data = data.no_data.value_or(kDefaultNoData);
   const double nm = *data.wavelength_um * units::kNmPerUm / *data.scale;
   if (!std::isfinite(nm)) throw InputError(fmt::format("{}: WVL / SSZ is beyond any height", where));
-  TextWords words(lines, kComment);
+  TextWords words(lines, kCodevComment);
   MapSource source;
   source.rows = data.grid.rows;
   source.cols = data.grid.cols;

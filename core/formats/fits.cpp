@@ -65,12 +65,12 @@ class Keywords {
 };
 
 /// One axis as the keywords describe it.
-struct Axis {
+struct LinearAxis {
   double pitch = 0.0, origin = 0.0;  // [mm]
 };
 
 /// Nothing if it is not in a unit of length: the angles of the sky are no pitch.
-std::optional<Axis> axis(const Keywords& keywords, int number) {
+std::optional<LinearAxis> axis(const Keywords& keywords, int number) {
   const std::string n = std::to_string(number);
   const std::string unit = keywords.text("CUNIT" + n).value_or("");
   const auto* length = std::find_if(kLengths.begin(), kLengths.end(), [&](const Length& l) { return unit == l.name; });
@@ -90,7 +90,7 @@ std::optional<Axis> axis(const Keywords& keywords, int number) {
   if (!(*step > 0.0)) keywords.refuse(name, fmt::format("{}", *step), "a step > 0 is required");
   const double reference = keywords.number("CRPIX" + n).value_or(0.0);
   const double value = keywords.number("CRVAL" + n).value_or(0.0);
-  const Axis found{*step * length->mm, (value + (1.0 - reference) * *step) * length->mm};
+  const LinearAxis found{*step * length->mm, (value + (1.0 - reference) * *step) * length->mm};
   if (!std::isfinite(found.pitch) || !std::isfinite(found.origin)) {
     keywords.refuse(name, fmt::format("{}", *step), "a pitch and an origin that are finite in mm are required");
   }
@@ -99,7 +99,7 @@ std::optional<Axis> axis(const Keywords& keywords, int number) {
 
 MapHeader header_of(const Keywords& keywords) {
   MapHeader header;
-  const std::optional<Axis> x = axis(keywords, 1), y = axis(keywords, 2);
+  const std::optional<LinearAxis> x = axis(keywords, 1), y = axis(keywords, 2);
   if (x && y) {
     header.pitch = Point{x->pitch, y->pitch};
     header.origin = Point{x->origin, y->origin};

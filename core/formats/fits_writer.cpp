@@ -11,7 +11,7 @@
 namespace dwell {
 namespace {
 
-void require(int status, const char* what) {
+void require_success(int status, const char* what) {
   if (status != 0) throw std::runtime_error(fmt::format("CFITSIO cannot {}: {}", what, fits_message(status)));
 }
 
@@ -46,7 +46,7 @@ void write_header(fitsfile* file, const HeightMap& map) {
     fits_write_key_longstr(file, fmt::format("MADE{}", i + 1).c_str(), printable(map.history[i]).c_str(), nullptr,
                            &status);
   }
-  require(status, "write a header");
+  require_success(status, "write a header");
 }
 
 }  // namespace
@@ -59,18 +59,18 @@ std::string fits_bytes(const HeightMap& map) {
   FitsHandle file;
   int status = 0;
   fits_create_memfile(file.out(), &buffer, &size, kBlock, std::realloc, &status);
-  require(status, "make a file");
+  require_success(status, "make a file");
   long long axes[2] = {map.grid.cols, map.grid.rows};
   fits_create_imgll(file.get(), DOUBLE_IMG, 2, axes, &status);
-  require(status, "make an image");
+  require_success(status, "make an image");
   write_header(file.get(), map);
   fits_write_img(file.get(), TDOUBLE, 1, static_cast<LONGLONG>(map.values.size()),
                  const_cast<double*>(map.values.data()), &status);
   fits_flush_file(file.get(), &status);
   LONGLONG end = 0;
   fits_get_hduaddrll(file.get(), nullptr, nullptr, &end, &status);
-  require(status, "write an image");
-  require(file.close(), "finish a file");
+  require_success(status, "write an image");
+  require_success(file.close(), "finish a file");
   return {static_cast<const char*>(buffer), static_cast<std::size_t>(end)};
 }
 

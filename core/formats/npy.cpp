@@ -17,7 +17,7 @@
 namespace dwell {
 namespace {
 
-constexpr std::string_view kMagic = "\x93NUMPY";
+constexpr std::string_view kNpyMagic = "\x93NUMPY";
 
 /// A little-endian unsigned integer.
 std::size_t little_endian(std::string_view bytes) {
@@ -146,7 +146,7 @@ std::string header_bytes(const std::string& shape) {
   const std::size_t used = kBefore + dictionary.size() + 1;
   dictionary.append((kAlignment - used % kAlignment) % kAlignment, ' ');
   dictionary += '\n';
-  std::string bytes(kMagic);
+  std::string bytes(kNpyMagic);
   bytes += '\x01';
   bytes += '\0';
   bytes += static_cast<char>(dictionary.size() & 0xff);
@@ -167,7 +167,7 @@ void append_values(std::string& bytes, std::span<const double> values) {
 
 }  // namespace
 
-bool is_npy(std::string_view bytes) { return bytes.starts_with(kMagic); }
+bool is_npy(std::string_view bytes) { return bytes.starts_with(kNpyMagic); }
 
 MapSource parse_npy(std::string_view bytes, const std::string& where) {
   if (!is_npy(bytes)) throw InputError(fmt::format("{}: not an NPY file; it must begin with \\x93NUMPY", where));

@@ -13,15 +13,15 @@ namespace {
 
 constexpr double kPitchAgreement = 1e-3;  // a pitch typed with few digits (0.0938 for 0.09375 is 5e-4)
 
-struct Axis {
+struct Direction {
   char letter;
   double Point::*coordinate;
 };
 
-constexpr Axis kX{'x', &Point::x};
-constexpr Axis kY{'y', &Point::y};
+constexpr Direction kX{'x', &Point::x};
+constexpr Direction kY{'y', &Point::y};
 
-Lattice lattice_of(const std::vector<XyzPoint>& points, Axis axis, const std::optional<Point>& pitch,
+Lattice lattice_of(const std::vector<XyzPoint>& points, Direction axis, const std::optional<Point>& pitch,
                    const std::optional<Point>& origin) {
   std::vector<double> coordinates(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) coordinates[i] = points[i].position.*axis.coordinate;
@@ -32,7 +32,7 @@ Lattice lattice_of(const std::vector<XyzPoint>& points, Axis axis, const std::op
   return known;
 }
 
-void check_on_lattice(const std::vector<XyzPoint>& points, Axis axis, const Lattice& lattice,
+void check_on_lattice(const std::vector<XyzPoint>& points, Direction axis, const Lattice& lattice,
                       const std::string& where) {
   const XyzPoint* worst = &points.front();
   double worst_deviation = -1.0;
@@ -51,7 +51,7 @@ void check_on_lattice(const std::vector<XyzPoint>& points, Axis axis, const Latt
   }
 }
 
-void check_agreement(const Lattice& lattice, Axis axis, const std::optional<Point>& pitch,
+void check_agreement(const Lattice& lattice, Direction axis, const std::optional<Point>& pitch,
                      const std::optional<Point>& origin, const std::string& where, const std::string& name) {
   if (pitch && !(std::abs(*pitch.*axis.coordinate - lattice.pitch) <= kPitchAgreement * lattice.pitch)) {
     throw InputError(

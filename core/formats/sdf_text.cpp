@@ -18,12 +18,12 @@
 namespace dwell {
 namespace {
 
-constexpr char kComment = ';';          // of BCR
+constexpr char kBcrComment = ';';       // of BCR
 constexpr std::string_view kEnd = "*";  // of header, data and trailer
 constexpr double kMetresPerNm = 1e-9;
 constexpr double kMmPerMetre = 1e3;
 
-std::string_view without_comment(std::string_view line) { return trim(line.substr(0, line.find(kComment))); }
+std::string_view without_comment(std::string_view line) { return trim(line.substr(0, line.find(kBcrComment))); }
 
 /// The fields of the first record, by name in lower case.
 class SdfHeader {
@@ -153,7 +153,7 @@ MapSource parse_sdf_text(std::string_view text, const std::string& where) {
   if (!std::isfinite(nm) || !std::isfinite(pitch_x) || !std::isfinite(pitch_y)) {
     throw InputError(fmt::format("{}: Xscale, Yscale or Zscale is beyond any surface", where));
   }
-  TextWords words(lines, kComment);
+  TextWords words(lines, kBcrComment);
   MapSource source;
   source.rows = grid.rows;
   source.cols = grid.cols;

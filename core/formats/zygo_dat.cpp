@@ -17,7 +17,7 @@ namespace {
 
 using namespace std::string_view_literals;
 
-constexpr std::string_view kMagic = "\x88\x1b\x03"sv;  // one more byte tells the format
+constexpr std::string_view kZygoMagic = "\x88\x1b\x03"sv;  // one more byte tells the format
 constexpr std::int32_t kInvalid = 2147483640;
 
 std::uint32_t big_endian(std::string_view bytes) {
@@ -140,7 +140,7 @@ double height_factor(const Header& header) {
 
 }  // namespace
 
-bool is_zygo_dat(std::string_view bytes) { return bytes.starts_with(kMagic); }
+bool is_zygo_dat(std::string_view bytes) { return bytes.starts_with(kZygoMagic); }
 
 MapSource parse_zygo_dat(std::string_view bytes, const std::string& where) {
   const Header header(bytes, where);

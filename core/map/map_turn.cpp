@@ -5,30 +5,30 @@
 namespace dwell {
 namespace {
 
-bool exchanges_axes(Turn turn) {
-  return turn == Turn::Quarter || turn == Turn::ThreeQuarters || turn == Turn::Transpose;
+bool exchanges_axes(GridTurn turn) {
+  return turn == GridTurn::Quarter || turn == GridTurn::ThreeQuarters || turn == GridTurn::Transpose;
 }
 
 /// Linear index in `to` of the pixel that lies at (row, col) in `from`.
-Index target_of(Turn turn, const Grid& from, const Grid& to, Index row, Index col) {
+Index target_of(GridTurn turn, const Grid& from, const Grid& to, Index row, Index col) {
   switch (turn) {
-    case Turn::FlipX:
+    case GridTurn::FlipX:
       return to.index(row, from.cols - 1 - col);
-    case Turn::FlipY:
+    case GridTurn::FlipY:
       return to.index(from.rows - 1 - row, col);
-    case Turn::Quarter:
+    case GridTurn::Quarter:
       return to.index(col, from.rows - 1 - row);
-    case Turn::Half:
+    case GridTurn::Half:
       return to.index(from.rows - 1 - row, from.cols - 1 - col);
-    case Turn::ThreeQuarters:
+    case GridTurn::ThreeQuarters:
       return to.index(from.cols - 1 - col, row);
-    case Turn::Transpose:
+    case GridTurn::Transpose:
       return to.index(col, row);
   }
   return 0;
 }
 
-Grid turned_grid(const Grid& g, Turn turn, std::optional<Point> about) {
+Grid turned_grid(const Grid& g, GridTurn turn, std::optional<Point> about) {
   Grid result = exchanges_axes(turn) ? Grid{g.cols, g.rows, g.pitch_y, g.pitch_x, {}} : g;
   // About its middle, the origin of a map that keeps its axes stays to the last bit.
   if (!about && !exchanges_axes(turn)) return result;
@@ -40,26 +40,26 @@ Grid turned_grid(const Grid& g, Turn turn, std::optional<Point> about) {
 
 }  // namespace
 
-Point turned(Point p, Turn turn, Point about) {
+Point turned(Point p, GridTurn turn, Point about) {
   const Point d = p - about;
   switch (turn) {
-    case Turn::FlipX:
+    case GridTurn::FlipX:
       return about + Point{-d.x, d.y};
-    case Turn::FlipY:
+    case GridTurn::FlipY:
       return about + Point{d.x, -d.y};
-    case Turn::Quarter:
+    case GridTurn::Quarter:
       return about + Point{-d.y, d.x};
-    case Turn::Half:
+    case GridTurn::Half:
       return about - d;
-    case Turn::ThreeQuarters:
+    case GridTurn::ThreeQuarters:
       return about + Point{d.y, -d.x};
-    case Turn::Transpose:
+    case GridTurn::Transpose:
       return about + Point{d.y, d.x};
   }
   return p;
 }
 
-HeightMap turned(const HeightMap& map, Turn turn, std::optional<Point> about) {
+HeightMap turned(const HeightMap& map, GridTurn turn, std::optional<Point> about) {
   HeightMap result(turned_grid(map.grid, turn, about));
   for (Index row = 0; row < map.grid.rows; ++row) {
     for (Index col = 0; col < map.grid.cols; ++col) {

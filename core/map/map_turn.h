@@ -7,7 +7,7 @@
 namespace dwell {
 
 /// What can be done to a part without interpolation, seen with +x right and +y up.
-enum class Turn {
+enum class GridTurn {
   FlipX,          // x -> -x: left and right change places
   FlipY,          // y -> -y: bottom and top change places
   Quarter,        // by 90 degrees counter-clockwise: (x, y) -> (-y, x)
@@ -17,11 +17,11 @@ enum class Turn {
 };
 
 /// Where a point of the part comes to lie, x and y being counted from `about`.
-Point turned(Point p, Turn turn, Point about);
+Point turned(Point p, GridTurn turn, Point about);
 
 /// The map with the part turned about a point [mm]; by default about the middle of the map's pixel centres, so that the
 /// map stays where it is. Every height comes to lie where turned(Point) says, unchanged to the last bit, and so does
 /// NaN. Quarter turns and transpose exchange rows and columns, and the two pitches. Cost O(pixels).
-HeightMap turned(const HeightMap& map, Turn turn, std::optional<Point> about = std::nullopt);
+HeightMap turned(const HeightMap& map, GridTurn turn, std::optional<Point> about = std::nullopt);
 
 }  // namespace dwell

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/base/errors.h"
-#include "core/base/turn.h"
+#include "core/base/rotation.h"
 #include "core/numerics/spline_surface.h"
 
 namespace dwell {
@@ -44,7 +44,7 @@ HeightMap turned_by_90(const HeightMap& rates) {
 }
 
 /// The smallest grid about the axis that holds the samples' rectangle, turned.
-Grid grid_turned(const Grid& g, const Turn& turn) {
+Grid grid_turned(const Grid& g, const Rotation& turn) {
   const double pitch = std::min(g.pitch_x, g.pitch_y);
   double left = 0.0, right = 0.0, low = 0.0, high = 0.0;
   for (const double x : {g.x(0), g.x(g.cols - 1)}) {
@@ -76,7 +76,7 @@ bool removes_near(const HeightMap& rates, Point p) {
 }
 
 HeightMap turned(const HeightMap& rates, double angle) {
-  const Turn turn(angle);
+  const Rotation turn(angle);
   const Grid& g = rates.grid;
   HeightMap map = with_grid(rates, grid_turned(g, turn));
   const SplineSurface surface(g, rates.values);

@@ -4,15 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/base/errors.h"
+#include "core/base/numbers.h"
 #include "core/numerics/lower_envelope.h"
 
 namespace dwell {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 Index margin_nodes(double margin, double extent, double pitch) {
   return static_cast<Index>(std::ceil(std::min(margin, extent) / pitch));

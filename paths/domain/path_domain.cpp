@@ -4,15 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/base/errors.h"
+#include "core/base/numbers.h"
 
 namespace dwell {
 namespace {
 
 Box box_of_pixels(const HeightMap& map, const char* planner) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Box box{{kInfinity, kInfinity}, {-kInfinity, -kInfinity}};
   for (const Index i : finite_pixels(map)) {
     const Point p = map.grid.centre(i);

@@ -2,15 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <utility>
+
+#include "core/base/numbers.h"
 
 namespace dwell {
 namespace {
 
 constexpr std::int32_t kLeaf = 8;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 

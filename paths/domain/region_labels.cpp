@@ -7,12 +7,12 @@
 
 #include "core/base/errors.h"
 #include "core/map/nearest_pixel.h"
+#include "paths/domain/rounding.h"
 
 namespace dwell {
 namespace {
 
 constexpr double kMostPixels = 1e8;
-constexpr double kRounding = 1e-9;  // of the pixel pitch
 
 double longest(const std::vector<double>& reaches) { return *std::max_element(reaches.begin(), reaches.end()); }
 

@@ -4,18 +4,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "core/base/errors.h"
+#include "core/base/numbers.h"
+#include "core/base/point.h"
 #include "paths/domain/feed_direction.h"
+#include "paths/domain/rounding.h"
 
 namespace dwell {
 namespace {
 
 constexpr double kMaxPoints = 50e6;
-constexpr double kRounding = 1e-9;  // of a pitch: points exactly `overrun` away must not depend on rounding
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 void check(const LatticeOptions& o, double overrun, const char* planner) {
   const auto refuse = [&](const char* option, double value, const char* unit, const char* required) {
@@ -27,8 +27,6 @@ void check(const LatticeOptions& o, double overrun, const char* planner) {
   if (!std::isfinite(overrun)) refuse("overrun", overrun, " mm", "finite");
   if (!std::isfinite(o.angle_deg)) refuse("angle", o.angle_deg, " degrees", "finite");
 }
-
-double dot(Point a, Point b) { return a.x * b.x + a.y * b.y; }
 
 /// Bounding box of the valid pixel centres in the frame (along, across).
 Box turned_box(const HeightMap& map, const CellLattice& lattice, const char* planner) {

@@ -9,13 +9,13 @@
 
 #include "core/base/errors.h"
 #include "paths/domain/point_limit.h"
+#include "paths/domain/rounding.h"
 
 namespace dwell {
 namespace {
 
 constexpr double kStraight = 1e-6;  // bends by less than this [rad] do not end a leg
 constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kRounding = 1e-9;  // of a length or angle
 
 /// A place where the path bends or a piece begins or ends.
 struct Vertex {

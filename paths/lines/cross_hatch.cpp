@@ -12,21 +12,21 @@
 namespace dwell {
 namespace {
 
-constexpr const char* kName = "cross-hatch";
+constexpr const char* kCrossHatch = "cross-hatch";
 
 struct Pass {
   ScanFrame frame;
-  Ticks steps;
-  Ticks lines;
+  EvenPositions steps;
+  EvenPositions lines;
   double most_points;
 };
 
 Pass make_pass(const HeightMap& map, const ScanOptions& scan, const TurnOptions& turns) {
-  const ScanFrame frame = scan_frame(map, scan.angle_deg, kName);
-  const Ticks steps(frame.u, scan.overrun, scan.step);
-  const Ticks lines(frame.v, scan.overrun, scan.pitch);
+  const ScanFrame frame = scan_frame(map, scan.angle_deg, kCrossHatch);
+  const EvenPositions steps(frame.u, scan.overrun, scan.step);
+  const EvenPositions lines(frame.v, scan.overrun, scan.pitch);
   const double points = steps.count + most_points_on_arc(turns, scan.pitch, scan.step);
-  check_scan_size(scan, lines.count, points, kName);
+  check_scan_size(scan, lines.count, points, kCrossHatch);
   return {frame, steps, lines, lines.count * points};
 }
 
@@ -73,10 +73,11 @@ CrossHatchOptions parse_cross_hatch_options(const SpecText& spec) {
 ToolPath cross_hatch_path(const HeightMap& map, const CrossHatchOptions& options) {
   ScanOptions scan{options.pitch, options.step.value_or(options.pitch), options.angle_deg,
                    options.overrun.value_or(0.0)};
-  check_scan_options(scan, kName);
-  check_turn_options(options.turns, true, kName);
+  check_scan_options(scan, kCrossHatch);
+  check_turn_options(options.turns, true, kCrossHatch);
   if (!(options.crossing_deg > 0.0 && options.crossing_deg < 180.0)) {
-    throw InputError(fmt::format("{}: crossing = {} degrees; required > 0 and < 180", kName, options.crossing_deg));
+    throw InputError(
+        fmt::format("{}: crossing = {} degrees; required > 0 and < 180", kCrossHatch, options.crossing_deg));
   }
   const Pass first = make_pass(map, scan, options.turns);
   scan.angle_deg += options.crossing_deg;
@@ -85,11 +86,11 @@ ToolPath cross_hatch_path(const HeightMap& map, const CrossHatchOptions& options
     throw InputError(fmt::format(
         "{}: pitch = {} mm and step = {} mm make up to {:.3g} points in both passes; at most {:.0e} accepted, make "
         "pitch or step larger",
-        kName, scan.pitch, scan.step, first.most_points + second.most_points, kMaxPathPoints));
+        kCrossHatch, scan.pitch, scan.step, first.most_points + second.most_points, kMaxPathPoints));
   }
 
   ToolPath path;
-  path.kind = kName;
+  path.kind = kCrossHatch;
   append_lines(path, lines_of(map, first, scan.overrun), {}, options.turns);
   const ScanLines across = lines_of(map, second, scan.overrun);
   append_lines(path, across, order_from(path.points.back(), across), options.turns);

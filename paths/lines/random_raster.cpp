@@ -9,14 +9,14 @@
 #include "core/base/errors.h"
 #include "core/base/number_text.h"
 #include "paths/domain/dice.h"
+#include "paths/domain/rounding.h"
 #include "paths/lines/corner_rounding.h"
 #include "paths/lines/scan_lines.h"
 
 namespace dwell {
 namespace {
 
-constexpr const char* kName = "random-raster";
-constexpr double kRounding = 1e-9;                   // of the pitch, as in Ticks
+constexpr const char* kRandomRaster = "random-raster";
 constexpr double kLargestSeed = 9007199254740992.0;  // 2^53: up to here a double holds every whole number
 
 std::uint64_t parse_seed(const SpecText& spec) {
@@ -47,7 +47,7 @@ std::vector<double> draw_positions(const Interval& range, const RandomRasterOpti
     const double next = positions.back() + options.pitch * (1.0 + options.spread * (2.0 * share - 1.0));
     if (next > width + kRounding * options.pitch) break;
     positions.push_back(next);
-    check_scan_size(scan, static_cast<double>(positions.size()), points_a_line, kName);
+    check_scan_size(scan, static_cast<double>(positions.size()), points_a_line, kRandomRaster);
   }
   const double shift = 0.5 * (range.low + range.high) - 0.5 * positions.back();
   for (double& position : positions) position += shift;
@@ -73,20 +73,20 @@ RandomRasterOptions parse_random_raster_options(const SpecText& spec) {
 ToolPath random_raster_path(const HeightMap& map, const RandomRasterOptions& options) {
   const ScanOptions scan{options.pitch, options.step.value_or(options.pitch), options.angle_deg,
                          options.overrun.value_or(0.0)};
-  check_scan_options(scan, kName);
-  check_turn_options(options.turns, options.serpentine, kName);
+  check_scan_options(scan, kRandomRaster);
+  check_turn_options(options.turns, options.serpentine, kRandomRaster);
   if (!(options.spread >= 0.0 && options.spread < 1.0)) {
-    throw InputError(fmt::format("{}: spread = {} mm, {} of the pitch; required >= 0 and less than the pitch", kName,
-                                 options.spread * options.pitch, options.spread));
+    throw InputError(fmt::format("{}: spread = {} mm, {} of the pitch; required >= 0 and less than the pitch",
+                                 kRandomRaster, options.spread * options.pitch, options.spread));
   }
-  const ScanFrame frame = scan_frame(map, scan.angle_deg, kName);
-  const Ticks steps(frame.u, scan.overrun, scan.step);
+  const ScanFrame frame = scan_frame(map, scan.angle_deg, kRandomRaster);
+  const EvenPositions steps(frame.u, scan.overrun, scan.step);
   const double farthest = options.pitch * (1.0 + options.spread);
   const double points_a_line = steps.count + most_points_on_arc(options.turns, farthest, scan.step);
-  check_scan_size(scan, Ticks(frame.v, scan.overrun, scan.pitch).count, points_a_line, kName);
+  check_scan_size(scan, EvenPositions(frame.v, scan.overrun, scan.pitch).count, points_a_line, kRandomRaster);
 
   ToolPath path;
-  path.kind = kName;
+  path.kind = kRandomRaster;
   LinePositions lines(draw_positions(frame.v, options, scan, points_a_line));
   const Index count = lines.count();
   append_lines(path, ScanLines(map, frame, steps, std::move(lines), scan.overrun), {options.serpentine}, options.turns);

@@ -30,8 +30,8 @@ ToolPath raster_path(const HeightMap& map, const RasterOptions& options) {
   check_scan_options(scan, "raster");
   check_turn_options(options.turns, options.serpentine, "raster");
   const ScanFrame frame = scan_frame(map, scan.angle_deg, "raster");
-  const Ticks steps(frame.u, scan.overrun, scan.step);
-  const Ticks lines(frame.v, scan.overrun, scan.pitch);
+  const EvenPositions steps(frame.u, scan.overrun, scan.step);
+  const EvenPositions lines(frame.v, scan.overrun, scan.pitch);
   const double on_arc = most_points_on_arc(options.turns, scan.pitch, scan.step);
   check_scan_size(scan, lines.count, steps.count + on_arc, "raster");
 

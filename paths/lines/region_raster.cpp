@@ -7,19 +7,18 @@
 #include <limits>
 
 #include "core/base/errors.h"
+#include "core/base/point.h"
 #include "paths/domain/feed_direction.h"
+#include "paths/domain/rounding.h"
 #include "paths/lines/run_order.h"
 
 namespace dwell {
 namespace {
 
-constexpr double kRounding = 1e-9;        // of a lattice step
 constexpr double kMostPathPoints = 50e6;  // of any path
 
-double dot(Point a, Point b) { return a.x * b.x + a.y * b.y; }
-
 /// Equidistant positions.
-struct Ticks {
+struct RegionTicks {
   double first = 0.0;
   double step = 1.0;
   double count = 1.0;  // integral
@@ -31,20 +30,20 @@ struct Ticks {
 };
 
 /// As many as fit between two places, symmetric about their middle.
-Ticks symmetric_ticks(double low, double high, double step) {
+RegionTicks symmetric_ticks(double low, double high, double step) {
   const double count = std::floor((high - low) / step + kRounding) + 1.0;
   return {0.5 * (low + high) - 0.5 * step * (count - 1.0), step, count};
 }
 
 /// All between two places that are whole steps from the anchor; at least one.
-Ticks anchored_ticks(double low, double high, double step, double anchor) {
+RegionTicks anchored_ticks(double low, double high, double step, double anchor) {
   const double from = std::ceil((low - anchor) / step - kRounding);
   return {anchor + step * from, step, std::max(0.0, std::floor((high - anchor) / step + kRounding) - from) + 1.0};
 }
 
 struct Lattice {
   Point along, across;
-  Ticks steps, lines;
+  RegionTicks steps, lines;
 
   Point at(Index line, Index step) const { return steps.at(step) * along + lines.at(line) * across; }
 };

@@ -5,16 +5,14 @@
 #include <cmath>
 
 #include "core/base/errors.h"
+#include "core/base/point.h"
 #include "paths/domain/distance_map.h"
 #include "paths/domain/feed_direction.h"
 #include "paths/domain/point_limit.h"
+#include "paths/domain/rounding.h"
 
 namespace dwell {
 namespace {
-
-constexpr double kRounding = 1e-9;  // of a lattice step: points exactly `overrun` away must not depend on rounding
-
-double dot(Point a, Point b) { return a.x * b.x + a.y * b.y; }
 
 double smallest_gap(const LinePositions& lines, double step) {
   double least = step;
@@ -24,16 +22,16 @@ double smallest_gap(const LinePositions& lines, double step) {
 
 }  // namespace
 
-Ticks::Ticks(const Interval& range, double overrun, double tick)
+EvenPositions::EvenPositions(const Interval& range, double overrun, double tick)
     : middle(0.5 * (range.low + range.high)),
       step(tick),
       count(std::floor((range.high - range.low + 2.0 * overrun) / step + kRounding) + 1.0) {}
 
-Index Ticks::nearest(double v) const {
+Index EvenPositions::nearest(double v) const {
   return static_cast<Index>(std::clamp(std::floor((v - at(0)) / step + 0.5), 0.0, count - 1.0));
 }
 
-LinePositions::LinePositions(const Ticks& regular) : regular_(regular) {
+LinePositions::LinePositions(const EvenPositions& regular) : regular_(regular) {
   positions_.resize(static_cast<std::size_t>(regular.count));
   for (Index i = 0; i < count(); ++i) positions_[static_cast<std::size_t>(i)] = regular.at(i);
 }
@@ -93,7 +91,7 @@ void check_scan_size(const ScanOptions& options, double lines, double points, co
                   planner, options.pitch, options.step, lines, points, count, kMaxPathPoints));
 }
 
-ScanLines::ScanLines(const HeightMap& map, const ScanFrame& frame, const Ticks& steps, LinePositions lines,
+ScanLines::ScanLines(const HeightMap& map, const ScanFrame& frame, const EvenPositions& steps, LinePositions lines,
                      double overrun)
     : along_(frame.along),
       across_(frame.across),

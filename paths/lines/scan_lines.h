@@ -21,13 +21,13 @@ struct Interval {
 };
 
 /// Equidistant positions symmetric about the middle of an interval, as many as fit.
-struct Ticks {
+struct EvenPositions {
   double middle = 0.0;
   double step = 1.0;
   double count = 1.0;  // integral; a double so that an absurd one can be compared and reported
 
   /// Into the range widened by `overrun` on both sides.
-  Ticks(const Interval& range, double overrun, double tick);
+  EvenPositions(const Interval& range, double overrun, double tick);
   double at(Index i) const { return middle + step * (static_cast<double>(i) - 0.5 * (count - 1.0)); }
   Index nearest(double v) const;
 };
@@ -35,7 +35,7 @@ struct Ticks {
 /// The positions of parallel lines across their direction [mm], ascending.
 class LinePositions {
  public:
-  explicit LinePositions(const Ticks& regular);
+  explicit LinePositions(const EvenPositions& regular);
   /// At least one, strictly ascending.
   explicit LinePositions(std::vector<double> ascending) : positions_(std::move(ascending)) {}
 
@@ -45,7 +45,7 @@ class LinePositions {
   Index nearest(double v) const;
 
  private:
-  std::optional<Ticks> regular_;
+  std::optional<EvenPositions> regular_;
   std::vector<double> positions_;
 };
 
@@ -94,7 +94,8 @@ class ScanLines {
   };
 
   /// Cost O(pixels + points that are not wanted, less those a distance bound skips).
-  ScanLines(const HeightMap& map, const ScanFrame& frame, const Ticks& steps, LinePositions lines, double overrun);
+  ScanLines(const HeightMap& map, const ScanFrame& frame, const EvenPositions& steps, LinePositions lines,
+            double overrun);
 
   Index count() const { return lines_.count(); }
   const Run& run(Index line) const { return runs_[static_cast<std::size_t>(line)]; }
@@ -102,7 +103,7 @@ class ScanLines {
   /// The point at u along and v across [mm].
   Point place(double u, double v) const { return u * along_ + v * across_; }
   double position(Index line) const { return lines_.at(line); }
-  const Ticks& steps() const { return steps_; }
+  const EvenPositions& steps() const { return steps_; }
   /// Dwell points of all lines.
   std::size_t points() const;
 
@@ -111,7 +112,7 @@ class ScanLines {
   void include_within(const HeightMap& map, double overrun);
 
   Point along_, across_;
-  Ticks steps_;
+  EvenPositions steps_;
   LinePositions lines_;
   std::vector<Run> runs_;
 };

@@ -43,14 +43,17 @@ void append_arc_link(ToolPath& path, const ScanLines& lines, Index from, Index e
 
 TurnOptions parse_turn_options(const SpecText& spec) {
   const std::string turn = spec.choice("turn", {"square", "arc", "lift"});
-  return {turn == "arc" ? Turn::Arc : turn == "lift" ? Turn::Lift : Turn::Square, spec.number("corner", 0.0)};
+  return {turn == "arc"    ? Turnaround::Arc
+          : turn == "lift" ? Turnaround::Lift
+                           : Turnaround::Square,
+          spec.number("corner", 0.0)};
 }
 
 void check_turn_options(const TurnOptions& turns, bool serpentine, const char* planner) {
   if (!(std::isfinite(turns.corner) && turns.corner >= 0.0)) {
     throw InputError(fmt::format("{}: corner = {} mm; required finite and >= 0", planner, turns.corner));
   }
-  if (turns.turn == Turn::Arc && !serpentine) {
+  if (turns.turn == Turnaround::Arc && !serpentine) {
     throw InputError(
         fmt::format("{}: turn = arc with order = one-way, whose returns are lifted; required order = "
                     "serpentine, or turn = lift",
@@ -59,7 +62,7 @@ void check_turn_options(const TurnOptions& turns, bool serpentine, const char* p
 }
 
 double most_points_on_arc(const TurnOptions& turns, double distance, double step) {
-  return turns.turn == Turn::Arc ? points_on_arc(distance, step) : 0.0;
+  return turns.turn == Turnaround::Arc ? points_on_arc(distance, step) : 0.0;
 }
 
 void append_lines(ToolPath& path, const ScanLines& lines, const LineOrder& order, const TurnOptions& turns) {
@@ -75,9 +78,9 @@ void append_lines(ToolPath& path, const ScanLines& lines, const LineOrder& order
       gap = true;
       continue;
     }
-    const bool lifted = gap || !order.serpentine || turns.turn == Turn::Lift;
+    const bool lifted = gap || !order.serpentine || turns.turn == Turnaround::Lift;
     const Index start = backwards ? run.last : run.first;
-    if (!lifted && turns.turn == Turn::Arc) {
+    if (!lifted && turns.turn == Turnaround::Arc) {
       const ScanLines::Run& last = lines.run(before);
       append_arc_link(path, lines, before, backwards ? last.last : last.first, line, start, backwards ? 1 : -1);
     }

@@ -7,14 +7,14 @@
 namespace dwell {
 
 /// How a tool gets from the end of a line to the start of the next.
-enum class Turn {
+enum class Turnaround {
   Square,  // straight from end to start
   Arc,     // on a half circle outside the ends
   Lift,    // lifted
 };
 
 struct TurnOptions {
-  Turn turn = Turn::Square;
+  Turnaround turn = Turnaround::Square;
   double corner = 0.0;  // corners are rounded with this radius [mm] (rounded_corners); finite, >= 0; 0 = not
 };
 
@@ -38,11 +38,11 @@ struct LineOrder {
 /// Runs the lines one after the other, and appends them to the path. The first is entered lifted, as are lines before
 /// which some were left out for want of a wanted point, and all of them if the turn is Lift or not serpentine.
 ///
-/// Turn::Arc joins a line to the next by a half circle whose diameter is their distance, level with that of the two
-/// ends which lies farther out; the other line goes straight on up to there. Straight on, dwell points are the line's
-/// own positions; on the half circle they lie in the middles of equal parts of it, as near to the step as divides it
-/// but at least six, so that the tool turns by at most 30 degrees at a time and no move of a link is longer than 13/12
-/// of the step. A link goes beyond the ends of the two lines by half of their distance.
+/// Turnaround::Arc joins a line to the next by a half circle whose diameter is their distance, level with that of the
+/// two ends which lies farther out; the other line goes straight on up to there. Straight on, dwell points are the
+/// line's own positions; on the half circle they lie in the middles of equal parts of it, as near to the step as
+/// divides it but at least six, so that the tool turns by at most 30 degrees at a time and no move of a link is longer
+/// than 13/12 of the step. A link goes beyond the ends of the two lines by half of their distance.
 void append_lines(ToolPath& path, const ScanLines& lines, const LineOrder& order, const TurnOptions& turns);
 
 }  // namespace dwell

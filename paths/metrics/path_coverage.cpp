@@ -4,16 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "core/base/errors.h"
+#include "core/base/numbers.h"
+#include "paths/domain/rounding.h"
 
 namespace dwell {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kRounding = 1e-9;  // of the reach
 
 struct Interval {
   double low = kInfinity;

@@ -4,17 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "core/base/errors.h"
+#include "core/base/numbers.h"
 #include "paths/domain/point_tree.h"
+#include "paths/domain/rounding.h"
 
 namespace dwell {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kRounding = 1e-9;  // of a distance
 constexpr std::size_t kMaxPoints = 50'000'000;
 
 /// Where a point stands on the path.

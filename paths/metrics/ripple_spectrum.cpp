@@ -17,8 +17,8 @@ namespace {
 constexpr std::size_t kSectors = 36;
 constexpr std::size_t kMostPeaks = 8;
 constexpr double kLeastShare = 0.01;
-constexpr double kRounding = 1e-6;  // degrees: crests along x are at 90, not now at 90 and now at -90
-constexpr double kLobe = 2.5;       // half the main lobe of a Hann window is two frequencies wide
+constexpr double kDirectionRounding = 1e-6;  // degrees: crests along x are at 90, not now at 90 and now at -90
+constexpr double kLobe = 2.5;                // half the main lobe of a Hann window is two frequencies wide
 
 /// A spectrum of which parts can be taken out.
 struct Spectrum {
@@ -92,8 +92,8 @@ RipplePeak take_out(Spectrum& s, Index at_row, Index at_col, double mean_square)
   }
   const Point f = (1.0 / power) * centre;
   double direction = std::atan2(f.y, f.x) * 180.0 / std::numbers::pi;
-  if (direction > 90.0 + kRounding) direction -= 180.0;
-  if (direction <= -90.0 + kRounding) direction += 180.0;
+  if (direction > 90.0 + kDirectionRounding) direction -= 180.0;
+  if (direction <= -90.0 + kDirectionRounding) direction += 180.0;
   return {1.0 / length(f), direction, std::sqrt(power), power / mean_square};
 }
 

@@ -17,34 +17,36 @@ double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
 double angular_velocity(double rpm) { return 2.0 * std::numbers::pi * rpm / units::kSecondsPerMinute; }
 Point polar(double radius, double angle) { return {radius * std::cos(angle), radius * std::sin(angle)}; }
 
-[[noreturn]] void refuse(const char* option, double value, const char* unit, const std::string& required) {
+[[noreturn]] void refuse_texture(const char* option, double value, const char* unit, const std::string& required) {
   throw InputError(fmt::format("texture: {} = {}{}; required {}", option, value, unit, required));
 }
 
 void check_finite(const char* option, double value, const char* unit) {
-  if (!std::isfinite(value)) refuse(option, value, unit, "finite");
+  if (!std::isfinite(value)) refuse_texture(option, value, unit, "finite");
 }
 
 void check(const PlanetaryTool& tool, double step) {
   if (!(std::isfinite(tool.revolution_radius) && tool.revolution_radius >= 0.0)) {
-    refuse("revolution_radius", tool.revolution_radius, " mm", "finite and >= 0");
+    refuse_texture("revolution_radius", tool.revolution_radius, " mm", "finite and >= 0");
   }
   if (!(std::isfinite(tool.tool_radius) && tool.tool_radius > 0.0)) {
-    refuse("tool_radius", tool.tool_radius, " mm", "finite and > 0");
+    refuse_texture("tool_radius", tool.tool_radius, " mm", "finite and > 0");
   }
   if (!(tool.point_radius >= 0.0 && tool.point_radius <= tool.tool_radius)) {
-    refuse("point_radius", tool.point_radius, " mm", fmt::format(">= 0 and <= tool_radius = {} mm", tool.tool_radius));
+    refuse_texture("point_radius", tool.point_radius, " mm",
+                   fmt::format(">= 0 and <= tool_radius = {} mm", tool.tool_radius));
   }
   check_finite("revolution_rpm", tool.revolution_rpm, "");
   check_finite("spin_rpm", tool.spin_rpm, "");
   check_finite("revolution_deg", tool.revolution_deg, "");
   check_finite("spin_deg", tool.spin_deg, "");
-  if (!(std::isfinite(step) && step > 0.0)) refuse("step", step, " s", "finite and > 0");
+  if (!(std::isfinite(step) && step > 0.0)) refuse_texture("step", step, " s", "finite and > 0");
   const double fastest =
       std::max(std::abs(tool.revolution_rpm), std::abs(tool.revolution_rpm + tool.spin_rpm)) / units::kSecondsPerMinute;
   if (!(fastest * step <= 0.125 * (1.0 + 1e-9))) {
-    refuse("step", step, " s",
-           fmt::format("<= {:.6g} s, an eighth of a turn of what turns fastest over the part", 0.125 / fastest));
+    refuse_texture(
+        "step", step, " s",
+        fmt::format("<= {:.6g} s, an eighth of a turn of what turns fastest over the part", 0.125 / fastest));
   }
 }
 
@@ -92,9 +94,9 @@ TextureTrack texture_track(const std::vector<Stroke>& strokes, const Eigen::Vect
     total += times[j];
   }
   if (!(total / step < kMostPoints)) {
-    refuse("step", step, " s",
-           fmt::format("> {:.6g} s: the run takes {:.6g} s, at most 50 million points of the track",
-                       total / kMostPoints, total));
+    refuse_texture("step", step, " s",
+                   fmt::format("> {:.6g} s: the run takes {:.6g} s, at most 50 million points of the track",
+                               total / kMostPoints, total));
   }
   TextureTrack track;
   track.step = step;

@@ -9,6 +9,7 @@
 
 #include "core/base/errors.h"
 #include "paths/domain/cell_pyramid.h"
+#include "paths/domain/rounding.h"
 #include "paths/tours/spanning_tree.h"
 #include "paths/tours/tour_improvement.h"
 
@@ -16,7 +17,6 @@ namespace dwell {
 namespace {
 
 constexpr double kMaxCells = 50e6;
-constexpr double kRounding = 1e-9;  // of a cell
 
 void check(const NearestOptions& o, const Grid& grid) {
   const double pitch = std::max(grid.pitch_x, grid.pitch_y);

@@ -14,13 +14,13 @@
 namespace dwell {
 namespace {
 
-constexpr std::size_t kMaxPoints = 50'000'000;
+constexpr std::size_t kMaxTreePoints = 50'000'000;
 constexpr std::int32_t kMixed = -1;
 
 void check(const std::vector<Point>& points) {
   if (points.empty()) throw InputError("spanning tree: no points; at least one is required");
-  if (points.size() > kMaxPoints) {
-    throw InputError(fmt::format("spanning tree: {} points; at most {} accepted", points.size(), kMaxPoints));
+  if (points.size() > kMaxTreePoints) {
+    throw InputError(fmt::format("spanning tree: {} points; at most {} accepted", points.size(), kMaxTreePoints));
   }
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!(std::isfinite(points[i].x) && std::isfinite(points[i].y))) {

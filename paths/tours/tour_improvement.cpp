@@ -16,16 +16,16 @@ namespace {
 using City = TourArray::City;
 using Length = TourArray::Length;
 
-constexpr std::size_t kMaxPoints = 50'000'000;
+constexpr std::size_t kMaxTourPoints = 50'000'000;
 constexpr City kLongestKick = 50;    // cities of each of the two stretches
 constexpr int kDraws = 30;           // of a place for a kick
-constexpr double kRounding = 1e-12;  // of the length
-constexpr Index kAskEvery = 256;     // kicks
+constexpr double kDrift = 1e-12;     // of the length
+constexpr Index kKicksPerAsk = 256;  // kicks
 
 void check(const std::vector<Point>& points, const std::vector<Index>& order, const TourOptions& options) {
   if (points.empty()) throw InputError("tour: no points; at least one is required");
-  if (points.size() > kMaxPoints) {
-    throw InputError(fmt::format("tour: {} points; at most {} accepted", points.size(), kMaxPoints));
+  if (points.size() > kMaxTourPoints) {
+    throw InputError(fmt::format("tour: {} points; at most {} accepted", points.size(), kMaxTourPoints));
   }
   Point low = points.front(), high = points.front();
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -144,13 +144,13 @@ ImprovedTour improve_tour(const std::vector<Point>& points, const std::vector<In
   const Index budget = kicks.possible() ? options.kicks.value_or(static_cast<Index>(points.size())) : 0;
   while (result.kicks < budget && !stopped) {
     if (kicks.kick()) ++result.kicks_kept;
-    if (++result.kicks % kAskEvery == 0) stop();
+    if (++result.kicks % kKicksPerAsk == 0) stop();
   }
   result.moves = search.moves();
   result.stopped = stopped;
   for (const City city : tour.open_path()) result.order.push_back(order[static_cast<std::size_t>(city)]);
   result.length_after = tour_length(points, result.order);
-  if (!(result.length_before - result.length_after > kRounding * result.length_before)) {  // nothing gained but drift
+  if (!(result.length_before - result.length_after > kDrift * result.length_before)) {  // nothing gained but drift
     result.order = order;
     result.length_after = result.length_before;
   }

@@ -13,7 +13,7 @@ constexpr int kDepth = 5;
 constexpr std::array<std::size_t, kDepth> kBreadth{5, 3, 2, 1, 1};  // chains followed at each depth
 constexpr TourArray::City kLongestInsertion = 12;
 constexpr TourArray::City kReach = 50'000;  // cities reversed by one move: beyond it, moves cost more than they gain
-constexpr int kAskEvery = 1024;             // cities of the queue
+constexpr int kCitiesPerAsk = 1024;         // cities of the queue
 
 }  // namespace
 
@@ -82,7 +82,7 @@ bool TourSearch::shortest_possible(City city, Length move) const {
 
 TourSearch::Length TourSearch::run(bool forget, const std::function<bool()>& stop) {
   Length gained = 0;
-  int until_asked = kAskEvery;
+  int until_asked = kCitiesPerAsk;
   City city = 0;
   while (take_next(city)) {
     for (Length gain = improve(city); gain > 0; gain = improve(city)) {
@@ -91,7 +91,7 @@ TourSearch::Length TourSearch::run(bool forget, const std::function<bool()>& sto
     }
     if (forget) tour_.forget();
     if (--until_asked > 0) continue;
-    until_asked = kAskEvery;
+    until_asked = kCitiesPerAsk;
     if (stop && stop()) break;
   }
   return gained;

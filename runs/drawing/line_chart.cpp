@@ -10,14 +10,14 @@
 namespace dwell {
 namespace {
 
-constexpr Colour kInk{32, 32, 32}, kGrid{224, 224, 224}, kPaper{255, 255, 255};
-constexpr int kScale = 2;                                         // of the font
+constexpr Colour kChartInk{32, 32, 32}, kGrid{224, 224, 224}, kChartPaper{255, 255, 255};
+constexpr int kChartScale = 2;                                    // of the font
 constexpr int kHeight = 420;                                      // of the axes of a panel
 constexpr int kLeft = 120, kRight = 40, kTop = 60, kBottom = 76;  // around them
 constexpr int kKeyLine = 26, kKeyColumns = 4, kKeyWidth = 330;    // of the key
 constexpr std::size_t kMostKeys = 12;
 constexpr int kMostTicks = 7;
-constexpr double kMargin = 0.06;  // of the range of the logarithm, on either side
+constexpr double kChartMargin = 0.06;  // of the range of the logarithm, on either side
 
 /// The range of one axis.
 struct Range {
@@ -50,10 +50,10 @@ Range range_of(const ChartPanel& panel, double ChartPoint::*coordinate, AxisScal
   if (!(range.lower <= range.upper)) return {scale};
   if (scale == AxisScale::Linear) {
     const double size = std::max(std::abs(range.lower), std::abs(range.upper));
-    const double room = std::max({kMargin * (range.upper - range.lower), 1e-9 * size, 1e-300});
+    const double room = std::max({kChartMargin * (range.upper - range.lower), 1e-9 * size, 1e-300});
     return {scale, range.lower - room, range.upper + room};
   }
-  const double room = std::max(kMargin * std::log(range.upper / range.lower), 0.01);
+  const double room = std::max(kChartMargin * std::log(range.upper / range.lower), 0.01);
   return {scale, range.lower * std::exp(-room), range.upper * std::exp(room)};
 }
 
@@ -80,9 +80,9 @@ void shade_bands(Canvas& canvas, const Axes& axes, const std::vector<ChartBand>&
 void label_bands(Canvas& canvas, const Axes& axes, const std::vector<ChartBand>& bands) {
   for (const ChartBand& band : bands) {
     const int from = axes.column(band.from), room = axes.column(band.to) - from;
-    const int width = Canvas::text_width(band.label, kScale);
+    const int width = Canvas::text_width(band.label, kChartScale);
     if (width + 8 > room) continue;
-    canvas.text(from + (room - width) / 2, axes.top + 8, band.label, kScale, kInk);
+    canvas.text(from + (room - width) / 2, axes.top + 8, band.label, kChartScale, kChartInk);
   }
 }
 
@@ -92,24 +92,24 @@ void draw_frame(Canvas& canvas, const Axes& axes, const ChartPanel& panel) {
   for (std::size_t i = 0; i < x.values.size(); ++i) {
     const int at = axes.column(x.values[i]);
     canvas.line(at, axes.top, at, below, kGrid);
-    canvas.text(at - Canvas::text_width(x.labels[i], kScale) / 2, below + 12, x.labels[i], kScale, kInk);
+    canvas.text(at - Canvas::text_width(x.labels[i], kChartScale) / 2, below + 12, x.labels[i], kChartScale, kChartInk);
   }
   const Ticks y = axes.y.ticks();
   for (std::size_t i = 0; i < y.values.size(); ++i) {
     const int at = axes.row(y.values[i]);
     canvas.line(axes.left, at, axes.left + axes.width, at, kGrid);
-    canvas.text(axes.left - 10 - Canvas::text_width(y.labels[i], kScale), at - Canvas::text_height(kScale) / 2,
-                y.labels[i], kScale, kInk);
+    canvas.text(axes.left - 10 - Canvas::text_width(y.labels[i], kChartScale),
+                at - Canvas::text_height(kChartScale) / 2, y.labels[i], kChartScale, kChartInk);
   }
-  canvas.frame(axes.left, axes.top, axes.width, kHeight, 1, kInk);
-  canvas.text(axes.left + (axes.width - Canvas::text_width(panel.x_label, kScale)) / 2, below + 42, panel.x_label,
-              kScale, kInk);
-  canvas.text_upwards(axes.left - kLeft + 16, axes.top + (kHeight + Canvas::text_width(panel.y_label, kScale)) / 2,
-                      panel.y_label, kScale, kInk);
+  canvas.frame(axes.left, axes.top, axes.width, kHeight, 1, kChartInk);
+  canvas.text(axes.left + (axes.width - Canvas::text_width(panel.x_label, kChartScale)) / 2, below + 42, panel.x_label,
+              kChartScale, kChartInk);
+  canvas.text_upwards(axes.left - kLeft + 16, axes.top + (kHeight + Canvas::text_width(panel.y_label, kChartScale)) / 2,
+                      panel.y_label, kChartScale, kChartInk);
 }
 
 void draw_point(Canvas& canvas, int x, int y, bool marked, Colour colour) {
-  if (marked) canvas.fill_rectangle(x - 7, y - 7, 15, 15, kInk);
+  if (marked) canvas.fill_rectangle(x - 7, y - 7, 15, 15, kChartInk);
   const int half = marked ? 5 : 3;
   canvas.fill_rectangle(x - half, y - half, 2 * half + 1, 2 * half + 1, colour);
 }
@@ -167,14 +167,14 @@ void draw_key(Canvas& canvas, const std::vector<const ChartLine*>& keys, const s
     const int x = kLeft + static_cast<int>(k) % columns * column_width;
     const int y = top + static_cast<int>(k) / columns * kKeyLine;
     if (k == keys.size()) {
-      draw_point(canvas, x, y + 7, true, kPaper);
+      draw_point(canvas, x, y + 7, true, kChartPaper);
     } else if (keys[k]->dashed) {
       canvas.fill_rectangle(x - 12, y + 5, 10, 4, keys[k]->colour);
       canvas.fill_rectangle(x + 2, y + 5, 10, 4, keys[k]->colour);
     } else {
       canvas.fill_rectangle(x - 12, y + 5, 24, 4, keys[k]->colour);
     }
-    canvas.text(x + 22, y, k == keys.size() ? mark : keys[k]->label, kScale, kInk);
+    canvas.text(x + 22, y, k == keys.size() ? mark : keys[k]->label, kChartScale, kChartInk);
   }
 }
 
@@ -207,13 +207,13 @@ std::string draw_line_charts(const std::string& title, const std::string& mark, 
   const std::vector<const ChartLine*> keys = keys_of(panels);
   int panels_width = 0, key_width = kKeyWidth;
   for (const ChartPanel& panel : panels) panels_width += kLeft + panel.width + kRight;
-  for (const ChartLine* key : keys) key_width = std::max(key_width, 60 + Canvas::text_width(key->label, kScale));
+  for (const ChartLine* key : keys) key_width = std::max(key_width, 60 + Canvas::text_width(key->label, kChartScale));
   const int width = std::max({panels_width, kLeft + (panels_width > 0 ? 1 : kKeyColumns) * key_width,
-                              2 * kRight + Canvas::text_width(title, kScale)});
+                              2 * kRight + Canvas::text_width(title, kChartScale)});
   const int columns = std::max((width - kLeft) / key_width, 1);
   const int entries = static_cast<int>(keys.size()) + (mark.empty() ? 0 : 1), key_top = kTop + kHeight + kBottom + 10;
-  Canvas canvas(width, key_top + (entries + columns - 1) / columns * kKeyLine + 16, kPaper);
-  canvas.text(kRight, 20, title, kScale, kInk);
+  Canvas canvas(width, key_top + (entries + columns - 1) / columns * kKeyLine + 16, kChartPaper);
+  canvas.text(kRight, 20, title, kChartScale, kChartInk);
   int left = 0;
   for (const ChartPanel& panel : panels) {
     const Axes axes{left + kLeft, kTop, panel.width, range_of(panel, &ChartPoint::x, panel.x_scale),

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/base/errors.h"
+#include "core/base/numbers.h"
 #include "runs/drawing/plot_field.h"
 
 namespace dwell {
@@ -14,7 +15,6 @@ namespace {
 
 constexpr double kWidestSquare = 400.0;  // pixels; also the square of a point alone, which is drawn 1 mm wide
 constexpr double kOverlap = 1.75;        // side of a square over its spacing: closes the gaps of uneven paths
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // The dwell points that fall on one pixel.
 struct Seed {

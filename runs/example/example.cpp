@@ -5,16 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <limits>
-#include <numbers>
 
 #include "core/base/errors.h"
+#include "core/base/numbers.h"
 #include "runs/example/random_numbers.h"
 
 namespace dwell {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kLargestEdge = 4096.0;  // pixels
 constexpr int kModes = 400;
 constexpr double kHuge = 1e9;  // any length or amplitude beyond it is a slip of the pen

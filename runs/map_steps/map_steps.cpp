@@ -55,12 +55,12 @@ std::string placed(const HeightMap& map) {
 std::string run_flip(HeightMap& map, const MapStep& step, MapStepContext&) {
   const std::string axis = step.word("axis");
   if (axis != "x" && axis != "y") step.refuse(fmt::format("axis = '{}'; accepted: x or y", axis));
-  map = turned(map, axis == "x" ? Turn::FlipX : Turn::FlipY, step.point("about"));
+  map = turned(map, axis == "x" ? GridTurn::FlipX : GridTurn::FlipY, step.point("about"));
   return placed(map);
 }
 
 std::string run_transpose(HeightMap& map, const MapStep& step, MapStepContext&) {
-  map = turned(map, Turn::Transpose, step.point("about"));
+  map = turned(map, GridTurn::Transpose, step.point("about"));
   return placed(map);
 }
 
@@ -68,7 +68,7 @@ std::string run_rotate(HeightMap& map, const MapStep& step, MapStepContext& cont
   const double degrees = step.number("degrees");
   const double quarters = std::fmod(std::fmod(degrees / 90.0, 4.0) + 4.0, 4.0);
   if (quarters == std::floor(quarters)) {
-    constexpr Turn kTurns[] = {Turn::Quarter, Turn::Half, Turn::ThreeQuarters};
+    constexpr GridTurn kTurns[] = {GridTurn::Quarter, GridTurn::Half, GridTurn::ThreeQuarters};
     if (quarters > 0.0) map = turned(map, kTurns[static_cast<int>(quarters) - 1], step.point("about"));
     return "exact, " + placed(map);
   }

@@ -15,7 +15,7 @@ using Json = nlohmann::ordered_json;
 
 std::string wave(const std::optional<double>& w) { return w ? fmt::format("{:.4g} mm", *w) : "none"; }
 Json wave_json(const std::optional<double>& w) { return w ? Json(*w) : Json(nullptr); }
-Json number(double v) { return std::isfinite(v) ? Json(v) : Json(nullptr); }
+Json finite_or_null(double v) { return std::isfinite(v) ? Json(v) : Json(nullptr); }
 
 std::string spots_text(const SpotCalibration& c) {
   std::string text = fmt::format(
@@ -95,7 +95,7 @@ Json fit_json(const RemovalFit& f) {
     parameters.push_back({{"name", p.name},
                           {"unit", p.unit},
                           {"value", p.value},
-                          {"standard_error", number(p.error)},
+                          {"standard_error", finite_or_null(p.error)},
                           {"held", p.held}});
   }
   return {{"model", f.model},

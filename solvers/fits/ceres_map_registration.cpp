@@ -158,9 +158,9 @@ std::pair<HeightMap, Index> without_spikes(HeightMap map, int threads, const Pro
   return {std::move(map), spikes};
 }
 
-class Fit {
+class RegistrationFit {
  public:
-  Fit(const Pair& pair, const RegistrationOptions& options, int threads) : pair_(pair), threads_(threads) {
+  RegistrationFit(const Pair& pair, const RegistrationOptions& options, int threads) : pair_(pair), threads_(threads) {
     for (int k = 0; k < kParameters; ++k) {
       const bool is_free = k == kX || k == kY || (k == kAngle && options.rotation) || (k == kScale && options.scale) ||
                            (k >= kPiston && options.level);
@@ -278,7 +278,7 @@ MapRegistration register_maps(const HeightMap& moving, const HeightMap& fixed, c
   }
   std::vector<Index> pixels = enough_pixels(pair, q);
   if (options.level) start_level(pair, q, pixels);
-  Fit fit(pair, options, threads);
+  RegistrationFit fit(pair, options, threads);
   constexpr int kPasses = 10;
   for (int pass = 0; pass < kPasses; ++pass) {
     progress.step(fmt::format("registration: {} pixels, pass {}, RMS {:.4g} nm", pixels.size(), pass + 1,

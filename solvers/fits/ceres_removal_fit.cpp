@@ -20,7 +20,7 @@ namespace {
 constexpr std::size_t kOwn = 3;                 // x, y, peak come before the model's own parameters
 constexpr std::size_t kScreeningPixels = 4000;  // that the starts are tried on
 
-struct Sample {
+struct RateSample {
   Point place;
   double rate;
 };
@@ -29,7 +29,7 @@ struct Sample {
 /// square is the soft L1 loss.
 class ModelResiduals {
  public:
-  ModelResiduals(const RemovalModel& model, const std::vector<Sample>& samples, double blur, double scale)
+  ModelResiduals(const RemovalModel& model, const std::vector<RateSample>& samples, double blur, double scale)
       : model_(model), samples_(samples), blur_(blur), scale_(scale) {}
 
   bool operator()(double const* const* parameters, double* residuals) const {
@@ -51,14 +51,14 @@ class ModelResiduals {
 
  private:
   const RemovalModel& model_;
-  const std::vector<Sample>& samples_;
+  const std::vector<RateSample>& samples_;
   double blur_, scale_;
 };
 
 /// The fit of one model, from start to numbers.
-class Fit {
+class ModelFit {
  public:
-  Fit(const HeightMap& rates, const RemovalModel& model, const RemovalFitOptions& options)
+  ModelFit(const HeightMap& rates, const RemovalModel& model, const RemovalFitOptions& options)
       : rates_(rates), model_(model), blur_(std::max(rates.grid.pitch_x, rates.grid.pitch_y)) {
     for (const Index i : finite_pixels(rates))
       samples_.push_back({rates.grid.centre(i), rates.values[static_cast<std::size_t>(i)]});
@@ -151,7 +151,7 @@ class Fit {
   }
 
   /// The problem over one block of all parameters, which `values_` holds.
-  void build(ceres::Problem& problem, const std::vector<Sample>& samples, double scale) {
+  void build(ceres::Problem& problem, const std::vector<RateSample>& samples, double scale) {
     ceres::NumericDiffOptions steps;
     steps.relative_step_size = 1e-5;
     auto* cost = new ceres::DynamicNumericDiffCostFunction<ModelResiduals, ceres::CENTRAL>(
@@ -177,7 +177,7 @@ class Fit {
     }
   }
 
-  ceres::Solver::Summary minimise(const std::vector<Sample>& samples, double scale, int iterations) {
+  ceres::Solver::Summary minimise(const std::vector<RateSample>& samples, double scale, int iterations) {
     ceres::Problem problem;
     build(problem, samples, scale);
     ceres::Solver::Options options;
@@ -292,7 +292,7 @@ class Fit {
     fit.fitted = fit.residual = rates_;
     const std::vector<Index> pixels = finite_pixels(rates_);
     double square = 0.0, mean = 0.0, about_mean = 0.0;
-    for (const Sample& s : samples_) mean += s.rate / static_cast<double>(samples_.size());
+    for (const RateSample& s : samples_) mean += s.rate / static_cast<double>(samples_.size());
     for (std::size_t i = 0; i < pixels.size(); ++i) {
       const auto pixel = static_cast<std::size_t>(pixels[i]);
       fit.residual.values[pixel] = r[i];
@@ -326,7 +326,7 @@ class Fit {
   const RemovalModel& model_;
   double blur_;
   double scale_ = 0.0;  // of the robust loss; 0: least squares
-  std::vector<Sample> samples_, few_;
+  std::vector<RateSample> samples_, few_;
   std::vector<FittedParameter> parameters_;
   std::vector<double> values_, given_;  // given: NaN where not held by the user
   std::vector<std::vector<double>> starts_;
@@ -343,7 +343,7 @@ const FittedParameter& RemovalFit::at(const std::string& name) const {
 }
 
 RemovalFit fit_removal(const HeightMap& rates, const RemovalModel& model, const RemovalFitOptions& options) {
-  return Fit(rates, model, options).run(options.robust);
+  return ModelFit(rates, model, options).run(options.robust);
 }
 
 }  // namespace dwell

@@ -30,16 +30,16 @@ HeightMap averaged(const HeightMap& map, double pitch) {
   return coarse;
 }
 
-struct Sample {
+struct HeightSample {
   Point place;
   double height;
 };
 
 /// Mean square difference without its mean, or infinity for too little overlap.
-double mismatch(const std::vector<Sample>& samples, const PlaneTransform& forward, const HeightMap& fixed,
+double mismatch(const std::vector<HeightSample>& samples, const PlaneTransform& forward, const HeightMap& fixed,
                 double needed) {
   double sum = 0.0, squares = 0.0, count = 0.0;
-  for (const Sample& s : samples) {
+  for (const HeightSample& s : samples) {
     const Point p = forward(s.place);
     const double col = std::round((p.x - fixed.grid.origin.x) / fixed.grid.pitch_x);
     const double row = std::round((p.y - fixed.grid.origin.y) / fixed.grid.pitch_y);
@@ -66,7 +66,7 @@ RegistrationStart coarse_registration(const HeightMap& moving, const HeightMap& 
   const double pitch = std::max(std::sqrt(area), std::min(g.pitch_x, g.pitch_y));
   const HeightMap a = averaged(moving, pitch), b = averaged(fixed, pitch);
   const Point middle = middle_of(moving.grid);
-  std::vector<Sample> samples;
+  std::vector<HeightSample> samples;
   for (const Index i : finite_pixels(a)) samples.push_back({a.grid.centre(i), a.values[static_cast<std::size_t>(i)]});
   const double pixel_ratio = b.grid.pitch_x * b.grid.pitch_y / (a.grid.pitch_x * a.grid.pitch_y);
   const double needed = kStartOverlap * std::min(static_cast<double>(samples.size()),

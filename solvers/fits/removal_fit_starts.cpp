@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/numbers.h"
 #include "core/tif/removal_function.h"
 
 namespace dwell {
@@ -16,7 +17,6 @@ struct Moments {
 };
 
 Moments moments_of(const HeightMap& rates) {
-  constexpr double kPi = 3.14159265358979323846;
   const RemovalFunction tif = measured_removal(rates, {TifCentre::Kind::Given, {}});
   const Grid& g = tif.samples.grid;
   Moments m;

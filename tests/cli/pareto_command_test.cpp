@@ -12,6 +12,7 @@ namespace {
 
 using nlohmann::json;
 using test::expect_has;
+using test::names_in;
 using test::ProgramResult;
 using test::SmallInputs;
 
@@ -19,12 +20,6 @@ std::vector<std::string> pareto(const std::vector<std::string>& more = {}) {
   std::vector<std::string> words = SmallInputs::plan(more);
   words[0] = "pareto";
   return words;
-}
-
-std::set<std::string> names_in(const std::filesystem::path& folder) {
-  std::set<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) names.insert(entry.path().filename().string());
-  return names;
 }
 
 TEST(ParetoCommand, WritesTableAndPictureAndPrintsTheFront) {

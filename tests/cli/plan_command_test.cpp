@@ -11,14 +11,9 @@ namespace {
 
 using nlohmann::json;
 using test::expect_has;
+using test::names_in;
 using test::ProgramResult;
 using test::SmallInputs;
-
-std::set<std::string> names_in(const std::filesystem::path& folder) {
-  std::set<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) names.insert(entry.path().filename().string());
-  return names;
-}
 
 json summary_of(const SmallInputs& inputs) { return json::parse(read_whole_file(inputs / "plan/summary.json")); }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,6 +13,13 @@
 #include "tests/core/base/temporary_folder.h"
 
 namespace dwell::test {
+
+/// The names of what is in a folder.
+inline std::set<std::string> names_in(const std::filesystem::path& folder) {
+  std::set<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) names.insert(entry.path().filename().string());
+  return names;
+}
 
 /// A folder with a map and a spot as a user has them: plain matrices that say nothing of their pitch (0.5 mm).
 struct SmallInputs {

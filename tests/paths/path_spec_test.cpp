@@ -36,11 +36,11 @@ TEST(PathSpec, ParsesTurnarounds) {
   const auto turns = [](const std::string& text) {
     return std::get<RasterOptions>(parse_path_spec("raster:pitch=1" + text)).turns;
   };
-  EXPECT_EQ(turns("").turn, Turn::Square);
+  EXPECT_EQ(turns("").turn, Turnaround::Square);
   EXPECT_EQ(turns("").corner, 0.0);
-  EXPECT_EQ(turns(",turn=arc,corner=0.3").turn, Turn::Arc);
+  EXPECT_EQ(turns(",turn=arc,corner=0.3").turn, Turnaround::Arc);
   EXPECT_EQ(turns(",turn=arc,corner=0.3").corner, 0.3);
-  EXPECT_EQ(turns(",turn=lift").turn, Turn::Lift);
+  EXPECT_EQ(turns(",turn=lift").turn, Turnaround::Lift);
   EXPECT_EQ(parse_message("raster:pitch=1,turn=u"),
             "path \"raster:pitch=1,turn=u\": turn = \"u\"; accepted: square, arc, lift");
 }
@@ -53,7 +53,7 @@ TEST(PathSpec, ParsesCrossHatchAndRandomRaster) {
   EXPECT_EQ(cross.angle_deg, 30.0);
   EXPECT_EQ(cross.crossing_deg, 60.0);
   EXPECT_EQ(cross.overrun, 5.0);
-  EXPECT_EQ(cross.turns.turn, Turn::Arc);
+  EXPECT_EQ(cross.turns.turn, Turnaround::Arc);
   EXPECT_EQ(cross.turns.corner, 0.1);
   EXPECT_EQ(std::get<CrossHatchOptions>(parse_path_spec("cross-hatch:pitch=1")).crossing_deg, 90.0);
   const auto random = std::get<RandomRasterOptions>(parse_path_spec(
@@ -63,7 +63,7 @@ TEST(PathSpec, ParsesCrossHatchAndRandomRaster) {
   EXPECT_EQ(random.angle_deg, 30.0);
   EXPECT_EQ(random.overrun, 5.0);
   EXPECT_FALSE(random.serpentine);
-  EXPECT_EQ(random.turns.turn, Turn::Lift);
+  EXPECT_EQ(random.turns.turn, Turnaround::Lift);
   EXPECT_EQ(random.turns.corner, 0.1);
   EXPECT_EQ(random.seed, 7u);
   EXPECT_EQ(std::get<RandomRasterOptions>(parse_path_spec("random-raster:pitch=1")).seed, 1u);

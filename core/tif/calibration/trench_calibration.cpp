@@ -6,15 +6,15 @@
 #include <cmath>
 
 #include "core/base/errors.h"
-#include "core/base/turn.h"
+#include "core/base/rotation.h"
 #include "core/map/robust_plane.h"
 #include "core/tif/calibration/spot_finder.h"
 
 namespace dwell {
 namespace {
 
-constexpr double kRadiusInExtents = 2.25;
-constexpr double kRing = 1.6;
+constexpr double kTrenchRadiusInExtents = 2.25;
+constexpr double kTrenchRing = 1.6;
 
 /// A pixel in the frame of the track.
 struct TrackPixel {
@@ -66,7 +66,7 @@ std::vector<TrackPixel> in_track_frame(const HeightMap& depth, double direction)
     throw InputError(fmt::format("{} pixels with data; at least 100 are required for a trench", pixels.size()));
   }
   const Plane plane = robust_plane(depth, pixels, true);
-  const Turn turn(direction);
+  const Rotation turn(direction);
   std::vector<TrackPixel> result;
   for (const Index i : pixels) {
     const Point p = depth.grid.centre(i), q = turn.back(p);
@@ -147,7 +147,7 @@ void choose_stretch(const std::vector<TrackPixel>& pixels, TrenchCalibration& tr
 
 /// The mean cross-section over the stretch, less the line through its surroundings, times the feed.
 void cut_section(const std::vector<TrackPixel>& pixels, TrenchCalibration& trench, double pitch, double feed) {
-  const double outer = kRing * trench.radius;
+  const double outer = kTrenchRing * trench.radius;
   Bins across(trench.middle - outer, trench.middle + outer, pitch);
   for (const TrackPixel& p : pixels) {
     if (p.u >= trench.from && p.u <= trench.to) across.add(p.v, p.depth);
@@ -232,7 +232,7 @@ TrenchCalibration calibrate_trench(const HeightMap& depth, const TrenchOptions& 
   TrenchCalibration trench;
   double extent = 0.0;
   locate(pixels, pitch, trench, extent);
-  trench.radius = options.radius.value_or(kRadiusInExtents * extent);
+  trench.radius = options.radius.value_or(kTrenchRadiusInExtents * extent);
   choose_stretch(pixels, trench, pitch);
   cut_section(pixels, trench, pitch, options.feed);
   centre_section(trench, options.feed);

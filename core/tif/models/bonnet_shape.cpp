@@ -5,16 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numbers>
 #include <vector>
 
 #include "core/base/errors.h"
-#include "core/base/turn.h"
+#include "core/base/numbers.h"
+#include "core/base/rotation.h"
 
 namespace dwell {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 class Bonnet {
  public:
@@ -43,7 +41,7 @@ class Bonnet {
 
   double mean_speed(Point p) const {
     double sum = 0.0;
-    for (const Turn& turn : turns_) sum += speed(turn.back(p));
+    for (const Rotation& turn : turns_) sum += speed(turn.back(p));
     return sum / static_cast<double>(turns_.size());
   }
 
@@ -68,8 +66,8 @@ class Bonnet {
   }
 
   double radius_, exponent_, sine_, cosine_, height_;
-  std::vector<Turn> turns_;    // empty: all round
-  std::vector<double> round_;  // mean speed over r / a
+  std::vector<Rotation> turns_;  // empty: all round
+  std::vector<double> round_;    // mean speed over r / a
 };
 
 /// The largest value in the contact disc: the best of a polar grid, then steps in four directions, halved when none

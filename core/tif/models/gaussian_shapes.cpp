@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/base/turn.h"
+#include "core/base/rotation.h"
 
 namespace dwell {
 namespace {
@@ -15,7 +15,7 @@ constexpr double kReachInWidths = 1.5;  // exp(-9 ln 2) = 0.002 there
 }  // namespace
 
 RemovalShape elliptic_gaussian_shape(double fwhm_x, double fwhm_y, double angle) {
-  const Turn turn(angle);
+  const Rotation turn(angle);
   return {[=](Point p) {
             const Point q = turn.back(p);
             const double u = 2.0 * q.x / fwhm_x, v = 2.0 * q.y / fwhm_y;
@@ -30,7 +30,7 @@ RemovalShape super_gaussian_shape(double fwhm, double order) {
 }
 
 RemovalShape mrf_shape(double lead, double trail, double width, double angle) {
-  const Turn turn(angle);
+  const Rotation turn(angle);
   return {[=](Point p) {
             const Point q = turn.back(p);
             const double u = q.x / (q.x < 0.0 ? lead : trail), v = 2.0 * q.y / width;

@@ -6,15 +6,14 @@
 #include <array>
 #include <cmath>
 #include <memory>
-#include <numbers>
 #include <vector>
 
 #include "core/base/errors.h"
+#include "core/base/numbers.h"
 
 namespace dwell {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr int kPanels = 16;
 constexpr int kSteps = 512;
 constexpr std::array<double, 2> kNodes{0.3399810435848563, 0.8611363115940526};  // of Gauss-Legendre, 4 points

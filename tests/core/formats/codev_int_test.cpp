@@ -13,12 +13,12 @@
 namespace dwell {
 namespace {
 
-const std::string kWhere = "map a.int";
+const std::string kIntName = "map a.int";
 
 TEST(CodevInt, FirstRowOfTheFileHasTheLargestY) {
   // 3 columns, 2 rows; 0.6328 um and SSZ 2: 316.4 nm a unit. 32767 is no data unless NDA says another value.
-  const MapSource source =
-      parse_codev_int("! made by hand\n! twice\nA mirror\nGRD 3 2 SUR WVL 0.6328 SSZ 2\n1 2 3\n-4 32767\n6\n", kWhere);
+  const MapSource source = parse_codev_int(
+      "! made by hand\n! twice\nA mirror\nGRD 3 2 SUR WVL 0.6328 SSZ 2\n1 2 3\n-4 32767\n6\n", kIntName);
   EXPECT_EQ(source.rows, 2);
   EXPECT_EQ(source.cols, 3);
   ASSERT_EQ(source.values.size(), 6u);
@@ -34,7 +34,7 @@ TEST(CodevInt, FirstRowOfTheFileHasTheLargestY) {
 }
 
 TEST(CodevInt, ReadsWhatTheFieldsSay) {
-  const auto values = [](const std::string& text) { return parse_codev_int(text, kWhere).values; };
+  const auto values = [](const std::string& text) { return parse_codev_int(text, kIntName).values; };
   EXPECT_EQ(values("t\nGRD 1 1 SUR WVL 1 SSZ 4 NDA -9\n2\n"), std::vector<double>{500});
   EXPECT_EQ(values("t\r\nGRD 2 1 SUR NDA -9 SSZ -1 WVL 2 NNR XSC 1.0\r\n3\r\n32767"),
             (std::vector<double>{-6000, -65534000}));
@@ -46,7 +46,7 @@ TEST(CodevInt, ReadsWhatTheFieldsSay) {
 
 TEST(CodevInt, NamesWhatItRefuses) {
   const auto refused = [](const std::string& text, std::initializer_list<std::string> words) {
-    test::expect_input_error([&] { parse_codev_int(text, kWhere); }, words);
+    test::expect_input_error([&] { parse_codev_int(text, kIntName); }, words);
   };
   refused("", {"map a.int", "no Code V interferogram", "GRD"});
   refused("title\n1 2 3\nGRD 1 1 SUR WVL 1 SSZ 1\n1\n", {"no Code V interferogram"});

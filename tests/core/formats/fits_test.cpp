@@ -45,15 +45,15 @@ std::string big_endian(const std::vector<T>& values) {
   return bytes;
 }
 
-MapSource read(const std::string& bytes) { return parse_fits(bytes, "map a.fits"); }
+MapSource read_fits(const std::string& bytes) { return parse_fits(bytes, "map a.fits"); }
 
-const std::vector<double> kValues{1, 2, 3, 4, 5, 6};  // 2 rows, 3 columns
+const std::vector<double> kOneToSix{1, 2, 3, 4, 5, 6};  // 2 rows, 3 columns
 
 TEST(Fits, TheFirstRowIsTheSmallestY) {
-  const MapSource source = read(header(primary(-64, 3, 2)) + big_endian(kValues));
+  const MapSource source = read_fits(header(primary(-64, 3, 2)) + big_endian(kOneToSix));
   EXPECT_EQ(source.rows, 2);
   EXPECT_EQ(source.cols, 3);
-  EXPECT_EQ(source.values, kValues);
+  EXPECT_EQ(source.values, kOneToSix);
   EXPECT_FALSE(source.header.pitch || source.header.origin || source.header.unit);
 }
 
@@ -61,7 +61,7 @@ TEST(Fits, ReadsEveryTypeScaledWithItsBlank) {
   const std::vector<std::string> scaled{"BSCALE  =                  0.5", "BZERO   =                 10.0",
                                         "BLANK   =                    7"};
   const auto expect = [&](int bitpix, const std::string& data) {
-    const MapSource source = read(header(primary(bitpix, 3, 1, scaled)) + data);
+    const MapSource source = read_fits(header(primary(bitpix, 3, 1, scaled)) + data);
     EXPECT_EQ(source.values.at(0), 10.5) << bitpix;
     EXPECT_TRUE(std::isnan(source.values.at(1))) << bitpix;
     EXPECT_EQ(source.values.at(2), 60.0) << bitpix;
@@ -88,19 +88,19 @@ TEST(Fits, FindsTheFirstImageOfAMap) {
                                    fmt::format("NAXIS   = {:20}", sizes.size())};
     for (std::size_t i = 0; i < sizes.size(); ++i) cards.push_back(fmt::format("NAXIS{}  = {:20}", i + 1, sizes[i]));
     cards.insert(cards.end(), {"PCOUNT  =                    0", "GCOUNT  =                    1"});
-    return header(cards) + big_endian(kValues);
+    return header(cards) + big_endian(kOneToSix);
   };
-  EXPECT_EQ(read(empty + extension({6}) + extension({1, 3, 2}) + extension({3, 2, 1})).cols, 3);
+  EXPECT_EQ(read_fits(empty + extension({6}) + extension({1, 3, 2}) + extension({3, 2, 1})).cols, 3);
   test::expect_input_error(
       [&] {
-        read(empty + extension({6}) + extension({1, 3, 2}));
+        read_fits(empty + extension({6}) + extension({1, 3, 2}));
       },
       {"map a.fits", "no image of two axes"});
 }
 
 TEST(Fits, KnowsPitchOriginAndUnit) {
   const auto header_of = [&](const std::vector<std::string>& more) {
-    return read(header(primary(-64, 3, 2, more)) + big_endian(kValues)).header;
+    return read_fits(header(primary(-64, 3, 2, more)) + big_endian(kOneToSix)).header;
   };
   EXPECT_EQ(header_of({"PITCHMM =                 0.25"}).pitch, (Point{0.25, 0.25}));
   const std::vector<std::string> world{"CUNIT1  = 'mm'",  "CUNIT2  = 'um'",    "CDELT1  = 0.5",
@@ -118,14 +118,14 @@ TEST(Fits, KnowsPitchOriginAndUnit) {
 
 TEST(Fits, NamesTheKeywordOfWhatItRefuses) {
   const auto refused = [&](const std::vector<std::string>& more, std::initializer_list<std::string> words) {
-    test::expect_input_error([&] { read(header(primary(-64, 3, 2, more)) + big_endian(kValues)); }, words);
+    test::expect_input_error([&] { read_fits(header(primary(-64, 3, 2, more)) + big_endian(kOneToSix)); }, words);
   };
   refused({"PITCHMM = 0.0"}, {"map a.fits", "PITCHMM", "0", "> 0"});
   refused({"PITCHMM = 'wide'"}, {"PITCHMM", "a number is required"});
   refused({"CUNIT1  = 'mm'", "CDELT1  = -0.5"}, {"CDELT1", "-0.5", "> 0"});
   refused({"CUNIT1  = 'mm'", "CD1_1   = 0.5", "CD1_2   = 0.1"}, {"CD1_2", "0.1", "along x and y"});
-  test::expect_input_error([&] { read("1,2\n"); }, {"map a.fits", "not a FITS file"});
-  test::expect_input_error([&] { read(header(primary(-64, 300000, 200000))); }, {"map a.fits", "300000"});
+  test::expect_input_error([&] { read_fits("1,2\n"); }, {"map a.fits", "not a FITS file"});
+  test::expect_input_error([&] { read_fits(header(primary(-64, 300000, 200000))); }, {"map a.fits", "300000"});
 }
 
 TEST(Fits, WritesWhatItReadsBackEqual) {
@@ -142,23 +142,24 @@ TEST(Fits, WritesWhatItReadsBackEqual) {
 
 // CFITSIO reads whole blocks, whatever the memory holds behind the file's last byte.
 TEST(Fits, NeedsEveryNumberButNotTheFillAfterThem) {
-  const std::string whole = header(primary(-64, 3, 2)) + big_endian(kValues);
-  const std::size_t end = 2880 + 8 * kValues.size();
+  const std::string whole = header(primary(-64, 3, 2)) + big_endian(kOneToSix);
+  const std::size_t end = 2880 + 8 * kOneToSix.size();
   for (const std::size_t size : {whole.size() - 1, end + 1, end}) {
-    EXPECT_EQ(read(std::string(whole.data(), size)).values, kValues) << size;
+    EXPECT_EQ(read_fits(std::string(whole.data(), size)).values, kOneToSix) << size;
   }
   for (const std::size_t size : {end - 1, end - 8, std::size_t{2881}}) {
-    test::expect_input_error([&] { read(std::string(whole.data(), size)); }, {"map a.fits", "truncated"});
+    test::expect_input_error([&] { read_fits(std::string(whole.data(), size)); }, {"map a.fits", "truncated"});
   }
 }
 
 TEST(Fits, SurvivesTruncationAndDamage) {
   const std::string whole =
-      header(primary(16, 3, 2, {"BZERO   = 5.0", "CUNIT1  = 'mm'", "CDELT1  = 0.5"})) + big_endian(kValues);
+      header(primary(16, 3, 2, {"BZERO   = 5.0", "CUNIT1  = 'mm'", "CDELT1  = 0.5"})) + big_endian(kOneToSix);
   for (std::size_t size = 8; size < whole.size(); size += 61) {
-    test::expect_map_or_input_error([&] { return read(whole.substr(0, size)); }, "map a.fits", std::to_string(size));
+    test::expect_map_or_input_error([&] { return read_fits(whole.substr(0, size)); }, "map a.fits",
+                                    std::to_string(size));
   }
-  test::expect_survives_flips(whole, 800, 500, read, "map a.fits");
+  test::expect_survives_flips(whole, 800, 500, read_fits, "map a.fits");
 }
 
 }  // namespace

@@ -17,22 +17,22 @@ namespace {
 
 using test::Hdf5TestFile;
 
-MapSource read(const std::string& bytes) { return parse_hdf5(bytes, "map a.h5"); }
+MapSource read_hdf5(const std::string& bytes) { return parse_hdf5(bytes, "map a.h5"); }
 
-const std::vector<double> kValues{1.0, 2.0, 3.0, 4.0, 5.0, 6.0};
+const std::vector<double> kSixValues{1.0, 2.0, 3.0, 4.0, 5.0, 6.0};
 
 TEST(Hdf5Map, ReadsTheOnlyMatrixWithItsAttributes) {
   Hdf5TestFile file;
-  file.doubles("/run/before", {2, 3}, kValues);
+  file.doubles("/run/before", {2, 3}, kSixValues);
   file.doubles("/run/x", {3}, {1, 2, 3});  // not a matrix
   file.number("/run/before", "pitch_mm", {0.5, 0.25});
   file.number("/run/before", "origin_mm", {-1.5, 2.0});
   file.text("/run/before", "unit", "um", true);
   file.text("/run/before", "history", "read a\nand b");
-  const MapSource source = read(file.bytes());
+  const MapSource source = read_hdf5(file.bytes());
   EXPECT_EQ(source.rows, 2);
   EXPECT_EQ(source.cols, 3);
-  EXPECT_EQ(source.values, kValues);
+  EXPECT_EQ(source.values, kSixValues);
   EXPECT_EQ(source.header.pitch, (Point{0.5, 0.25}));
   EXPECT_EQ(source.header.origin, (Point{-1.5, 2.0}));
   EXPECT_EQ(source.header.unit, "um");
@@ -49,13 +49,13 @@ TEST(Hdf5Map, ReadsIntegersChunksAndFilters) {
   const std::vector<int> integers{1, -2, 3, 4, 5, -600};
   file.data_set("m", {2, 3}, integers, H5T_NATIVE_INT, H5T_STD_I16BE, packed);
   H5Pclose(packed);
-  EXPECT_EQ(read(file.bytes()).values, (std::vector<double>{1, -2, 3, 4, 5, -600}));
+  EXPECT_EQ(read_hdf5(file.bytes()).values, (std::vector<double>{1, -2, 3, 4, 5, -600}));
 }
 
 TEST(Hdf5Map, ListsTheMatricesOfAFileThatHoldsSeveral) {
   Hdf5TestFile file;
-  file.doubles("/before", {2, 3}, kValues);
-  file.doubles("/runs/after", {3, 2}, kValues);
+  file.doubles("/before", {2, 3}, kSixValues);
+  file.doubles("/runs/after", {3, 2}, kSixValues);
   H5Lcreate_hard(file.file(), "/before", file.file(), "/again", H5P_DEFAULT, H5P_DEFAULT);
   const test::TemporaryFolder folder;
   const std::string name = folder.file("a.h5", file.bytes()).string();
@@ -71,21 +71,21 @@ TEST(Hdf5Map, ListsTheMatricesOfAFileThatHoldsSeveral) {
 
 TEST(Hdf5Map, RefusesWhatIsNoMatrix) {
   Hdf5TestFile file;
-  file.doubles("/line", {6}, kValues);
-  file.doubles("/cube", {1, 2, 3}, kValues);
+  file.doubles("/line", {6}, kSixValues);
+  file.doubles("/cube", {1, 2, 3}, kSixValues);
   file.meta_data({{"a", "b", "c"}});
-  test::expect_input_error([&] { read(file.bytes()); }, {"map a.h5", "no two-dimensional data set"});
+  test::expect_input_error([&] { read_hdf5(file.bytes()); }, {"map a.h5", "no two-dimensional data set"});
   test::expect_input_error([&] { parse_hdf5_at(file.bytes(), "/cube", "map a"); }, {"'/cube'", "3 dimensions", "two"});
   test::expect_input_error([&] { parse_hdf5_at(file.bytes(), "/MetaData", "map a"); }, {"'/MetaData'", "1 dim"});
-  test::expect_input_error([&] { read("1,2\n"); }, {"map a.h5", "not an HDF5 file"});
+  test::expect_input_error([&] { read_hdf5("1,2\n"); }, {"map a.h5", "not an HDF5 file"});
 }
 
 TEST(Hdf5Map, NamesTheAttributeOfWhatItRefuses) {
   const auto refused = [](auto add, std::initializer_list<std::string> words) {
     Hdf5TestFile file;
-    file.doubles("/m", {2, 3}, kValues);
+    file.doubles("/m", {2, 3}, kSixValues);
     add(file);
-    test::expect_input_error([&] { read(file.bytes()); }, words);
+    test::expect_input_error([&] { read_hdf5(file.bytes()); }, words);
   };
   refused([](auto& f) { f.number("/m", "pitch_mm", {-0.5}); }, {"pitch_mm", "'/m'", "-0.5", "> 0"});
   refused([](auto& f) { f.number("/m", "pitch_mm", {1, 2, 3}); }, {"pitch_mm", "or two"});
@@ -101,10 +101,10 @@ TEST(Hdf5Map, RefusesSizesThatTheFileCannotHold) {
   H5Pset_chunk(chunked, 2, chunk);
   Hdf5TestFile sparse;  // nothing written: a few bytes that would become 8 GiB
   sparse.doubles("/m", {32768, 32768}, {}, chunked);
-  test::expect_input_error([&] { read(sparse.bytes()); }, {"map a.h5", "'/m'", "32768 x 32768", "1032"});
+  test::expect_input_error([&] { read_hdf5(sparse.bytes()); }, {"map a.h5", "'/m'", "32768 x 32768", "1032"});
   Hdf5TestFile late;
   late.doubles("/m", {4096, 4096}, {});
-  test::expect_input_error([&] { read(late.bytes()); }, {"4096 x 4096", "1032"});
+  test::expect_input_error([&] { read_hdf5(late.bytes()); }, {"4096 x 4096", "1032"});
   const hsize_t huge[2] = {16384, 16384};
   H5Pset_chunk(chunked, 2, huge);
   Hdf5TestFile one_chunk;
@@ -113,13 +113,13 @@ TEST(Hdf5Map, RefusesSizesThatTheFileCannotHold) {
   H5Dclose(H5Dcreate2(one_chunk.file(), "/m", H5T_IEEE_F64LE, space, H5P_DEFAULT, chunked, H5P_DEFAULT));
   H5Sclose(space);
   H5Pclose(chunked);
-  test::expect_input_error([&] { read(one_chunk.bytes()); }, {"'/m'", "chunks of 16384 x 16384"});
+  test::expect_input_error([&] { read_hdf5(one_chunk.bytes()); }, {"'/m'", "chunks of 16384 x 16384"});
 }
 
 TEST(Hdf5Map, ReadsNoOtherFile) {
   const test::TemporaryFolder folder;
   Hdf5TestFile other;
-  other.doubles("/m", {2, 3}, kValues);
+  other.doubles("/m", {2, 3}, kSixValues);
   const std::string target = folder.file("other.h5", other.bytes()).string();
   const std::string raw = folder.file("raw.bin", std::string(48, '\1')).string();
 
@@ -146,24 +146,24 @@ TEST(Hdf5Map, ReadsNoOtherFile) {
 }
 
 TEST(Hdf5Map, WritesTheSameBytesForTheSameMap) {
-  HeightMap map(Grid{2, 3, 0.1, 0.25, {-1.0, 2.0}}, kValues);
+  HeightMap map(Grid{2, 3, 0.1, 0.25, {-1.0, 2.0}}, kSixValues);
   map.history = {"read a.dat", std::string(300, 'x')};
   const std::string bytes = hdf5_map_bytes(map);
   EXPECT_EQ(hdf5_map_bytes(map), bytes);
   const MapSource source = parse_hdf5_at(bytes, "/map", "map a");
-  EXPECT_EQ(source.values, kValues);
+  EXPECT_EQ(source.values, kSixValues);
   EXPECT_EQ(source.header.unit, "nm");
   EXPECT_EQ(source.header.history, map.history);
 }
 
 TEST(Hdf5Map, SurvivesTruncationAndDamage) {
-  HeightMap map(Grid{2, 3, 0.1, 0.25, {-1.0, 2.0}}, kValues);
+  HeightMap map(Grid{2, 3, 0.1, 0.25, {-1.0, 2.0}}, kSixValues);
   map.history = {"one", "two"};
   const std::string whole = hdf5_map_bytes(map);
   for (std::size_t size = 8; size < whole.size(); size += 61) {
-    test::expect_map_or_input_error([&] { return read(whole.substr(0, size)); }, "map a.h5", std::to_string(size));
+    test::expect_map_or_input_error([&] { return read_hdf5(whole.substr(0, size)); }, "map a.h5", std::to_string(size));
   }
-  test::expect_survives_flips(whole, whole.size(), 150, read, "map a.h5");
+  test::expect_survives_flips(whole, whole.size(), 150, read_hdf5, "map a.h5");
 }
 
 }  // namespace

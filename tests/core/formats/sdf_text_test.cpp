@@ -13,7 +13,7 @@
 namespace dwell {
 namespace {
 
-const std::string kWhere = "map a.sdf";
+const std::string kSdfName = "map a.sdf";
 
 /// 3 points, 2 profiles, 10 x 250 um, heights in um, the fields in another order than the standard's.
 std::string file(const std::string& magic, const std::string& data = "1.5 bad -3\r\n4 5e-1 6\r\n*\r\n") {
@@ -30,7 +30,7 @@ std::string with(std::string text, const std::string& field, const std::string& 
   return text.replace(begin, text.find('\n', begin) + 1 - begin, line);
 }
 
-void expect_values(const MapSource& source, const std::vector<double>& expected) {
+void expect_equal_values(const MapSource& source, const std::vector<double>& expected) {
   ASSERT_EQ(source.values.size(), expected.size());
   for (std::size_t i = 0; i < expected.size(); ++i) {
     if (std::isnan(expected[i])) {
@@ -43,7 +43,7 @@ void expect_values(const MapSource& source, const std::vector<double>& expected)
 
 TEST(SdfText, FirstProfileHasTheSmallestYByIsoAndTheLargestByBcr) {
   for (const std::string magic : {"aISO-1.0", "aISO-2.0"}) {
-    const MapSource source = parse_sdf_text(file(magic), kWhere);
+    const MapSource source = parse_sdf_text(file(magic), kSdfName);
     EXPECT_EQ(source.rows, 2);
     EXPECT_EQ(source.cols, 3);
     ASSERT_TRUE(source.header.pitch.has_value());
@@ -51,29 +51,29 @@ TEST(SdfText, FirstProfileHasTheSmallestYByIsoAndTheLargestByBcr) {
     EXPECT_DOUBLE_EQ(source.header.pitch->y, 0.25);
     EXPECT_EQ(source.header.unit, "nm");
     EXPECT_FALSE(source.header.origin.has_value());
-    expect_values(source, {1500, NAN, -3000, 4000, 500, 6000});
+    expect_equal_values(source, {1500, NAN, -3000, 4000, 500, 6000});
   }
-  expect_values(parse_sdf_text(file("aBCR-1.0"), kWhere), {4000, 500, 6000, 1500, NAN, -3000});
+  expect_equal_values(parse_sdf_text(file("aBCR-1.0"), kSdfName), {4000, 500, 6000, 1500, NAN, -3000});
 }
 
 TEST(SdfText, ReadsTheCommentsAndWordsOfBcr) {
   std::string text = file("aBCR-1.0   ; first", "1 2 3 ; one\n ; two\n4 5 6\n* ; end\nOperator = someone\n*\n");
   text = with(with(with(text, "Compression", "compression = NULL ; or 0\n"), "CheckType", "CheckType=None\n"),
               "DataType", "DataType = INTEGER ; or 5\n");
-  expect_values(parse_sdf_text(text, kWhere), {4000, 5000, 6000, 1000, 2000, 3000});
+  expect_equal_values(parse_sdf_text(text, kSdfName), {4000, 5000, 6000, 1000, 2000, 3000});
 }
 
 TEST(SdfText, ReadsAProfileWithoutAYScale) {
   std::string text =
       with(with(file("aISO-1.0", "1 2 3\n*\n"), "NumProfiles", "NumProfiles = 1\n"), "Yscale", "Yscale = 0\n");
-  const MapSource source = parse_sdf_text(text, kWhere);
+  const MapSource source = parse_sdf_text(text, kSdfName);
   EXPECT_EQ(source.header.pitch, (Point{10.0e-6 * 1e3, 10.0e-6 * 1e3}));
-  expect_values(source, {1000, 2000, 3000});
+  expect_equal_values(source, {1000, 2000, 3000});
 }
 
 TEST(SdfText, NamesWhatItRefuses) {
   const auto refused = [](const std::string& text, std::initializer_list<std::string> words) {
-    test::expect_input_error([&] { parse_sdf_text(text, kWhere); }, words);
+    test::expect_input_error([&] { parse_sdf_text(text, kSdfName); }, words);
   };
   refused("", {"map a.sdf", "aISO-1.0"});
   refused(file("bISO-1.0"), {"'bISO-1.0'", "aISO-1.0", "export a binary one"});
@@ -106,7 +106,7 @@ TEST(SdfText, NamesWhatItRefuses) {
 }
 
 /// Nothing in it is symmetric.
-HeightMap asymmetric() {
+HeightMap asymmetric_map_with_history() {
   HeightMap map(Grid{3, 4, 0.1, 1.0 / 3.0, {-1.7, 0.3}});
   for (std::size_t i = 0; i < map.values.size(); ++i) map.values[i] = 1.0 / (static_cast<double>(i) + 3.0) - 0.2;
   map.at(0, 0) = NAN;
@@ -117,13 +117,13 @@ HeightMap asymmetric() {
 
 TEST(SdfText, ReadsBackEqualWithoutAnyOption) {
   const test::TemporaryFolder folder;
-  write_map(folder.path() / "a.sdf", asymmetric());
+  write_map(folder.path() / "a.sdf", asymmetric_map_with_history());
   EXPECT_EQ(folder.entries(), 1u);
   for (const std::string name : {"a.sdf", "a.txt"}) {  // the content, not the name, says what it is
     if (name != "a.sdf") std::filesystem::rename(folder.path() / "a.sdf", folder.path() / name);
     const HeightMap read = read_map(folder.path() / name);
-    test::expect_same_map(read, asymmetric());
-    EXPECT_EQ(read.history, asymmetric().history);
+    test::expect_same_map(read, asymmetric_map_with_history());
+    EXPECT_EQ(read.history, asymmetric_map_with_history().history);
   }
   const HeightMap column(Grid{3, 1, 0.5, 0.25, {1e3, 0.0}}, {NAN, 2.0, NAN});
   const HeightMap row(Grid{1, 3, 0.5, 0.25, {1e3, 0.0}}, {NAN, 2.0, NAN});

@@ -18,7 +18,7 @@ namespace {
 
 using test::ZygoDatFile;
 
-MapSource read(const std::string& bytes) { return parse_zygo_dat(bytes, "map a.dat"); }
+MapSource read_zygo_dat(const std::string& bytes) { return parse_zygo_dat(bytes, "map a.dat"); }
 
 ZygoDatFile variant(int format) {
   ZygoDatFile file;
@@ -32,7 +32,7 @@ ZygoDatFile variant(int format) {
 TEST(ZygoDat, TurnsTheTopRowIntoTheLargestYAndFringesIntoNanometres) {
   for (const int format : {1, 2, 3}) {
     const ZygoDatFile file = variant(format);
-    const MapSource source = read(file.bytes());
+    const MapSource source = read_zygo_dat(file.bytes());
     ASSERT_EQ(source.rows, 2);
     ASSERT_EQ(source.cols, 3);
     // 1.25 x 0.5 x 632.8 nm over 32768 numbers to a fringe, in float32 of the file
@@ -58,7 +58,7 @@ TEST(ZygoDat, KnowsEveryPhaseResolution) {
   for (const auto& [code, numbers] : {std::pair{0U, 4096.0}, {1U, 32768.0}, {2U, 131072.0}}) {
     ZygoDatFile file;
     file.phase_resolution = code;
-    EXPECT_NEAR(read(file.bytes()).values[3], 100 * fringe / numbers, 1e-7 * fringe) << code;
+    EXPECT_NEAR(read_zygo_dat(file.bytes()).values[3], 100 * fringe / numbers, 1e-7 * fringe) << code;
   }
 }
 
@@ -71,7 +71,7 @@ TEST(ZygoDat, SkipsTheIntensityWhateverItsSize) {
   ZygoDatFile absent;
   absent.intensity_bytes = 0;
   for (const ZygoDatFile& file : {none, one, absent}) {
-    EXPECT_EQ(read(file.bytes()).values[0], read(ZygoDatFile().bytes()).values[0]);
+    EXPECT_EQ(read_zygo_dat(file.bytes()).values[0], read_zygo_dat(ZygoDatFile().bytes()).values[0]);
   }
 }
 
@@ -94,7 +94,7 @@ TEST(ZygoDat, NamesFieldByteAndValueOfWhatItRefuses) {
   const auto refused = [](auto change, std::initializer_list<std::string> words) {
     ZygoDatFile file;
     change(file);
-    test::expect_input_error([&] { read(file.bytes()); }, words);
+    test::expect_input_error([&] { read_zygo_dat(file.bytes()); }, words);
   };
   const float infinite = std::numeric_limits<float>::infinity();
   refused([](auto& f) { f.magic = 0x881b0372; }, {"map a.dat", "0x881b0372", "byte 0", "0x881b0371, 3, 4096"});
@@ -121,17 +121,18 @@ TEST(ZygoDat, RefusesEveryTruncation) {
   for (const int format : {1, 3}) {
     const std::string whole = variant(format).bytes();
     for (std::size_t size = 3; size < whole.size(); ++size) {
-      test::expect_input_error([&] { read(whole.substr(0, size)); }, {"map a.dat", "truncated", std::to_string(size)});
+      test::expect_input_error([&] { read_zygo_dat(whole.substr(0, size)); },
+                               {"map a.dat", "truncated", std::to_string(size)});
     }
   }
 }
 
 TEST(ZygoDat, SurvivesDamage) {
-  test::expect_survives_flips(ZygoDatFile().bytes(), 834, 20000, read, "map a.dat");
-  test::expect_survives_flips(ZygoDatFile().bytes(), 10, 2000, read, "map a.dat");
+  test::expect_survives_flips(ZygoDatFile().bytes(), 834, 20000, read_zygo_dat, "map a.dat");
+  test::expect_survives_flips(ZygoDatFile().bytes(), 10, 2000, read_zygo_dat, "map a.dat");
 }
 
-// The file holds its pitch in single precision, and people type what they read.
+// The file holds its pitch in single precision, and people type what they read_zygo_dat.
 TEST(ZygoDat, AgreesWithAPitchAsItIsPrinted) {
   const test::TemporaryFolder folder;
   write_whole_file(folder.path() / "a.dat", ZygoDatFile().bytes());

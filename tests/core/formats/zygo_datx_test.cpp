@@ -49,9 +49,9 @@ struct Datx {
   }
 };
 
-MapSource read(const std::string& bytes) { return parse_hdf5(bytes, "map a.datx"); }
+MapSource read_datx(const std::string& bytes) { return parse_hdf5(bytes, "map a.datx"); }
 
-void expect_values(const MapSource& source, const std::vector<double>& expected) {
+void expect_close_values(const MapSource& source, const std::vector<double>& expected) {
   ASSERT_EQ(source.values.size(), expected.size());
   for (std::size_t i = 0; i < expected.size(); ++i) {
     EXPECT_EQ(std::isnan(source.values[i]), std::isnan(expected[i])) << i;
@@ -62,11 +62,11 @@ void expect_values(const MapSource& source, const std::vector<double>& expected)
 }
 
 TEST(ZygoDatx, TurnsTheTopRowIntoTheLargestYAndFringesIntoNanometres) {
-  const MapSource source = read(Datx().bytes());
+  const MapSource source = read_datx(Datx().bytes());
   EXPECT_EQ(source.rows, 2);
   EXPECT_EQ(source.cols, 3);
   const double fringe = 600 * 0.5 * 1.25;
-  expect_values(source, {4 * fringe, NAN, 0.5 * fringe, fringe, -2 * fringe, NAN});
+  expect_close_values(source, {4 * fringe, NAN, 0.5 * fringe, fringe, -2 * fringe, NAN});
   EXPECT_EQ(source.header.unit, "nm");
   ASSERT_TRUE(source.header.pitch.has_value());
   EXPECT_DOUBLE_EQ(source.header.pitch->x, 0.1);
@@ -77,9 +77,9 @@ TEST(ZygoDatx, TurnsTheTopRowIntoTheLargestYAndFringesIntoNanometres) {
 TEST(ZygoDatx, TakesFactorsFromTheConverterIfItMust) {
   Datx datx;
   datx.own_factors = false;
-  expect_values(read(datx.bytes()), read(Datx().bytes()).values);
+  expect_close_values(read_datx(datx.bytes()), read_datx(Datx().bytes()).values);
   datx.unit = "";
-  expect_values(read(datx.bytes()), read(Datx().bytes()).values);
+  expect_close_values(read_datx(datx.bytes()), read_datx(Datx().bytes()).values);
 }
 
 TEST(ZygoDatx, KnowsLengths) {
@@ -87,8 +87,8 @@ TEST(ZygoDatx, KnowsLengths) {
   datx.coordinates = false;
   for (const auto& [unit, nm] : {std::pair{"NanoMeters", 1.0}, {"MicroMeters", 1e3}, {"Meters", 1e9}}) {
     datx.unit = datx.base_unit = unit;
-    const MapSource source = read(datx.bytes());
-    expect_values(source, {4 * nm, NAN, 0.5 * nm, nm, -2 * nm, NAN});
+    const MapSource source = read_datx(datx.bytes());
+    expect_close_values(source, {4 * nm, NAN, 0.5 * nm, nm, -2 * nm, NAN});
     EXPECT_EQ(source.camera_pixel, Point{});
   }
 }
@@ -121,17 +121,17 @@ TEST(ZygoDatx, FollowsTheLinksToTheSurface) {
                                         {"{M}", "Surface", "{B}"},
                                         {"{B}", "Path", "/Data/Surface/{B}"},
                                         {"{A}", "Path", "/Data/Surface/{A}"}});
-  EXPECT_NEAR(read(linked).values[3], 7.0 * fringe, 1e-9);
+  EXPECT_NEAR(read_datx(linked).values[3], 7.0 * fringe, 1e-9);
   EXPECT_NEAR(parse_hdf5_at(linked, kPath, "map a").values[3], fringe, 1e-9) << "a path that is given counts for more";
-  test::expect_input_error([&] { read(file_with({})); }, {"map a.datx", "2 surfaces", "/Data/Surface/{A}"});
-  test::expect_input_error([&] { read(file_with({{"Root", "Measurement", "{M}"}})); }, {"2 surfaces"});
+  test::expect_input_error([&] { read_datx(file_with({})); }, {"map a.datx", "2 surfaces", "/Data/Surface/{A}"});
+  test::expect_input_error([&] { read_datx(file_with({{"Root", "Measurement", "{M}"}})); }, {"2 surfaces"});
 }
 
 TEST(ZygoDatx, NamesTheAttributeOfWhatItRefuses) {
   const auto refused = [](auto change, std::initializer_list<std::string> words) {
     Datx datx;
     change(datx);
-    test::expect_input_error([&] { read(datx.bytes()); }, words);
+    test::expect_input_error([&] { read_datx(datx.bytes()); }, words);
   };
   refused([](Datx& d) { d.unit = d.base_unit = "Waves"; }, {"map a.datx", "'Unit'", "Waves", "Fringes, NanoMeters"});
   refused([](Datx& d) { d.unit = "NanoMeters"; }, {"'Unit'", "NanoMeters", "'Z Converter' says Fringes"});
@@ -146,15 +146,16 @@ TEST(ZygoDatx, CountsWhatIsTooHighAsNoDataWhereTheFileDoesNotSay) {
   Datx datx;
   datx.no_data = false;
   datx.unit = datx.base_unit = "NanoMeters";
-  expect_values(read(datx.bytes()), {4, NAN, 0.5, 1, -2, NAN});
+  expect_close_values(read_datx(datx.bytes()), {4, NAN, 0.5, 1, -2, NAN});
 }
 
 TEST(ZygoDatx, SurvivesTruncationAndDamage) {
   const std::string whole = Datx().bytes();
   for (std::size_t size = 8; size < whole.size(); size += 61) {
-    test::expect_map_or_input_error([&] { return read(whole.substr(0, size)); }, "map a.datx", std::to_string(size));
+    test::expect_map_or_input_error([&] { return read_datx(whole.substr(0, size)); }, "map a.datx",
+                                    std::to_string(size));
   }
-  test::expect_survives_flips(whole, whole.size(), 150, read, "map a.datx");
+  test::expect_survives_flips(whole, whole.size(), 150, read_datx, "map a.datx");
 }
 
 /// The file of Mx 8.3.3 that comes with monolithic. Reference: read_zygo_datx of prysm's io.py (as for sample.dat),

@@ -12,7 +12,7 @@ namespace {
 using test::uneven_map;
 
 struct Case {
-  Turn turn;
+  GridTurn turn;
   // The matrix of the turn, written out by hand.
   double xx, xy, yx, yy;
 };
@@ -52,18 +52,20 @@ TEST_P(MapTurn, PutsEveryHeightWhereTheMatrixSaysAboutTheMiddleAndAboutAPoint) {
 }
 
 INSTANTIATE_TEST_SUITE_P(, MapTurn,
-                         testing::Values(Case{Turn::FlipX, -1, 0, 0, 1}, Case{Turn::FlipY, 1, 0, 0, -1},
-                                         Case{Turn::Quarter, 0, -1, 1, 0}, Case{Turn::Half, -1, 0, 0, -1},
-                                         Case{Turn::ThreeQuarters, 0, 1, -1, 0}, Case{Turn::Transpose, 0, 1, 1, 0}));
+                         testing::Values(Case{GridTurn::FlipX, -1, 0, 0, 1}, Case{GridTurn::FlipY, 1, 0, 0, -1},
+                                         Case{GridTurn::Quarter, 0, -1, 1, 0}, Case{GridTurn::Half, -1, 0, 0, -1},
+                                         Case{GridTurn::ThreeQuarters, 0, 1, -1, 0},
+                                         Case{GridTurn::Transpose, 0, 1, 1, 0}));
 
 TEST(MapTurns, ComposeToTheIdentity) {
   const HeightMap map = uneven_map();
-  for (const auto& [turn, times] : {std::pair{Turn::FlipX, 2}, {Turn::FlipY, 2}, {Turn::Half, 2}}) {
+  for (const auto& [turn, times] : {std::pair{GridTurn::FlipX, 2}, {GridTurn::FlipY, 2}, {GridTurn::Half, 2}}) {
     HeightMap result = map;
     for (int i = 0; i < times; ++i) result = turned(result, turn);
     test::expect_same_map(result, map);
   }
-  for (const auto& [turn, times] : {std::pair{Turn::Quarter, 4}, {Turn::ThreeQuarters, 4}, {Turn::Transpose, 2}}) {
+  for (const auto& [turn, times] :
+       {std::pair{GridTurn::Quarter, 4}, {GridTurn::ThreeQuarters, 4}, {GridTurn::Transpose, 2}}) {
     HeightMap result = map;
     for (int i = 0; i < times; ++i) result = turned(result, turn);
     EXPECT_LE(distance(result.grid.origin, map.grid.origin), 1e-14);

@@ -13,15 +13,15 @@
 namespace dwell {
 namespace {
 
-constexpr double kSlope = 0.8, kRadius = 3.0, kSpeed = 2.5;
+constexpr double kLineSlope = 0.8, kLineRadius = 3.0, kLineSpeed = 2.5;
 
 /// Equation 7: slope / speed times the integral of sqrt(x^2 + y^2) along the chord of the disc at y [nm].
 double line_profile(double y) {
   const double a = std::abs(y);
-  if (a >= kRadius) return 0.0;
-  const double s = std::sqrt(kRadius * kRadius - a * a);
-  const double inner = a > 0.0 ? a * a * (std::log(kRadius + s) - std::log(a)) : 0.0;
-  return kSlope / kSpeed * (kRadius * s + inner);
+  if (a >= kLineRadius) return 0.0;
+  const double s = std::sqrt(kLineRadius * kLineRadius - a * a);
+  const double inner = a > 0.0 ? a * a * (std::log(kLineRadius + s) - std::log(a)) : 0.0;
+  return kLineSlope / kLineSpeed * (kLineRadius * s + inner);
 }
 
 /// What the operator computes is the kernel's line integral: on a pixel, the profile's mean over the pixel (the
@@ -55,7 +55,8 @@ struct Lines {
 
   /// Removal at constant speed: every stroke takes its length over the speed.
   Vector removal(bool sparse) const {
-    const RemovalKernel kernel = removal_kernel(spinning_disc_removal(kSlope, kRadius), map.pitch_x, map.pitch_y);
+    const RemovalKernel kernel =
+        removal_kernel(spinning_disc_removal(kLineSlope, kLineRadius), map.pitch_x, map.pitch_y);
     const auto strokes = moving_strokes(path);
     std::unique_ptr<RemovalOperator> a;
     if (sparse) {
@@ -64,7 +65,7 @@ struct Lines {
       a = std::make_unique<ScatteredRemoval>(map, pixels, kernel, strokes, 1);
     }
     Vector t(a->cols()), result;
-    for (Index j = 0; j < t.size(); ++j) t[j] = strokes[static_cast<std::size_t>(j)].length() / kSpeed;
+    for (Index j = 0; j < t.size(); ++j) t[j] = strokes[static_cast<std::size_t>(j)].length() / kLineSpeed;
     a->apply(t, result);
     return result;
   }
@@ -81,11 +82,11 @@ TEST(LineRemoval, IsTheProfileOfTheClosedForm) {
         for (Index i = 0; i < lines.map.size(); ++i) {
           const double y = lines.map.centre(i).y - line;
           ASSERT_NEAR(removal[i], line_profile(y), tolerance(y, pitch)) << "y " << y << " pitch " << pitch;
-          if (std::abs(y) < 0.8 * kRadius) worst = std::max(worst, std::abs(removal[i] - line_profile(y)));
+          if (std::abs(y) < 0.8 * kLineRadius) worst = std::max(worst, std::abs(removal[i] - line_profile(y)));
         }
         // Away from the rim the error is of second order: h^2 / 24 times |Z''| < 5 Z(0) / R^2, and the disc's own
         // sampling.
-        EXPECT_LE(worst, (0.25 * pitch * pitch / (kRadius * kRadius) + 2e-3) * line_profile(0.0)) << pitch;
+        EXPECT_LE(worst, (0.25 * pitch * pitch / (kLineRadius * kLineRadius) + 2e-3) * line_profile(0.0)) << pitch;
       }
     }
   }
@@ -97,7 +98,7 @@ TEST(LineRemoval, TakesTheVolumeOfTheClosedForm) {
   double sum = 0.0;
   for (Index r = 0; r < 141; ++r) sum += removal[r * 5 + 2] * pitch;
   // The integral of the profile over y is the volume rate over the speed.
-  const double expected = 2.0 * std::acos(-1.0) / 3.0 * kSlope * std::pow(kRadius, 3) / kSpeed;
+  const double expected = 2.0 * std::acos(-1.0) / 3.0 * kLineSlope * std::pow(kLineRadius, 3) / kLineSpeed;
   EXPECT_NEAR(sum, expected, 1e-3 * expected);
 }
 

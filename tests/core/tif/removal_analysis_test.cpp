@@ -5,13 +5,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/numbers.h"
 #include "core/tif/models/removal_models.h"
 #include "tests/core/base/expect_error.h"
 
 namespace dwell {
 namespace {
 
-constexpr double kPi = std::numbers::pi, kLn2 = std::numbers::ln2;
+constexpr double kLn2 = std::numbers::ln2;
 
 RemovalAnalysis of(const std::string& text) {
   return analyse_removal(removal_samples(removal_of_spec(parse_spec_text(text, "tif"))));

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/base/numbers.h"
 #include "tests/core/base/expect_error.h"
 
 namespace dwell {
@@ -15,8 +16,6 @@ namespace {
 using test::expect_input_error;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kPi = std::numbers::pi;
 
 /// Integral over the plane of a rate that depends on the radius only, up to `radius`: midpoint rule.
 double volume_of(const std::function<double(double)>& rate, double radius) {

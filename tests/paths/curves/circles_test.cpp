@@ -17,7 +17,7 @@ using test::full_map;
 using test::kInf;
 using test::kNaN;
 
-CirclesOptions options(double pitch, double step, double overrun) {
+CirclesOptions circles_options(double pitch, double step, double overrun) {
   CirclesOptions o;
   o.pitch = pitch;
   o.step = step;
@@ -28,7 +28,7 @@ CirclesOptions options(double pitch, double step, double overrun) {
 TEST(Circles, OfADiscAreWholeAndLinkedAcrossARay) {
   const Point centre{3.0, -7.0};
   // One pixel widened by 4.6 mm: circles of radius 0.5, 1.5, 2.5, 3.5, 4.5 with step 0.8.
-  const ToolPath path = circles_path(full_map(1, 1, 0.1, 0.1, centre), options(1.0, 0.8, 4.6));
+  const ToolPath path = circles_path(full_map(1, 1, 0.1, 0.1, centre), circles_options(1.0, 0.8, 4.6));
   EXPECT_EQ(path.kind, "circles");
   EXPECT_TRUE(path.notes.empty());
   EXPECT_EQ(std::count(path.lifted.begin(), path.lifted.end(), 1), 1);
@@ -45,7 +45,7 @@ TEST(Circles, OfADiscAreWholeAndLinkedAcrossARay) {
 }
 
 TEST(Circles, StrokesOfADiscGoRoundEveryCircle) {
-  const ToolPath path = circles_path(full_map(1, 1, 0.1, 0.1, {0.5, 2.0}), options(1.0, 0.1, 6.0));
+  const ToolPath path = circles_path(full_map(1, 1, 0.1, 0.1, {0.5, 2.0}), circles_options(1.0, 0.1, 6.0));
   const std::vector<Stroke> strokes = moving_strokes(path);
   for (double angle = 0.01; angle < 6.28; angle += 0.137) {
     for (const double radius : {1.5, 5.5}) {
@@ -61,13 +61,13 @@ TEST(Circles, StrokesOfADiscGoRoundEveryCircle) {
 TEST(Circles, TurnAndDirection) {
   for (const test::Aperture& part : test::apertures()) {
     SCOPED_TRACE(part.name);
-    CirclesOptions o = options(0.9, 0.3, 1.0);
+    CirclesOptions o = circles_options(0.9, 0.3, 1.0);
     const ToolPath out = circles_path(part.map, o);
     o.from_edge = true;
     EXPECT_TRUE(test::reversed(out, circles_path(part.map, o)));
   }
   const Point centre{-6.0, 1.0};
-  CirclesOptions o = options(0.9, 0.3, 5.0);
+  CirclesOptions o = circles_options(0.9, 0.3, 5.0);
   const ToolPath left = circles_path(full_map(1, 1, 0.1, 0.1, centre), o);
   o.clockwise = true;
   const ToolPath right = circles_path(full_map(1, 1, 0.1, 0.1, centre), o);
@@ -85,7 +85,7 @@ TEST(Circles, HoldThePointsWithinReachAndNoOthers) {
     for (const Point shift : {Point{4.0, 3.0}, Point{-9.0, 3.0}, Point{20.0, 31.0}}) {
       SCOPED_TRACE(part.name);
       const double pitch = 0.8, step = 0.35, overrun = 0.65;
-      CirclesOptions o = options(pitch, step, overrun);
+      CirclesOptions o = circles_options(pitch, step, overrun);
       const Point centre = g.centre(0, 0) + shift;
       o.centre = centre;
       const ToolPath path = circles_path(part.map, o);
@@ -125,7 +125,7 @@ TEST(Circles, HoldThePointsWithinReachAndNoOthers) {
 TEST(Circles, CoverEveryPixelWhateverTheOverrun) {
   for (const test::Aperture& part : test::apertures()) {
     SCOPED_TRACE(part.name);
-    const ToolPath path = circles_path(part.map, options(1.1, 0.15, 0.0));
+    const ToolPath path = circles_path(part.map, circles_options(1.1, 0.15, 0.0));
     const std::vector<Stroke> strokes = moving_strokes(path);
     for (const Index i : finite_pixels(part.map)) {
       // The dwell points cut circles short by their sagitta, at most 0.15^2 / (8 * 0.55) mm.
@@ -135,7 +135,7 @@ TEST(Circles, CoverEveryPixelWhateverTheOverrun) {
 }
 
 TEST(Circles, SayHowManyAreBroken) {
-  const ToolPath path = circles_path(full_map(5, 9), options(1.0, 0.5, 0.0));
+  const ToolPath path = circles_path(full_map(5, 9), circles_options(1.0, 0.5, 0.0));
   ASSERT_EQ(path.notes.size(), 1u);
   EXPECT_NE(path.notes[0].find("circles are broken by the edge of the part and run in pieces"), std::string::npos);
 }
@@ -143,11 +143,11 @@ TEST(Circles, SayHowManyAreBroken) {
 TEST(Circles, RefuseBadOptions) {
   const HeightMap map = full_map(11, 7);
   const auto message = [&](const CirclesOptions& o) { return test::message_of([&] { circles_path(map, o); }); };
-  EXPECT_EQ(message(options(0.0, 1.0, 0.0)), "circles: pitch = 0 mm; required > 0");
-  EXPECT_EQ(message(options(1.0, kNaN, 0.0)), "circles: step = nan mm; required > 0");
-  EXPECT_EQ(message(options(1.0, 1.0, kInf)), "circles: overrun = inf mm; required finite and >= 0");
-  EXPECT_NE(message(options(1e-3, 1e-3, 0.0)).find("at most 5e+07 accepted"), std::string::npos);
-  EXPECT_NE(message(options(1.0, 1e-320, 0.0)).find("at most 5e+07 accepted"), std::string::npos);
+  EXPECT_EQ(message(circles_options(0.0, 1.0, 0.0)), "circles: pitch = 0 mm; required > 0");
+  EXPECT_EQ(message(circles_options(1.0, kNaN, 0.0)), "circles: step = nan mm; required > 0");
+  EXPECT_EQ(message(circles_options(1.0, 1.0, kInf)), "circles: overrun = inf mm; required finite and >= 0");
+  EXPECT_NE(message(circles_options(1e-3, 1e-3, 0.0)).find("at most 5e+07 accepted"), std::string::npos);
+  EXPECT_NE(message(circles_options(1.0, 1e-320, 0.0)).find("at most 5e+07 accepted"), std::string::npos);
 }
 
 }  // namespace

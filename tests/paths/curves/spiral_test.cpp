@@ -16,7 +16,7 @@ using test::full_map;
 using test::kInf;
 using test::kNaN;
 
-SpiralOptions options(double pitch, double step, double overrun) {
+SpiralOptions spiral_options(double pitch, double step, double overrun) {
   SpiralOptions o;
   o.pitch = pitch;
   o.step = step;
@@ -53,7 +53,7 @@ void expect_equal_arcs(const ToolPath& path, Point centre, double pitch, double 
 
 TEST(Spiral, PointsLieAtEqualArcLengthsOfTheCurve) {
   for (const auto& [pitch, step, reach] : {std::array{1.3, 0.4, 20.0}, {2.0, 5.0, 61.0}, {0.5, 0.07, 7.0}}) {
-    const ToolPath path = spiral_path(pixel_at({3.0, -7.0}), options(pitch, step, reach));
+    const ToolPath path = spiral_path(pixel_at({3.0, -7.0}), spiral_options(pitch, step, reach));
     EXPECT_EQ(path.kind, "spiral");
     expect_equal_arcs(path, {3.0, -7.0}, pitch, step);
     const double whole = quadrature(pitch / (2.0 * pi), 0.0, 2.0 * pi * reach / pitch, 20000);
@@ -64,7 +64,7 @@ TEST(Spiral, PointsLieAtEqualArcLengthsOfTheCurve) {
 }
 
 TEST(Spiral, ArcLengthsStayEqualFarOut) {
-  const ToolPath path = spiral_path(pixel_at({-2.0, 5.0}), options(1.0, 0.5, 150.0));  // to theta = 942
+  const ToolPath path = spiral_path(pixel_at({-2.0, 5.0}), spiral_options(1.0, 0.5, 150.0));  // to theta = 942
   ASSERT_GT(path.size(), 140000u);
   expect_equal_arcs(path, {-2.0, 5.0}, 1.0, 0.5);
 }
@@ -72,7 +72,7 @@ TEST(Spiral, ArcLengthsStayEqualFarOut) {
 TEST(Spiral, FirstPointsInClosedForm) {
   // s(pi / 2) of rho = L theta / 2 pi for L = 2 pi: (pi / 2 sqrt(1 + pi^2 / 4) + asinh(pi / 2)) / 2 = 2.0792...
   const double quarter = 0.5 * (0.5 * pi * std::hypot(1.0, 0.5 * pi) + std::asinh(0.5 * pi));
-  const ToolPath path = spiral_path(pixel_at({10.0, 20.0}), options(2.0 * pi, quarter, 9.0));
+  const ToolPath path = spiral_path(pixel_at({10.0, 20.0}), spiral_options(2.0 * pi, quarter, 9.0));
   ASSERT_GE(path.size(), 2u);
   EXPECT_EQ(path.points[0], (Point{10.0, 20.0}));
   EXPECT_NEAR(path.points[1].x, 10.0, 1e-12);
@@ -80,7 +80,7 @@ TEST(Spiral, FirstPointsInClosedForm) {
 }
 
 TEST(Spiral, TurnsTheOtherWayAndRunsInwards) {
-  SpiralOptions o = options(0.9, 0.3, 1.0);
+  SpiralOptions o = spiral_options(0.9, 0.3, 1.0);
   for (const test::Aperture& part : test::apertures()) {
     SCOPED_TRACE(part.name);
     o.clockwise = false;
@@ -90,7 +90,7 @@ TEST(Spiral, TurnsTheOtherWayAndRunsInwards) {
     EXPECT_TRUE(test::reversed(out, spiral_path(part.map, o)));
   }
   const Point centre{1.5, -4.0};
-  const SpiralOptions disc = options(0.9, 0.3, 6.0);
+  const SpiralOptions disc = spiral_options(0.9, 0.3, 6.0);
   SpiralOptions clockwise = disc;
   clockwise.clockwise = true;
   const ToolPath left = spiral_path(pixel_at(centre), disc), right = spiral_path(pixel_at(centre), clockwise);
@@ -133,7 +133,7 @@ TEST(Spiral, HoldsThePointsWithinReachAndNoOthers) {
     const Grid& g = part.map.grid;
     const Point corner = g.centre(0, 0);
     for (const Point shift : {Point{0.3, 0.2}, Point{-9.0, 3.0}, Point{20.0, 31.0}}) {
-      SpiralOptions o = options(0.8, 0.35, 0.65);
+      SpiralOptions o = spiral_options(0.8, 0.35, 0.65);
       o.centre = corner + shift;
       const ToolPath path = spiral_path(part.map, o);
       const double reach = std::max(0.65, 0.5 * std::hypot(g.pitch_x, g.pitch_y));
@@ -147,7 +147,7 @@ TEST(Spiral, HoldsThePointsWithinReachAndNoOthers) {
 TEST(Spiral, CoversEveryPixelWhateverTheOverrun) {
   for (const test::Aperture& part : test::apertures()) {
     SCOPED_TRACE(part.name);
-    const ToolPath path = spiral_path(part.map, options(1.1, 0.2, 0.0));
+    const ToolPath path = spiral_path(part.map, spiral_options(1.1, 0.2, 0.0));
     const std::vector<Stroke> strokes = moving_strokes(path);
     for (const Index i : finite_pixels(part.map)) {
       // The dwell points cut the curve short by its sagitta: at most 0.01 mm in the innermost turn.
@@ -158,12 +158,12 @@ TEST(Spiral, CoversEveryPixelWhateverTheOverrun) {
 
 TEST(Spiral, TheMiddleOfTheBoxIsTheDefaultCentre) {
   const HeightMap map = test::map_from_picture({"......", ".11...", ".1111.", "......"}, 2.0, {5.0, -3.0});
-  EXPECT_EQ(spiral_path(map, options(1.0, 0.5, 0.0)).points[0], (Point{10.0, 0.0}));
+  EXPECT_EQ(spiral_path(map, spiral_options(1.0, 0.5, 0.0)).points[0], (Point{10.0, 0.0}));
 }
 
 TEST(Spiral, SaysWhereItIsLifted) {
   const HeightMap part = test::apertures()[3].map;
-  const ToolPath path = spiral_path(part, options(0.8, 0.35, 0.0));
+  const ToolPath path = spiral_path(part, spiral_options(0.8, 0.35, 0.0));
   const auto lifts = std::count(path.lifted.begin(), path.lifted.end(), 1) - 1;
   ASSERT_GT(lifts, 0);
   ASSERT_EQ(path.notes.size(), 1u);
@@ -173,19 +173,19 @@ TEST(Spiral, SaysWhereItIsLifted) {
 TEST(Spiral, RefusesBadOptions) {
   const HeightMap map = full_map(11, 7);
   const auto message = [&](const SpiralOptions& o) { return test::message_of([&] { spiral_path(map, o); }); };
-  EXPECT_EQ(message(options(-1.0, 1.0, 0.0)), "spiral: pitch = -1 mm; required > 0");
-  EXPECT_EQ(message(options(kNaN, 1.0, 0.0)), "spiral: pitch = nan mm; required > 0");
-  EXPECT_EQ(message(options(kInf, 1.0, 0.0)), "spiral: pitch = inf mm; required finite");
-  EXPECT_EQ(message(options(1.0, 0.0, 0.0)), "spiral: step = 0 mm; required > 0");
-  EXPECT_EQ(message(options(1.0, kInf, 0.0)), "spiral: step = inf mm; required finite");
-  EXPECT_EQ(message(options(1.0, 1.0, -2.0)), "spiral: overrun = -2 mm; required finite and >= 0");
-  SpiralOptions o = options(1.0, 1.0, 0.0);
+  EXPECT_EQ(message(spiral_options(-1.0, 1.0, 0.0)), "spiral: pitch = -1 mm; required > 0");
+  EXPECT_EQ(message(spiral_options(kNaN, 1.0, 0.0)), "spiral: pitch = nan mm; required > 0");
+  EXPECT_EQ(message(spiral_options(kInf, 1.0, 0.0)), "spiral: pitch = inf mm; required finite");
+  EXPECT_EQ(message(spiral_options(1.0, 0.0, 0.0)), "spiral: step = 0 mm; required > 0");
+  EXPECT_EQ(message(spiral_options(1.0, kInf, 0.0)), "spiral: step = inf mm; required finite");
+  EXPECT_EQ(message(spiral_options(1.0, 1.0, -2.0)), "spiral: overrun = -2 mm; required finite and >= 0");
+  SpiralOptions o = spiral_options(1.0, 1.0, 0.0);
   o.centre = Point{0.0, kInf};
   EXPECT_EQ(message(o), "spiral: centre = 0/inf mm; required finite");
-  EXPECT_NE(message(options(1e-3, 1e-3, 0.0)).find("at most 5e+07 accepted"), std::string::npos);
-  EXPECT_NE(message(options(1.0, 1e-320, 0.0)).find("make inf points"), std::string::npos);
+  EXPECT_NE(message(spiral_options(1e-3, 1e-3, 0.0)).find("at most 5e+07 accepted"), std::string::npos);
+  EXPECT_NE(message(spiral_options(1.0, 1e-320, 0.0)).find("make inf points"), std::string::npos);
   EXPECT_EQ(test::message_of([] {
-              spiral_path(HeightMap(Grid{2, 2, 1.0, 1.0, {}}), options(1.0, 1.0, 0.0));
+              spiral_path(HeightMap(Grid{2, 2, 1.0, 1.0, {}}), spiral_options(1.0, 1.0, 0.0));
             }),
             "spiral: the map has no finite pixel; at least one is required");
 }

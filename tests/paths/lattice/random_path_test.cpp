@@ -12,7 +12,8 @@ using test::full_map;
 using test::map_from_picture;
 using test::RowCol;
 
-RandomOptions options(double pitch, std::uint64_t seed = 1, std::optional<double> overrun = {}, double angle = 0.0) {
+RandomOptions random_options(double pitch, std::uint64_t seed = 1, std::optional<double> overrun = {},
+                             double angle = 0.0) {
   return {{pitch, overrun, angle}, seed};
 }
 
@@ -99,7 +100,7 @@ Index longest_path(const std::vector<RowCol>& cells) {
 TEST(RandomPath, VisitsAllOfThePapersArea) {
   // Zha et al. 2020, section 3.1: 260 x 260 mm at 1 mm.
   const HeightMap map = full_map(260, 260);
-  const RandomPath result = random_path(map, options(1.0));
+  const RandomPath result = random_path(map, random_options(1.0));
   ASSERT_EQ(result.path.size(), 67600u);
   EXPECT_EQ(result.path.kind, "random");
   EXPECT_EQ(result.left_out, 0);
@@ -133,9 +134,9 @@ TEST(RandomPath, EverySmallRectangleIsVisitedWhole) {
     for (Index cols = 1; cols <= 10; ++cols) {
       for (std::uint64_t seed = 1; seed <= 3; ++seed) {
         const HeightMap map = full_map(rows, cols, 0.7, 0.7, {2.0, -9.0});
-        const RandomPath result = random_path(map, options(0.7, seed));
+        const RandomPath result = random_path(map, random_options(0.7, seed));
         SCOPED_TRACE(testing::Message() << rows << " x " << cols << " seed " << seed);
-        expect_sound(result, map, options(0.7, seed));
+        expect_sound(result, map, random_options(0.7, seed));
         ASSERT_EQ(result.left_out, 0);
         ASSERT_EQ(result.lifts_in_pieces, 0);
         ASSERT_EQ(result.must_leave_out, 0);
@@ -154,8 +155,8 @@ TEST(RandomPath, ADiscOfEvenWidthIsVisitedWhole) {
     }
   }
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-    const RandomPath result = random_path(map, options(1.0, seed));
-    expect_sound(result, map, options(1.0, seed));
+    const RandomPath result = random_path(map, random_options(1.0, seed));
+    expect_sound(result, map, random_options(1.0, seed));
     EXPECT_GT(result.lattice_points, 2700);
     EXPECT_EQ(result.left_out, 0);
     EXPECT_EQ(result.lifts_in_pieces, 0);
@@ -166,8 +167,8 @@ TEST(RandomPath, ChessboardWithoutTwoCornersOfAColourLeavesOneOut) {
   HeightMap map = full_map(8, 8);
   map.at(0, 0) = map.at(7, 7) = test::kNaN;  // 32 of one colour, 30 of the other: a path takes 61
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-    const RandomPath result = random_path(map, options(1.0, seed));
-    expect_sound(result, map, options(1.0, seed));
+    const RandomPath result = random_path(map, random_options(1.0, seed));
+    expect_sound(result, map, random_options(1.0, seed));
     EXPECT_EQ(result.must_leave_out, 1);
     EXPECT_EQ(result.left_out, 1);
     ASSERT_EQ(result.path.notes.size(), 1u);
@@ -178,7 +179,7 @@ TEST(RandomPath, ChessboardWithoutTwoCornersOfAColourLeavesOneOut) {
   }
   HeightMap fair = full_map(8, 8);
   fair.at(2, 3) = fair.at(5, 5) = test::kNaN;  // one of each colour
-  EXPECT_EQ(random_path(fair, options(1.0)).left_out, 0);
+  EXPECT_EQ(random_path(fair, random_options(1.0)).left_out, 0);
 }
 
 /// Boards of up to 16 points, against the longest path of each piece.
@@ -190,10 +191,10 @@ TEST(RandomPath, BoundHoldsOnEveryBoardAndIsMostlyMet) {
     HeightMap map = full_map(4, 4, 1.0, 1.0, {-3.0, 8.0});
     for (double& v : map.values) v = random() % 5 == 0 ? test::kNaN : 1.0;
     map.at(0, 0) = map.at(3, 3) = 1.0;
-    const RandomPath result = random_path(map, options(1.0, number));
-    expect_sound(result, map, options(1.0, number));
+    const RandomPath result = random_path(map, random_options(1.0, number));
+    expect_sound(result, map, random_options(1.0, number));
     std::map<int, std::vector<RowCol>> pieces;
-    for (const auto& [cell, piece] : flood(test::SlowLattice(map, options(1.0).lattice).kept)) {
+    for (const auto& [cell, piece] : flood(test::SlowLattice(map, random_options(1.0).lattice).kept)) {
       pieces[piece].push_back(cell);
     }
     Index fewest = 0;
@@ -220,16 +221,16 @@ TEST(RandomPath, CorridorsAreVisitedWithLifts) {
       "....1....",
       "....1....",
   });
-  const RandomPath result = random_path(map, options(1.0));
-  expect_sound(result, map, options(1.0));
+  const RandomPath result = random_path(map, random_options(1.0));
+  expect_sound(result, map, random_options(1.0));
   EXPECT_LE(result.left_out, 3);
   EXPECT_GE(result.lifts_in_pieces, 1);
 }
 
 TEST(RandomPath, PiecesAreJoinedByLifts) {
   const HeightMap map = map_from_picture({"11..1111", "11......", "11.....1", "........", "1111..11"});
-  const RandomPath result = random_path(map, options(1.0));
-  expect_sound(result, map, options(1.0));
+  const RandomPath result = random_path(map, random_options(1.0));
+  expect_sound(result, map, random_options(1.0));
   EXPECT_EQ(result.pieces, 5);
   EXPECT_EQ(result.left_out, 0);
   EXPECT_EQ(result.path.notes,
@@ -240,16 +241,16 @@ TEST(RandomPath, SoundOnRandomApertures) {
   for (unsigned number = 0; number < 120; ++number) {
     SCOPED_TRACE(number);
     const HeightMap map = test::random_aperture(number);
-    const RandomOptions o = options(0.4 + 0.13 * (number % 9), number, 0.5 * (number % 4), 15.0 * (number % 7));
+    const RandomOptions o = random_options(0.4 + 0.13 * (number % 9), number, 0.5 * (number % 4), 15.0 * (number % 7));
     expect_sound(random_path(map, o), map, o);
   }
 }
 
 TEST(RandomPath, TheSeedDecidesTheBytes) {
   const HeightMap map = full_map(13, 22, 0.9, 1.1);
-  const ToolPath one = random_path(map, options(1.0, 7)).path;
-  EXPECT_EQ(one.points, random_path(map, options(1.0, 7)).path.points);
-  EXPECT_NE(one.points, random_path(map, options(1.0, 8)).path.points);
+  const ToolPath one = random_path(map, random_options(1.0, 7)).path;
+  EXPECT_EQ(one.points, random_path(map, random_options(1.0, 7)).path.points);
+  EXPECT_NE(one.points, random_path(map, random_options(1.0, 8)).path.points);
 }
 
 TEST(RandomOptions, AreParsedAndTheSeedIsAnInteger) {
@@ -268,7 +269,7 @@ TEST(RandomOptions, AreParsedAndTheSeedIsAnInteger) {
   EXPECT_EQ(
       test::message_of([&] { parse("random:pitch=1,gaps=link"); }),
       "path \"random:pitch=1,gaps=link\": unknown key \"gaps\"; accepted for random: pitch, overrun, angle, seed");
-  EXPECT_EQ(test::message_of([] { random_path(full_map(2, 2), options(-1.0)); }),
+  EXPECT_EQ(test::message_of([] { random_path(full_map(2, 2), random_options(-1.0)); }),
             "random: pitch = -1 mm; required > 0");
 }
 

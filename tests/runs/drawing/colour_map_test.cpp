@@ -10,7 +10,7 @@
 namespace dwell {
 namespace {
 
-const double kNan = std::numeric_limits<double>::quiet_NaN();
+const double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
 // Relative luminance of ITU-R BT.709 for sRGB values, to which lightness is monotonic.
 double luminance(Colour c) {
@@ -44,11 +44,11 @@ TEST(ColourMap, DivergingIsBlueBelowWhiteAtAndRedAboveTheMiddle) {
 TEST(ColourMap, ClampsAndShowsNoDataInGrey) {
   EXPECT_EQ(colour_at(ColourMap::Sequential, -3.0), colour_at(ColourMap::Sequential, 0.0));
   EXPECT_EQ(colour_at(ColourMap::Sequential, 7.0), colour_at(ColourMap::Sequential, 1.0));
-  EXPECT_EQ(colour_at(ColourMap::Diverging, kNan), kNoDataColour);
+  EXPECT_EQ(colour_at(ColourMap::Diverging, kNoNumber), kNoDataColour);
 }
 
 TEST(ColourLimits, DivergingShowsTheFullRangeAboutZero) {
-  const ColourLimits limits = colour_limits({-3.0, kNan, 1.0, 2.0}, ColourMap::Diverging);
+  const ColourLimits limits = colour_limits({-3.0, kNoNumber, 1.0, 2.0}, ColourMap::Diverging);
   EXPECT_EQ(limits.lower, -3.0);
   EXPECT_EQ(limits.upper, 3.0);
   EXPECT_FALSE(limits.clips_below() || limits.clips_above());
@@ -71,7 +71,7 @@ TEST(ColourLimits, ASpikeDoesNotBleachTheMap) {
 
 TEST(ColourLimits, OneValueNoneAndZeroStillMakeARange) {
   for (const ColourMap map : {ColourMap::Sequential, ColourMap::Diverging}) {
-    for (const std::vector<double>& values : {std::vector<double>{}, std::vector<double>{kNan},
+    for (const std::vector<double>& values : {std::vector<double>{}, std::vector<double>{kNoNumber},
                                               std::vector<double>{0.0}, std::vector<double>{-4.0, -4.0}}) {
       const ColourLimits limits = colour_limits(values, map);
       EXPECT_LT(limits.lower, limits.upper);
@@ -92,7 +92,7 @@ TEST(ColourLimits, TakesWhatIsGiven) {
 }
 
 TEST(ColourLimits, RejectsLimitsThatAreNone) {
-  EXPECT_THROW(colour_limits({1.0}, ColourMap::Sequential, kNan), InputError);
+  EXPECT_THROW(colour_limits({1.0}, ColourMap::Sequential, kNoNumber), InputError);
   EXPECT_THROW(colour_limits({1.0}, ColourMap::Sequential, {}, std::numeric_limits<double>::infinity()), InputError);
   EXPECT_THROW(colour_limits({1.0}, ColourMap::Sequential, 3.0, 3.0), InputError);
   EXPECT_THROW(colour_limits({1.0}, ColourMap::Diverging, 1.0, 3.0), InputError);

@@ -48,18 +48,19 @@ std::size_t pixels_of(const testing::DecodedPng& picture, Colour colour) {
   return count;
 }
 
-constexpr Colour kRed{255, 0, 0}, kBlue{0, 0, 255};
+constexpr Colour kPureRed{255, 0, 0}, kBlue{0, 0, 255};
 
 ChartPanel panel() {
-  return {
-      "x [s]", "y [nm]", {{"red", kRed, {{1.0, 1.0, false}, {10.0, 2.0, true}}}, {"blue", kBlue, {{3.0, 5.0, false}}}}};
+  return {"x [s]",
+          "y [nm]",
+          {{"red", kPureRed, {{1.0, 1.0, false}, {10.0, 2.0, true}}}, {"blue", kBlue, {{3.0, 5.0, false}}}}};
 }
 
 TEST(LineCharts, LinearAxesAreLinearAndCutLinesWhereThereIsNoValue) {
   const double nan = std::nan("");
   ChartPanel linear{"x",
                     "y",
-                    {{"", kRed, {{-2.0, -1.0}, {0.0, 0.0}, {1.0, nan}, {2.0, 1.0}}, true}},
+                    {{"", kPureRed, {{-2.0, -1.0}, {0.0, 0.0}, {1.0, nan}, {2.0, 1.0}}, true}},
                     AxisScale::Linear,
                     AxisScale::Linear};
   const auto picture = testing::decode_png(draw_line_charts("", "", {linear}));
@@ -67,7 +68,7 @@ TEST(LineCharts, LinearAxesAreLinearAndCutLinesWhereThereIsNoValue) {
   int first_x = picture.width, last_x = 0, first_y = picture.height, last_y = 0;
   for (int y = 0; y < picture.height; ++y) {
     for (int x = 0; x < picture.width; ++x) {
-      if (!(picture.at(x, y) == kRed)) continue;
+      if (!(picture.at(x, y) == kPureRed)) continue;
       first_x = std::min(first_x, x), last_x = std::max(last_x, x);
       first_y = std::min(first_y, y), last_y = std::max(last_y, y);
     }
@@ -75,7 +76,7 @@ TEST(LineCharts, LinearAxesAreLinearAndCutLinesWhereThereIsNoValue) {
   const int middle_x = (first_x + last_x) / 2, middle_y = (first_y + last_y) / 2;
   const auto red_near = [&](int x, int y) {  // within the thickness of a line
     bool red = false;
-    for (int d = -2; d <= 2; ++d) red = red || picture.at(x, y + d) == kRed;
+    for (int d = -2; d <= 2; ++d) red = red || picture.at(x, y + d) == kPureRed;
     return red;
   };
   EXPECT_TRUE(red_near(middle_x, middle_y));
@@ -84,12 +85,12 @@ TEST(LineCharts, LinearAxesAreLinearAndCutLinesWhereThereIsNoValue) {
 }
 
 TEST(LineCharts, DashedLinesAreHalfAsLongAndBandsAreShaded) {
-  ChartPanel solid{"x", "y", {{"", kRed, {{1.0, 1.0}, {10.0, 10.0}}, false}}}, dashed = solid;
+  ChartPanel solid{"x", "y", {{"", kPureRed, {{1.0, 1.0}, {10.0, 10.0}}, false}}}, dashed = solid;
   dashed.lines[0].dashed = true;
   dashed.bands = {{"band", 0.0, 3.0, kBlue}};
   const auto a = testing::decode_png(draw_line_charts("", "", {solid}));
   const auto b = testing::decode_png(draw_line_charts("", "", {dashed}));
-  const double share = static_cast<double>(pixels_of(b, kRed)) / static_cast<double>(pixels_of(a, kRed));
+  const double share = static_cast<double>(pixels_of(b, kPureRed)) / static_cast<double>(pixels_of(a, kPureRed));
   EXPECT_NEAR(share, 0.5, 0.1);
   EXPECT_EQ(pixels_of(a, kBlue), 0u);
   EXPECT_GT(pixels_of(b, kBlue), 560u * 420u / 3u);
@@ -100,9 +101,9 @@ TEST(LineCharts, DrawEveryLineInEveryPanelAndMarkPoints) {
   const auto two = testing::decode_png(draw_line_charts("title", "marked", {panel(), panel()}));
   const std::size_t key = 24 * 4;  // of a line, once a picture
   EXPECT_EQ(pixels_of(two, kBlue) - key, 2 * (pixels_of(one, kBlue) - key));
-  EXPECT_EQ(pixels_of(two, kRed) - key, 2 * (pixels_of(one, kRed) - key));
-  EXPECT_EQ(pixels_of(one, kBlue), 49 + key);  // one unmarked point of 7 x 7
-  EXPECT_GT(pixels_of(one, kRed), 121 + key);  // a marked one of 11 x 11, the line and the other point
+  EXPECT_EQ(pixels_of(two, kPureRed) - key, 2 * (pixels_of(one, kPureRed) - key));
+  EXPECT_EQ(pixels_of(one, kBlue), 49 + key);      // one unmarked point of 7 x 7
+  EXPECT_GT(pixels_of(one, kPureRed), 121 + key);  // a marked one of 11 x 11, the line and the other point
 }
 
 TEST(LineCharts, TheSameInputGivesTheSameBytes) {
@@ -112,9 +113,9 @@ TEST(LineCharts, TheSameInputGivesTheSameBytes) {
 TEST(LineCharts, ValuesThatAreNotPositiveDoNoHarm) {
   ChartPanel odd = panel();
   odd.lines[0].points = {{0.0, 1.0, true}, {std::nan(""), 0.0, false}, {5.0, -1.0, false}};
-  EXPECT_GT(pixels_of(testing::decode_png(draw_line_charts("", "", {odd})), kRed), 0u);
-  odd.lines = {{"", kRed, {{0.0, 0.0, false}}}};
-  EXPECT_GT(pixels_of(testing::decode_png(draw_line_charts("", "", {odd})), kRed), 0u);
+  EXPECT_GT(pixels_of(testing::decode_png(draw_line_charts("", "", {odd})), kPureRed), 0u);
+  odd.lines = {{"", kPureRed, {{0.0, 0.0, false}}}};
+  EXPECT_GT(pixels_of(testing::decode_png(draw_line_charts("", "", {odd})), kPureRed), 0u);
   EXPECT_NO_THROW(draw_line_charts("", "", {}));
 }
 

@@ -13,7 +13,7 @@ namespace {
 using testing::decode_png;
 using testing::DecodedPng;
 
-constexpr Colour kTrack{24, 24, 24}, kRed{220, 30, 30}, kGreen{20, 150, 60};
+constexpr Colour kTrack{24, 24, 24}, kJumpRed{220, 30, 30}, kGreen{20, 150, 60};
 
 struct Found {
   int count = 0;
@@ -44,7 +44,7 @@ TEST(PathPicture, DrawsTheTracksWhereTheyAre) {
   // A line across the lower part of the map: dark pixels low in the picture, the start at the left.
   const ToolPath path{"file", {{0.0, 5.0}, {10.0, 5.0}, {20.0, 5.0}}, {1, 0, 0}};
   const DecodedPng png = decode_png(path_picture(flat(1.0), path, "title"));
-  const Found track = find(png, kTrack), start = find(png, kGreen), end = find(png, kRed);
+  const Found track = find(png, kTrack), start = find(png, kGreen), end = find(png, kJumpRed);
   EXPECT_GT(track.count, 300);
   EXPECT_GT(track.y, 0.55 * png.height);
   EXPECT_GT(start.count, 50);
@@ -58,8 +58,8 @@ TEST(PathPicture, DrawsLiftedMovesInRed) {
   const ToolPath joined{"file", {{0.0, 5.0}, {5.0, 5.0}, {5.0, 15.0}, {10.0, 15.0}}, {1, 0, 0, 0}};
   ToolPath lifted = joined;
   lifted.lifted[2] = 1;
-  EXPECT_GT(find(decode_png(path_picture(map, lifted, "t")), kRed).count,
-            find(decode_png(path_picture(map, joined, "t")), kRed).count + 100);
+  EXPECT_GT(find(decode_png(path_picture(map, lifted, "t")), kJumpRed).count,
+            find(decode_png(path_picture(map, joined, "t")), kJumpRed).count + 100);
 }
 
 TEST(PathPicture, ShowsTheOrderOfADensePathAndItsDetail) {
@@ -76,7 +76,7 @@ TEST(PathPicture, ShowsTheOrderOfADensePathAndItsDetail) {
 }
 
 TEST(PathPicture, TakesOnePointAndRefusesNone) {
-  EXPECT_GT(find(decode_png(path_picture(flat(0.0), {"file", {{1.0, 3.0}}, {1}}, "t")), kRed).count, 10);
+  EXPECT_GT(find(decode_png(path_picture(flat(0.0), {"file", {{1.0, 3.0}}, {1}}, "t")), kJumpRed).count, 10);
   EXPECT_GT(path_detail_picture(flat(0.0), {"file", {{1.0, 3.0}}, {1}}, "t").size(), 100u);
   test::expect_input_error([] { path_picture(flat(0.0), {}, "t"); }, {"no dwell points"});
 }

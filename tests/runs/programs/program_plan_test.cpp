@@ -17,7 +17,7 @@ using program_cases::winding_path;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-void expect_step(const ProgramStep& step, Point start, Point finish, double seconds, bool removes) {
+void expect_planned_step(const ProgramStep& step, Point start, Point finish, double seconds, bool removes) {
   EXPECT_LE(distance(step.start, start), 1e-14);
   EXPECT_LE(distance(step.finish, finish), 1e-14);
   EXPECT_LE(std::abs(step.seconds - seconds), 1e-14);
@@ -28,10 +28,10 @@ TEST(ProgramOfMoving, SpreadsEachDwellOverItsStrokeAtOneSpeed) {
   const ToolPath path{"file", {{0, 0}, {2, 0}, {2, 4}}, {1, 0, 0}};
   const Program program = program_of(path, {1.0, 3.0, 5.0}, Motion::Moving, 10.0);
   ASSERT_EQ(program.steps.size(), 4u);
-  expect_step(program.steps[0], {-1, 0}, {1, 0}, 1.0, true);
-  expect_step(program.steps[1], {1, 0}, {2, 0}, 1.0, true);
-  expect_step(program.steps[2], {2, 0}, {2, 2}, 2.0, true);
-  expect_step(program.steps[3], {2, 2}, {2, 6}, 5.0, true);
+  expect_planned_step(program.steps[0], {-1, 0}, {1, 0}, 1.0, true);
+  expect_planned_step(program.steps[1], {1, 0}, {2, 0}, 1.0, true);
+  expect_planned_step(program.steps[2], {2, 0}, {2, 2}, 2.0, true);
+  expect_planned_step(program.steps[3], {2, 2}, {2, 6}, 5.0, true);
   EXPECT_DOUBLE_EQ(program.total_seconds(), 9.0);
   EXPECT_DOUBLE_EQ(program.removing_length(), 9.0);
 }
@@ -40,11 +40,11 @@ TEST(ProgramOfMoving, LiftsWhereThePathIsCutAndHaltsAtALonePoint) {
   const ToolPath path{"file", {{0, 0}, {2, 0}, {5, 5}, {9, 1}, {9, 3}}, {1, 0, 1, 1, 0}};
   const Program program = program_of(path, {1.0, 1.0, 4.0, 2.0, 3.0}, Motion::Moving, 10.0);
   ASSERT_EQ(program.steps.size(), 7u);
-  expect_step(program.steps[1], {1, 0}, {3, 0}, 1.0, true);
-  expect_step(program.steps[2], {3, 0}, {5, 5}, 0.0, false);
-  expect_step(program.steps[3], {5, 5}, {5, 5}, 4.0, true);
-  expect_step(program.steps[4], {5, 5}, {9, 0}, 0.0, false);
-  expect_step(program.steps[5], {9, 0}, {9, 2}, 2.0, true);
+  expect_planned_step(program.steps[1], {1, 0}, {3, 0}, 1.0, true);
+  expect_planned_step(program.steps[2], {3, 0}, {5, 5}, 0.0, false);
+  expect_planned_step(program.steps[3], {5, 5}, {5, 5}, 4.0, true);
+  expect_planned_step(program.steps[4], {5, 5}, {9, 0}, 0.0, false);
+  expect_planned_step(program.steps[5], {9, 0}, {9, 2}, 2.0, true);
   EXPECT_DOUBLE_EQ(program.removing_length(), 8.0);
 }
 
@@ -52,8 +52,8 @@ TEST(ProgramOfMoving, KeepsBothHalvesOfAReversal) {
   const ToolPath path{"file", {{0, 0}, {2, 0}, {0, 0}}, {1, 0, 0}};
   const Program program = program_of(path, {1.0, 4.0, 1.0}, Motion::Moving, 10.0);
   ASSERT_EQ(program.steps.size(), 4u);
-  expect_step(program.steps[1], {1, 0}, {2, 0}, 2.0, true);
-  expect_step(program.steps[2], {2, 0}, {1, 0}, 2.0, true);
+  expect_planned_step(program.steps[1], {1, 0}, {2, 0}, 2.0, true);
+  expect_planned_step(program.steps[2], {2, 0}, {1, 0}, 2.0, true);
 }
 
 TEST(ProgramOfMoving, MergesStraightStrokesWhoseCoordinatesAreRoundedAndNoCorner) {
@@ -75,12 +75,12 @@ TEST(ProgramOfStop, HaltsAtEachPointAndRunsBetweenAtMaximumFeedRemoving) {
   const ToolPath path{"file", {{0, 0}, {3, 4}, {3, 0}, {7, 0}}, {1, 0, 1, 0}};
   const Program program = program_of(path, {1.0, 0.0, 2.0, 3.0}, Motion::Stop, 10.0);
   ASSERT_EQ(program.steps.size(), 6u);  // no halt of 0 s at the second point
-  expect_step(program.steps[0], {0, 0}, {0, 0}, 1.0, true);
-  expect_step(program.steps[1], {0, 0}, {3, 4}, 0.5, true);
-  expect_step(program.steps[2], {3, 4}, {3, 0}, 0.0, false);
-  expect_step(program.steps[3], {3, 0}, {3, 0}, 2.0, true);
-  expect_step(program.steps[4], {3, 0}, {7, 0}, 0.4, true);
-  expect_step(program.steps[5], {7, 0}, {7, 0}, 3.0, true);
+  expect_planned_step(program.steps[0], {0, 0}, {0, 0}, 1.0, true);
+  expect_planned_step(program.steps[1], {0, 0}, {3, 4}, 0.5, true);
+  expect_planned_step(program.steps[2], {3, 4}, {3, 0}, 0.0, false);
+  expect_planned_step(program.steps[3], {3, 0}, {3, 0}, 2.0, true);
+  expect_planned_step(program.steps[4], {3, 0}, {7, 0}, 0.4, true);
+  expect_planned_step(program.steps[5], {7, 0}, {7, 0}, 3.0, true);
 }
 
 TEST(ProgramOf, ChainsItsStepsExactlyAndNeverExceedsMaximumFeed) {

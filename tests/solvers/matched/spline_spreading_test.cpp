@@ -11,13 +11,13 @@ namespace dwell {
 namespace {
 
 /// B3 at any u, from its definition.
-double b3(double u) {
+double spline_b3(double u) {
   u = std::abs(u);
   if (u < 1.0) return (4.0 - 6.0 * u * u + 3.0 * u * u * u) / 6.0;
   return u < 2.0 ? std::pow(2.0 - u, 3) / 6.0 : 0.0;
 }
 
-Vector noise(Index n, unsigned seed) {
+Vector uniform_noise(Index n, unsigned seed) {
   std::mt19937 random(seed);
   return Vector::NullaryExpr(
       n, [&] { return 2.0 * static_cast<double>(random()) / static_cast<double>(std::mt19937::max()) - 1.0; });
@@ -37,7 +37,7 @@ RemovalGeometry geometry_of(std::vector<Stroke> strokes) {
 
 /// Anywhere on the map and a little beyond it.
 ToolPath scattered(Index n, unsigned seed) {
-  const Vector x = noise(n, seed), y = noise(n, seed + 1);
+  const Vector x = uniform_noise(n, seed), y = uniform_noise(n, seed + 1);
   ToolPath path;
   for (Index j = 0; j < n; ++j) path.points.push_back({18.0 + 17.0 * x[j], -2.0 + 6.0 * y[j]});
   path.lifted.assign(path.points.size(), 0);
@@ -47,13 +47,13 @@ ToolPath scattered(Index n, unsigned seed) {
 /// The weight of a point on a node, by definition.
 double weight(const Grid& lattice, Index node, Point p) {
   const Point d = p - lattice.centre(node);
-  return b3(d.x / lattice.pitch_x) * b3(d.y / lattice.pitch_y);
+  return spline_b3(d.x / lattice.pitch_x) * spline_b3(d.y / lattice.pitch_y);
 }
 
 TEST(SplineSpreading, GathersWhatTheBSplinesSay) {
   const auto strokes = halting_strokes(scattered(200, 1));
   SplineSpreading spreading(dwell_lattice(geometry_of(strokes), kFactor).lattice, strokes, StrokePart::Whole, 1);
-  const Vector nodes = noise(spreading.lattice().size(), 3);
+  const Vector nodes = uniform_noise(spreading.lattice().size(), 3);
   Vector t;
   spreading.gather(nodes, t);
   for (Index j = 0; j < t.size(); ++j) {
@@ -70,7 +70,7 @@ TEST(SplineSpreading, TakesTheMeanAlongAStroke) {
   path.lifted.assign(4, 0);
   const auto strokes = moving_strokes(path);
   SplineSpreading whole(dwell_lattice(geometry_of(strokes), kFactor).lattice, strokes, StrokePart::Whole, 1);
-  const Vector nodes = noise(whole.lattice().size(), 4);
+  const Vector nodes = uniform_noise(whole.lattice().size(), 4);
   Vector t;
   whole.gather(nodes, t);
   for (std::size_t j = 0; j < strokes.size(); ++j) {
@@ -91,7 +91,7 @@ TEST(SplineSpreading, TakesTheMeanAlongAStroke) {
 TEST(SplineSpreading, SpreadsTheTransposeOnAnyNumberOfThreads) {
   const auto strokes = halting_strokes(scattered(30'000, 5));
   const Grid lattice = dwell_lattice(geometry_of(strokes), kFactor).lattice;
-  const Vector t = noise(30'000, 6), nodes = noise(lattice.size(), 7);
+  const Vector t = uniform_noise(30'000, 6), nodes = uniform_noise(lattice.size(), 7);
   Vector one;
   for (int threads : {1, 2, 3}) {
     SplineSpreading spreading(lattice, strokes, StrokePart::Via, threads);
@@ -146,7 +146,7 @@ TEST(TwoScale, SaysOnTheCoarseLatticeWhatTheFineOneHolds) {
   const auto strokes = halting_strokes(scattered(300, 9));
   for (const CoarseFactor fine : {CoarseFactor{4, 3}, CoarseFactor{3, 5}}) {
     SplineSpreading spreading(dwell_lattice(geometry_of(strokes), fine).lattice, strokes, StrokePart::Via, 1);
-    const Vector t = noise(300, 10);
+    const Vector t = uniform_noise(300, 10);
     Vector on_fine, on_coarse, back;
     spreading.spread(t, on_fine);
     TwoScale relation(spreading.lattice(), kMap.origin);
@@ -157,7 +157,7 @@ TEST(TwoScale, SaysOnTheCoarseLatticeWhatTheFineOneHolds) {
         expected += t[j] * weight(relation.coarse(), k, strokes[static_cast<std::size_t>(j)].via);
       EXPECT_NEAR(on_coarse[k], expected, 2e-3);
     }
-    const Vector g = noise(on_coarse.size(), 11);
+    const Vector g = uniform_noise(on_coarse.size(), 11);
     relation.prolong(g, back);
     EXPECT_NEAR(back.dot(on_fine), g.dot(on_coarse), 1e-12 * back.norm() * on_fine.norm());
   }

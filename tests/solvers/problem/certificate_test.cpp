@@ -3,17 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
+#include "core/base/numbers.h"
 #include "tests/solvers/problem/small_problem.h"
 
 namespace dwell {
 namespace {
 
+using test::kNaN;
 using test::SmallProblem;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// A = I, z = (3, 4, -1), 0 <= t <= (10, 2, 10): the optimum is (3, 2, 0) and |A'z| = sqrt(26).
 SmallProblem by_hand() {

@@ -3,19 +3,17 @@
 #include <gtest/gtest.h>
 
 #include <functional>
-#include <limits>
 #include <string>
 
+#include "core/base/numbers.h"
 #include "tests/solvers/problem/small_problem.h"
 
 namespace dwell {
 namespace {
 
+using test::kNaN;
 using test::random_problem;
 using test::SmallProblem;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// Expects validate to refuse the changed problem in words that contain `field`.
 void expect_refused(const std::function<void(DwellProblem&)>& change, const std::string& field) {

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
-#include <limits>
 
+#include "core/base/numbers.h"
 #include "solvers/problem/certificate.h"
 #include "solvers/solver_catalogue.h"
 #include "tests/core/base/expect_error.h"
@@ -12,11 +12,9 @@ namespace dwell {
 namespace {
 
 using test::expect_input_error;
+using test::kNaN;
 using test::random_problem;
 using test::SmallProblem;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// Strict: converged by gradient, not by patience.
 SolverOptions strict(SolverKind kind, double tolerance = 1e-8) {

@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <stdexcept>
 
+#include "core/base/numbers.h"
+
 namespace dwell::test {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// D from its definition, one row a pair of neighbours without a lift.
 Eigen::MatrixXd differences(const std::vector<double>& lengths, const std::vector<char>& joined) {

@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 
+#include <limits>
 #include <memory>
 #include <random>
 #include <vector>
@@ -10,6 +11,8 @@
 #include "solvers/problem/dwell_problem.h"
 
 namespace dwell::test {
+
+inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// The objective of a dwell problem written out as 1/2 t'H t + c't + constant, from the definition alone: shares no
 /// code with the library.

@@ -8,9 +8,9 @@
 namespace dwell {
 
 /// A turn by an angle [deg], counter-clockwise seen from +z with x to the right and y up.
-class Turn {
+class Rotation {
  public:
-  explicit Turn(double degrees)
+  explicit Rotation(double degrees)
       : cosine_(std::cos(degrees * std::numbers::pi / 180.0)), sine_(std::sin(degrees * std::numbers::pi / 180.0)) {}
 
   Point operator()(Point p) const { return {cosine_ * p.x - sine_ * p.y, sine_ * p.x + cosine_ * p.y}; }

@@ -1,0 +1,12 @@
+// Numbers that many concepts name.
+#pragma once
+
+#include <limits>
+#include <numbers>
+
+namespace dwell {
+
+inline constexpr double kPi = std::numbers::pi;
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+}  // namespace dwell
