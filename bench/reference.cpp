@@ -33,16 +33,16 @@ nlohmann::json make_reference(const Scenario& scenario, SolverKind kind, int thr
   double look = kind == SolverKind::Auto ? kFirstLookOfAuto : kFirstLook, half_way = 0.0, change = 1.0;
   long iterations = 0;
   bool settled = false;
-  options.progress = [&](const SolverProgress& p) {
+  options.progress.stop = [&] { return settled; };
+  options.trace = [&](const SolverProgress& p) {
     const double work = static_cast<double>(p.iterations) + p.coarse_pairs;
     // Between two of its iterations, a solver on coarse pixels shows no gain.
-    if (work < look || p.iterations < iterations + kLeastIterations) return true;
+    if (work < look || p.iterations < iterations + kLeastIterations) return;
     iterations = p.iterations;
     if (half_way > 0.0) change = (half_way - p.objective) / p.objective;
     settled = half_way > 0.0 && change <= kChange;
     half_way = p.objective;
     look = 2.0 * work;
-    return !settled;
   };
   Vector t;
   const SolverSummary s = make_solver(options)->solve(instance.problem, t);

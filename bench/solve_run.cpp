@@ -52,15 +52,15 @@ double pair_seconds(RemovalOperator& removal) {
   return fastest;
 }
 
-/// Watches a solve through its progress callback.
+/// Watches a solve through its trace.
 class Watch {
  public:
   Watch(const RemovalOperator& removal, const SolveOptions& options)
       : removal_(removal), options_(options), before_(removal.applications()) {}
 
-  bool see(const SolverProgress& p) { return see(p, removal_.applications() - before_, since(begin_)); }
+  void see(const SolverProgress& p) { see(p, removal_.applications() - before_, since(begin_)); }
 
-  bool see(const SolverProgress& p, long applications, double seconds) {
+  void see(const SolverProgress& p, long applications, double seconds) {
     if (options_.target) {
       for (std::size_t q = 0; q < std::size(kQualities); ++q) {
         note(objective_[q], p.objective <= (1.0 + kQualities[q]) * options_.target->objective, p, applications,
@@ -73,9 +73,11 @@ class Watch {
       trace_.push_back({seconds, applications, p.objective, p.residual_rms});
       last_ = p.objective;
     }
-    return !(options_.stop_at_target && options_.target &&
-             p.objective <= (1.0 + options_.stop_gap) * options_.target->objective);
+    at_target_ = options_.stop_at_target && options_.target &&
+                 p.objective <= (1.0 + options_.stop_gap) * options_.target->objective;
   }
+  /// Whether the last objective seen was good enough to stop.
+  bool at_target() const { return at_target_; }
 
   nlohmann::json trace() const { return trace_; }
   nlohmann::json reached() const {
@@ -103,6 +105,7 @@ class Watch {
   std::array<nlohmann::json, std::size(kQualities)> objective_, residual_;
   nlohmann::json trace_ = nlohmann::json::array();
   double last_ = std::numeric_limits<double>::infinity();
+  bool at_target_ = false;
 };
 
 double step_rms(const Vector& t) {
@@ -168,7 +171,8 @@ nlohmann::json solve_once(const Scenario& scenario, const SolveOptions& options)
   Vector t;
   try {
     Watch watch(*instance.removal, options);
-    solver.progress = [&](const SolverProgress& p) { return watch.see(p); };
+    solver.trace = [&](const SolverProgress& p) { watch.see(p); };
+    solver.progress.stop = [&] { return watch.at_target(); };
     const SolverSummary s = make_solver(solver)->solve(instance.problem, t);
     // What a solver ends with counts as well: not every one reports on its way.
     result["peak_memory"] = memory_field("VmHWM");

@@ -1,7 +1,5 @@
 #include "runs/plan/plan_problem.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <stdexcept>
 
@@ -62,11 +60,7 @@ WeightedDwell PlanProblem::solve(const Weights& weights, Vector start, double ma
   SolverOptions options;
   options.kind = kind_;
   options.max_seconds = max_seconds;
-  options.progress = [&](const SolverProgress& p) {
-    progress.report(fmt::format("{}: iteration {}, residual {:.4g} nm RMS, {:.1f} s", stage, p.iterations,
-                                p.residual_rms, p.seconds));
-    return !progress.stop_asked();
-  };
+  options.progress = progress.of_part(stage);
   if (kind_ == SolverKind::Auto) start.resize(0);  // see solve() in the header
   WeightedDwell found{weights, std::move(start), {}, {}};
   found.solver = make_solver(options)->solve(problem_, found.dwell);

@@ -12,7 +12,7 @@
 #include "solvers/matched/smooth_dwell.h"
 #include "solvers/native/bounded_lbfgs.h"
 #include "solvers/native/projected_lbfgs.h"
-#include "solvers/problem/solve_limits.h"
+#include "solvers/problem/stopping_rules.h"
 
 namespace dwell {
 namespace {
@@ -68,19 +68,21 @@ CoarseFactor fine_pixels(const RemovalKernel& kernel, CoarseFactor factor) {
 }
 
 /// The options of what finishes a run that took `seconds`: the rest of its limits, and progress that goes on from
-/// there.
+/// there. `options` must outlive them.
 SolverOptions options_of_finish(const SolverOptions& options, const SolverSummary& so_far, double seconds) {
   SolverOptions rest = options;
   rest.kind = SolverKind::ProjectedLbfgs;
   rest.max_iterations =
       std::max<long>(0, options.max_iterations - so_far.iterations - std::lround(so_far.coarse_pairs));
   rest.max_seconds = std::max(1e-9, options.max_seconds - seconds);
-  if (options.progress) {
-    rest.progress = [&options, iterations = so_far.iterations, pairs = so_far.coarse_pairs, seconds](SolverProgress p) {
+  rest.progress.show = {};
+  if (options.trace || options.progress.show) {
+    rest.trace = [&options, iterations = so_far.iterations, pairs = so_far.coarse_pairs, seconds](SolverProgress p) {
       p.iterations += iterations;
       p.coarse_pairs += pairs;
       p.seconds += seconds;
-      return options.progress(p);
+      if (options.trace) options.trace(p);
+      if (options.progress.show) options.progress.show(progress_line(p));
     };
   }
   return rest;
@@ -89,15 +91,14 @@ SolverOptions options_of_finish(const SolverOptions& options, const SolverSummar
 class Run {
  public:
   Run(const DwellProblem& problem, const SolverOptions& options, Vector& t, SolverSummary& summary)
-      : p_(problem), o_(options), summary_(summary), limits_(problem, options, summary), objective_(problem), t_(t) {
+      : p_(problem), o_(options), summary_(summary), rules_(problem, options, summary), objective_(problem), t_(t) {
     monitor_ = [this](const QuadraticPoint& model) { return go_on(model); };
   }
 
   void run(CoarseFactor factor) {
     point_.x.swap(t_);  // a vector less while solving
     take_stock();
-    scale_ = objective_.gradient_scale();
-    if (!(scale_ > 0.0)) scale_ = 1.0;
+    rules_.start(objective_.gradient_scale(), point_.value);
     const CoarseFactor fine = fine_pixels(p_.geometry->kernel, factor);
     const bool smooth = !done() && point_.x == p_.lower && smooth_levels(fine);
     if (smooth) most_products_ = kFirstOnPoints;
@@ -107,13 +108,11 @@ class Run {
   }
 
   /// The models are used up and no rule has ended the run.
-  bool unfinished() const { return !limits_.stopped(); }
-  double seconds() const { return limits_.seconds(); }
+  bool unfinished() const { return !rules_.stopped(); }
+  double seconds() const { return rules_.seconds(); }
 
  private:
-  bool done() {
-    return limits_.stopped() || limits_.converged(gradient_norm(point_), scale_) || !limits_.allow(point_.value);
-  }
+  bool done() { return rules_.stopped() || rules_.converged(gradient_norm(point_)) || !rules_.allow(point_.value); }
 
   /// Residual, gradient and objective at point_.x, from nothing. At most one operator pair.
   void take_stock() {
@@ -126,7 +125,7 @@ class Run {
   bool go_on(const QuadraticPoint& model) {
     summary_.coarse_pairs += product_cost_;
     work_ += product_work_;
-    if (++products_ >= budget_ || !limits_.poll(point_.value)) return false;
+    if (++products_ >= budget_ || !rules_.poll(point_.value)) return false;
     if (products_ < next_look_) return true;
     next_look_ = products_ + products_ / 2;
     const double lately = seen_ - model.value, all = start_ - model.value;
@@ -146,7 +145,7 @@ class Run {
     start_ = seen_ = model.value;
     budget_ = std::clamp(std::lround(kRoundOfWork * work_ / product_work_), kLeastProducts, most_products_);
     most_products_ = std::numeric_limits<long>::max();
-    lbfgs.minimise(hessian, 0.1 * o_.gradient_tolerance * scale_, model, monitor_);
+    lbfgs.minimise(hessian, 0.1 * o_.gradient_tolerance * rules_.gradient_scale(), model, monitor_);
   }
 
   /// Coarsest first, on lattices each of which holds the one before. Returns whether there was any.
@@ -207,7 +206,7 @@ class Run {
     objective_.gradient(r_, point_.x, point_.gradient);
     point_.value = objective_.value(r_, point_.x);
     work_ += 1.0;
-    limits_.count_iteration(point_.x, point_.value);
+    rules_.count_iteration(point_.x, point_.value);
     return a;
   }
 
@@ -262,25 +261,25 @@ class Run {
   double gradient_norm(const QuadraticPoint& point) const { return projected_gradient_norm(p_.lower, p_.upper, point); }
 
   void settle(double gained, CoarseFactor factor) {
-    limits_.stop(
+    rules_.stop(
         SolverStatus::Settled,
         fmt::format("settled: objective {:.6g} fell by {:.2g} in the last round, {} products on {} x {} pixels; {} "
                     "operator pairs and {:.1f} pairs' worth of coarse transforms; |pg| {:.2g}",
                     point_.value, gained, products_, factor.x, factor.y, summary_.iterations, summary_.coarse_pairs,
-                    gradient_norm(point_) / scale_));
+                    gradient_norm(point_) / rules_.gradient_scale()));
   }
 
   const DwellProblem& p_;
   const SolverOptions& o_;
   SolverSummary& summary_;
-  SolveLimits limits_;
+  StoppingRules rules_;
   DwellObjective objective_;
   Vector& t_;
   QuadraticPoint point_;  // dwell, its gradient and objective on the full problem
   QuadraticPoint model_;  // of the dwell points; its x becomes the step to take
   Vector &d_ = model_.x, r_, image_;
   BoundedLbfgs::Monitor monitor_;
-  double scale_ = 1.0, product_cost_ = 0.0;
+  double product_cost_ = 0.0;
 
   double product_work_ = 0.0, work_ = 0.0;  // in operator pairs
   long products_ = 0, budget_ = 0;          // of the running round

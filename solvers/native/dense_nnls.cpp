@@ -4,18 +4,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "core/base/errors.h"
+#include "solvers/problem/stopping_rules.h"
 
 namespace dwell {
 namespace {
 
-/// minimise 1/2 t'H t + c't within the bounds.
+/// minimise 1/2 t'H t + c't + constant within the bounds.
 struct DenseProblem {
   Eigen::MatrixXd h;
   Vector c;
+  double constant = 0.0;
+
+  double value(const Vector& t) const { return 0.5 * t.dot(h * t) + c.dot(t) + constant; }
 };
 
 DenseProblem dense_problem(const DwellProblem& p) {
@@ -35,47 +38,40 @@ DenseProblem dense_problem(const DwellProblem& p) {
   Vector r;
   objective.residual(unit, r);
   objective.gradient(r, unit, d.c);
+  d.constant = objective.value(r, unit);
   return d;
 }
 
 class ActiveSet {
  public:
-  ActiveSet(const DwellProblem& problem, const DenseProblem& dense, const SolverOptions& options, double scale,
-            DwellObjective& objective, Vector& t)
-      : p_(problem), d_(dense), o_(options), objective_(objective), t_(t) {
+  ActiveSet(const DwellProblem& problem, const DenseProblem& dense, const SolverOptions& options, StoppingRules& rules,
+            Vector& t)
+      : p_(problem), d_(dense), rules_(rules), t_(t) {
     // Rank deficiency is the rule here: a ridge far below the data's own noise keeps every block factorisable.
     const double largest = dense.h.diagonal().maxCoeff();
     ridge_ = largest > 0.0 ? 1e-13 * largest : 1e-100;
+    const double scale = rules.gradient_scale();
     tolerance_ =
-        std::max(1e-12 * scale, 0.1 * o_.gradient_tolerance * scale / std::sqrt(static_cast<double>(t.size())));
+        std::max(1e-12 * scale, 0.1 * options.gradient_tolerance * scale / std::sqrt(static_cast<double>(t.size())));
   }
 
-  void run(SolverSummary& summary) {
+  /// An iteration releases one point from its bound and sends others back to theirs.
+  void run(const SolverSummary& summary) {
     begin_from_start();
-    const auto begin = std::chrono::steady_clock::now();
     bool minimal = free_stationary();
-    while (true) {
+    while (!rules_.stopped()) {
       const Index j = minimal ? most_promising() : -1;
       if (minimal && j < 0) {
-        summary.status = SolverStatus::Converged;
-        summary.message = fmt::format("converged after {} exchanges, {} points free", summary.iterations, free_.size());
+        // The tolerance that is met here, point by point, is finer than the rules'.
+        rules_.stop(SolverStatus::Converged,
+                    fmt::format("converged after {} iterations, {} points free", summary.iterations, free_.size()));
         return;
       }
-      const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-      if (summary.iterations >= o_.max_iterations || seconds >= o_.max_seconds) {
-        summary.status = seconds >= o_.max_seconds ? SolverStatus::TimeLimit : SolverStatus::IterationLimit;
-        summary.message = fmt::format("stopped after {} exchanges", summary.iterations);
-        return;
-      }
-      ++summary.iterations;
+      if (!rules_.allow(d_.value(t_))) return;
       if (minimal) release(j);
       minimise_over_free();
       minimal = true;
-      if (o_.progress && !o_.progress(progress(summary.iterations, seconds))) {
-        summary.status = SolverStatus::Interrupted;
-        summary.message = fmt::format("interrupted after {} exchanges", summary.iterations);
-        return;
-      }
+      rules_.count(t_, d_.value(t_));
     }
   }
 
@@ -101,12 +97,6 @@ class ActiveSet {
   bool free_stationary() const {
     const Vector g = d_.h * t_ + d_.c;
     return std::all_of(free_.begin(), free_.end(), [&](Index j) { return std::abs(g[j]) <= tolerance_; });
-  }
-
-  SolverProgress progress(long iterations, double seconds) {
-    objective_.residual(t_, r_);
-    return {iterations, 0.0, seconds, objective_.value(r_, t_),
-            std::sqrt(r_.squaredNorm() / static_cast<double>(std::max<Index>(1, r_.size())))};
   }
 
   /// The bound variable whose gradient pulls inward most, or -1. One that could not move since the last progress is
@@ -192,10 +182,8 @@ class ActiveSet {
 
   const DwellProblem& p_;
   const DenseProblem& d_;
-  const SolverOptions& o_;
-  DwellObjective& objective_;
+  StoppingRules& rules_;
   Vector& t_;
-  Vector r_;
   std::vector<Index> free_;
   std::vector<char> free_mark_, at_upper_, tried_;
   Index entering_ = -1;
@@ -211,15 +199,15 @@ void DenseNnls::do_solve(const DwellProblem& problem, Vector& t, SolverSummary& 
         "solver dense-nnls: {} points x {} pixels; at most {} points and {} matrix entries (use projected-cg)",
         problem.points(), problem.pixels(), kMaxPoints, kMaxEntries));
   }
+  StoppingRules rules(problem, options_, summary);
   DwellObjective objective(problem);
-  const double scale = objective.gradient_scale() > 0.0 ? objective.gradient_scale() : 1.0;
   const DenseProblem dense = dense_problem(problem);
+  rules.start(objective.gradient_scale(), dense.value(t));
   if (!dense.h.allFinite() || !dense.c.allFinite()) {
-    summary.status = SolverStatus::Failed;
-    summary.message = "failed: the operator gave a value that is not finite";
+    rules.stop(SolverStatus::Failed, "failed: the operator gave a value that is not finite");
     return;
   }
-  ActiveSet(problem, dense, options_, scale, objective, t).run(summary);
+  ActiveSet(problem, dense, options_, rules, t).run(summary);
   clip_to_bounds(problem, t);
   Vector r;
   objective.residual(t, r);

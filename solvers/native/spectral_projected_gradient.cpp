@@ -1,13 +1,11 @@
 #include "solvers/native/spectral_projected_gradient.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "solvers/problem/full_hessian.h"
-#include "solvers/problem/solve_limits.h"
+#include "solvers/problem/stopping_rules.h"
 
 namespace dwell {
 namespace {
@@ -19,21 +17,20 @@ constexpr double kShortest = 1e-30, kLongest = 1e30;  // of the spectral length
 }  // namespace
 
 void SpectralProjectedGradient::do_solve(const DwellProblem& problem, Vector& t, SolverSummary& summary) {
-  SolveLimits limits(problem, options_, summary);
+  StoppingRules rules(problem, options_, summary);
   DwellObjective objective(problem);
   FullHessian hessian(objective);
   QuadraticPoint p;
   Vector r, direction, product;
   p.x = t;
   p.value = objective.evaluate(t, r, p.gradient);
-  double scale = objective.gradient_scale();
-  if (!(scale > 0.0)) scale = 1.0;
+  rules.start(objective.gradient_scale(), p.value);
   std::array<double, kMemory> recent;
   recent.fill(p.value);
   std::size_t oldest = 0;
-  double best = p.value, checkpoint = p.value, length = 0.0;
-  long checkpoint_iteration = 0;
-  while (!limits.converged(projected_gradient_norm(problem.lower, problem.upper, p), scale) && limits.allow(best)) {
+  double best = p.value, length = 0.0;
+  const auto gradient_norm = [&] { return projected_gradient_norm(problem.lower, problem.upper, p); };
+  while (!rules.converged(gradient_norm()) && rules.allow(best)) {
     if (!(length > 0.0)) {
       hessian.product(p.gradient, product);
       const double curvature = p.gradient.dot(product);
@@ -44,7 +41,7 @@ void SpectralProjectedGradient::do_solve(const DwellProblem& problem, Vector& t,
     direction -= p.x;
     const double slope = p.gradient.dot(direction);
     if (!(slope < 0.0)) {
-      limits.stop(SolverStatus::Settled, fmt::format("settled: objective {:.6g} falls no more in rounding", best));
+      rules.stop_at_rest(best, gradient_norm());
       break;
     }
     hessian.product(direction, product);
@@ -63,16 +60,7 @@ void SpectralProjectedGradient::do_solve(const DwellProblem& problem, Vector& t,
       best = p.value;
       t = p.x;
     }
-    if (!limits.count_iteration(t, best) || summary.iterations - checkpoint_iteration < options_.settle_iterations)
-      continue;
-    if (best >= checkpoint - options_.objective_tolerance * std::abs(checkpoint)) {
-      limits.stop(SolverStatus::Settled,
-                  fmt::format("settled: objective {:.6g} fell by {:.2g} of itself in {} iterations", best,
-                              checkpoint > 0.0 ? (checkpoint - best) / checkpoint : 0.0,
-                              summary.iterations - checkpoint_iteration));
-    }
-    checkpoint = best;
-    checkpoint_iteration = summary.iterations;
+    if (rules.count_iteration(t, best)) rules.settled(best, gradient_norm);
   }
   if (summary.status == SolverStatus::Converged) t = p.x;  // where the gradient was measured
   objective.residual(t, r);

@@ -13,22 +13,15 @@ AdapterRun::AdapterRun(const DwellProblem& problem, const SolverOptions& options
     : problem_(problem),
       options_(options),
       summary_(summary),
+      rules_(problem, options, summary),
       objective_(problem),
       best_(start),
       value_(std::numeric_limits<double>::infinity()),
-      best_value_(value_),
-      checkpoint_(value_) {
-  if (objective_.gradient_scale() > 0.0) scale_ = objective_.gradient_scale();
-  if (options_.max_iterations == 0) ask_limits();
-}
-
-double AdapterRun::seconds() const {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
-}
-
-void AdapterRun::stop(SolverStatus status, std::string message) {
-  summary_.status = status;
-  summary_.message = std::move(message);
+      best_value_(value_) {
+  if (options_.max_iterations > 0) return;
+  objective_.residual(start, residual_);
+  best_value_ = objective_.value(residual_, start);
+  rules_.allow(best_value_);
 }
 
 void AdapterRun::move_to_bounds(Vector& t) const {
@@ -51,46 +44,22 @@ double AdapterRun::evaluate(Vector& t, Vector& gradient) {
   objective_.gradient(residual_, t, gradient);
   value_ = objective_.value(residual_, t);
   project_gradient(problem_, t, gradient, projected_);
-  gradient_norm_ = projected_.norm() / scale_;
-  if (value_ <= best_value_) {  // at equal values the later point, whose gradient is the one that is judged
+  gradient_norm_ = projected_.norm();
+  const bool best = value_ <= best_value_;  // at equal values the later point, whose gradient is the one that is judged
+  if (best) {
     best_value_ = value_;
     best_ = t;
   }
-  ++summary_.iterations;
-  const double mean_square = residual_.squaredNorm() / static_cast<double>(std::max<Index>(1, residual_.size()));
-  if (options_.progress &&
-      !options_.progress({summary_.iterations, 0.0, seconds(), best_value_, std::sqrt(mean_square)})) {
-    stop(SolverStatus::Interrupted, fmt::format("interrupted after {} iterations", summary_.iterations));
-  } else if (gradient_norm_ <= options_.gradient_tolerance && value_ <= best_value_) {
-    stop(SolverStatus::Converged, fmt::format("converged: |pg| {:.3g} <= {:.3g} |A'z| after {} iterations",
-                                              gradient_norm_, options_.gradient_tolerance, summary_.iterations));
-  } else {
-    ask_limits();
-  }
+  if (summary_.iterations == 0) rules_.start(objective_.gradient_scale(), best_value_);
+  rules_.count(best_, best_value_);
+  if (stopped() || (best && rules_.converged(gradient_norm_)) || !rules_.allow(best_value_)) return value_;
+  if (settles_ && options_.objective_tolerance > 0.0) rules_.settled(best_value_, [&] { return gradient_norm_; });
   return value_;
 }
 
-void AdapterRun::ask_limits() {
-  if (summary_.iterations >= options_.max_iterations) {
-    stop(SolverStatus::IterationLimit,
-         fmt::format("stopped after {} iterations, objective {:.6g}", summary_.iterations, best_value_));
-  } else if (seconds() >= options_.max_seconds) {
-    stop(SolverStatus::TimeLimit, fmt::format("stopped after {:.1f} s and {} iterations, objective {:.6g}", seconds(),
-                                              summary_.iterations, best_value_));
-  } else if (settles_ && options_.objective_tolerance > 0.0 &&
-             summary_.iterations - checkpoint_iteration_ >=
-                 std::max(options_.settle_iterations, checkpoint_iteration_ / 2)) {
-    if (checkpoint_ - best_value_ <= options_.objective_tolerance * std::abs(checkpoint_)) {
-      settled(fmt::format("objective changed by less than {:.3g} of itself in {} iterations",
-                          options_.objective_tolerance, summary_.iterations - checkpoint_iteration_));
-    }
-    checkpoint_ = best_value_;
-    checkpoint_iteration_ = summary_.iterations;
-  }
-}
-
 void AdapterRun::settled(const std::string& reason) {
-  stop(SolverStatus::Settled, fmt::format("settled: {}; |pg| {:.3g} |A'z|", reason, gradient_norm_));
+  rules_.stop(SolverStatus::Settled,
+              fmt::format("settled: {}; |pg| {:.2g}", reason, gradient_norm_ / rules_.gradient_scale()));
 }
 
 void AdapterRun::finish(const std::string& reason, Vector& t) {
@@ -99,8 +68,9 @@ void AdapterRun::finish(const std::string& reason, Vector& t) {
     Vector point = best_, gradient;
     evaluate(point, gradient);
     if (!stopped() || summary_.status == SolverStatus::Settled) {
-      stop(SolverStatus::Stalled, fmt::format("stalled after {} iterations: {}; |pg| {:.3g} |A'z|", summary_.iterations,
-                                              reason, gradient_norm_));
+      rules_.stop(SolverStatus::Stalled,
+                  fmt::format("stalled after {} iterations: {}; |pg| {:.2g}", summary_.iterations, reason,
+                              gradient_norm_ / rules_.gradient_scale()));
     }
   }
   t = best_;

@@ -1,15 +1,14 @@
 #pragma once
 
-#include <chrono>
 #include <string>
 
-#include "solvers/problem/dwell_solver.h"
+#include "solvers/problem/stopping_rules.h"
 
 namespace dwell {
 
 /// What the adapters to other people's solvers share: it evaluates the objective through the problem's operator, keeps
-/// the best point seen, and after every evaluation asks what SolverOptions asks: gradient, objective, iterations,
-/// time, the caller. The other solver's own stopping rules are switched off, so that all solvers stop by the same ones.
+/// the best point seen, and asks our StoppingRules after every evaluation. The other solver's own stopping rules are
+/// switched off, so that all solvers stop by the same ones.
 /// An iteration of an adapter is one evaluation of objective and gradient: one operator pair.
 class AdapterRun {
  public:
@@ -18,10 +17,10 @@ class AdapterRun {
   /// Objective at t and its gradient. t is moved into the bounds first, and onto a bound that it misses by rounding,
   /// as happens where a solver has variables of its own scale. Two applications; none, and no news, once stopped().
   double evaluate(Vector& t, Vector& gradient);
-  /// Whether one of our own rules has been met.
   /// The best objective so far; infinite before the first evaluation.
   double best_value() const { return best_value_; }
-  bool stopped() const { return summary_.status != SolverStatus::NotRun; }
+  /// Whether one of our own rules has been met.
+  bool stopped() const { return rules_.stopped(); }
   /// Whether evaluations without gain settle the run (never if objective_tolerance is zero: truncated Newton methods
   /// evaluate for a long while without going anywhere); else the other solver judges that itself.
   void settle_by_evaluations(bool yes) { settles_ = yes; }
@@ -37,23 +36,17 @@ class AdapterRun {
   double dwell_scale(const Vector& start);
 
  private:
-  double seconds() const;
   void move_to_bounds(Vector& t) const;
-  void ask_limits();
-  void stop(SolverStatus status, std::string message);
 
   const DwellProblem& problem_;
   const SolverOptions& options_;
   SolverSummary& summary_;
+  StoppingRules rules_;
   DwellObjective objective_;
   Vector residual_, projected_, best_;
-  double scale_ = 1.0;             // of gradients
-  double value_, best_value_;      // last and best objective
-  double gradient_norm_ = 0.0;     // projected, relative, at the last point
-  double checkpoint_;              // best objective when the current settling cycle began
-  long checkpoint_iteration_ = 0;  // and when that was
+  double value_, best_value_;   // last and best objective
+  double gradient_norm_ = 0.0;  // projected, at the last point
   bool settles_ = true;
-  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 
 }  // namespace dwell

@@ -3,6 +3,7 @@
 #include <functional>
 #include <string>
 
+#include "core/base/progress.h"
 #include "solvers/problem/dwell_problem.h"
 
 namespace dwell {
@@ -30,7 +31,7 @@ enum class SolverStatus {
   Settled,    // objective no longer changes: the ill-posed remainder is not worth the work
   IterationLimit,
   TimeLimit,
-  Interrupted,  // the progress callback said stop
+  Interrupted,  // the progress handle said stop
   Failed,
   Stalled,  // another's solver gave up before any of our rules was met: feasible, but no optimum within tolerance
 };
@@ -60,8 +61,10 @@ struct SolverOptions {
   long max_iterations = 2000;
   /// Wall clock [s]; > 0.
   double max_seconds = 3600.0;
-  /// Called once an iteration, and within long ones four times a second; return false to stop. May be empty.
-  std::function<bool(const SolverProgress&)> progress;
+  /// Shown a line and asked for a stop once an iteration, and within long ones four times a second.
+  Progress progress{};
+  /// Given the numbers as often as `progress` is shown its line, and before it. May be empty.
+  std::function<void(const SolverProgress&)> trace{};
 };
 
 /// Throws InputError naming the option, its value and what is required.

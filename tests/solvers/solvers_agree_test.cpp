@@ -125,7 +125,7 @@ TEST_P(NativeSolvers, LimitsLeaveAUsableDwell) {
   EXPECT_LE(certify(random.problem, t).objective, before);
 
   o.max_seconds = 100.0;
-  o.progress = [](const SolverProgress&) { return false; };
+  o.progress.stop = [] { return true; };
   t = start;
   summary = make_solver(o)->solve(random.problem, t);
   EXPECT_EQ(summary.status, SolverStatus::Interrupted);

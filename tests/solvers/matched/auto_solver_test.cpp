@@ -314,11 +314,10 @@ TEST(AutoSolver, KeepsItsTimeAndTellsItGoingForward) {
   o.max_seconds = 0.5;
   SolverProgress last;
   bool forward = true;
-  o.progress = [&](const SolverProgress& p) {
+  o.trace = [&](const SolverProgress& p) {
     forward =
         forward && p.seconds >= last.seconds && p.iterations >= last.iterations && p.coarse_pairs >= last.coarse_pairs;
     last = p;
-    return true;
   };
   Vector t;
   const SolverSummary summary = make_solver(o)->solve(mirror.problem, t);
@@ -377,9 +376,8 @@ TEST(NativeSolvers, DoNotAllocateInsideIterations) {
     o.objective_tolerance = 0.0;
     std::array<long, 1000> seen{};
     std::size_t count = 0;
-    o.progress = [&](const SolverProgress&) {
+    o.trace = [&](const SolverProgress&) {
       if (count < seen.size()) seen[count++] = allocation_count();
-      return true;
     };
     Vector t;
     make_solver(o)->solve(mirror.problem, t);

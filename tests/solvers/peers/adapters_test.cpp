@@ -118,13 +118,12 @@ TEST_P(Adapters, CountTheOperatorAndReportProgressThatFalls) {
   SolverOptions options = tight(GetParam());
   long calls = 0;
   double last = std::numeric_limits<double>::infinity();
-  options.progress = [&](const SolverProgress& p) {
+  options.trace = [&](const SolverProgress& p) {
     ++calls;
     EXPECT_EQ(p.iterations, calls);
     EXPECT_LE(p.objective, last);
     EXPECT_TRUE(std::isfinite(p.residual_rms));
     last = p.objective;
-    return true;
   };
   const long before = line.removal->applications();
   Vector t;
@@ -162,7 +161,9 @@ TEST_P(Adapters, StopAtTheirLimitsWithAUsableDwell) {
   EXPECT_EQ(make_solver(options)->solve(line.problem, t).status, SolverStatus::TimeLimit);
 
   options = tight(GetParam());
-  options.progress = [](const SolverProgress& p) { return p.iterations < 2; };
+  long iterations = 0;
+  options.trace = [&](const SolverProgress& p) { iterations = p.iterations; };
+  options.progress.stop = [&] { return iterations >= 2; };
   t.resize(0);
   EXPECT_EQ(make_solver(options)->solve(line.problem, t).status, SolverStatus::Interrupted);
   EXPECT_LE(certify(line.problem, t).objective, start);

@@ -209,10 +209,10 @@ TEST_P(EverySolver, ReportsProgressAndStopsWhenTold) {
   const SmallProblem small = random_problem({.points = 30}, 10);
   SolverOptions options = strict(GetParam(), 1e-12);
   std::vector<SolverProgress> seen;
-  options.progress = [&](const SolverProgress& progress) {
-    seen.push_back(progress);
-    return progress.iterations < 3;
-  };
+  std::vector<std::string> lines;
+  options.trace = [&](const SolverProgress& progress) { seen.push_back(progress); };
+  options.progress.show = [&](const std::string& line) { lines.push_back(line); };
+  options.progress.stop = [&] { return seen.back().iterations >= 3; };
   Vector t;
   const SolverSummary summary = make_solver(options)->solve(small.problem, t);
   EXPECT_EQ(summary.status, SolverStatus::Interrupted) << summary.message;
@@ -221,6 +221,9 @@ TEST_P(EverySolver, ReportsProgressAndStopsWhenTold) {
   EXPECT_FALSE(summary.converged());
   EXPECT_EQ(certify(small.problem, t).bound_violation, 0.0);
   ASSERT_EQ(seen.size(), 3u);
+  ASSERT_EQ(lines.size(), 3u);
+  EXPECT_EQ(lines[1].substr(0, 13), "iteration 2, ");
+  EXPECT_NE(lines[1].find(" nm RMS, "), std::string::npos) << lines[1];
   const double lowest = small.quadratic().value(test::minimise_by_coordinates(small));
   for (std::size_t k = 0; k < seen.size(); ++k) {
     EXPECT_EQ(seen[k].iterations, static_cast<long>(k) + 1);

@@ -1,0 +1,118 @@
+#include "solvers/problem/stopping_rules.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace dwell {
+
+void StoppingRules::start(double gradient_scale, double value) {
+  gradient_scale_ = gradient_scale > 0.0 ? gradient_scale : 1.0;
+  checkpoint_ = value;
+  checkpoint_iteration_ = summary_.iterations;
+  summary_.objective = value;
+}
+
+void StoppingRules::stop(SolverStatus status, std::string message) {
+  summary_.status = status;
+  summary_.message = std::move(message);
+}
+
+double StoppingRules::seconds() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+}
+
+void StoppingRules::count(const Vector& t, double value) {
+  ++summary_.iterations;
+  summary_.objective = value;
+  if (stopped()) return;
+  if (options_.trace || options_.progress.show) {
+    residual_rms_ = std::sqrt(std::max(0.0, 2.0 * (value - penalty(problem_, t))) /
+                              static_cast<double>(std::max<Index>(1, problem_.pixels())));
+  }
+  show(value);
+}
+
+bool StoppingRules::allow(double value) {
+  if (stopped()) return false;
+  if (!std::isfinite(value)) {
+    stop(SolverStatus::Failed, fmt::format("failed: objective {} after {} iterations", value, summary_.iterations));
+    return false;
+  }
+  const double work = static_cast<double>(summary_.iterations) + summary_.coarse_pairs;
+  if (work >= static_cast<double>(options_.max_iterations)) {
+    stop(SolverStatus::IterationLimit,
+         fmt::format("stopped after {} iterations, objective {:.6g}", summary_.iterations, value));
+  } else if (seconds() >= options_.max_seconds) {
+    stop(SolverStatus::TimeLimit, fmt::format("stopped after {:.1f} s and {} iterations, objective {:.6g}", seconds(),
+                                              summary_.iterations, value));
+  }
+  return !stopped();
+}
+
+bool StoppingRules::count_iteration(const Vector& t, double value) {
+  count(t, value);
+  return allow(value);
+}
+
+bool StoppingRules::poll(double value) {
+  constexpr double kQuarterSecond = 0.25;
+  if (!stopped() && seconds() - shown_seconds_ >= kQuarterSecond) show(value);
+  return allow(value);
+}
+
+void StoppingRules::show(double value) {
+  shown_seconds_ = seconds();
+  const SolverProgress progress{summary_.iterations, summary_.coarse_pairs, shown_seconds_, value, residual_rms_};
+  if (options_.trace) options_.trace(progress);
+  if (options_.progress.show) options_.progress.show(progress_line(progress));
+  if (options_.progress.stop_asked())
+    stop(SolverStatus::Interrupted, fmt::format("interrupted after {} iterations", summary_.iterations));
+}
+
+bool StoppingRules::converged(double projected_gradient) {
+  if (!std::isfinite(projected_gradient)) {
+    stop(SolverStatus::Failed,
+         fmt::format("failed: |pg| {} after {} iterations", projected_gradient, summary_.iterations));
+    return true;
+  }
+  if (!(projected_gradient <= options_.gradient_tolerance * gradient_scale_)) return false;
+  stop(SolverStatus::Converged,
+       fmt::format("converged: |pg| {:.3g} <= {:.3g} |A'z| after {} iterations", projected_gradient / gradient_scale_,
+                   options_.gradient_tolerance, summary_.iterations));
+  return true;
+}
+
+bool StoppingRules::cycle_is_over() const {
+  // The slower the objective falls, the longer it is watched: a fixed number of iterations would stop ever earlier.
+  const long watched = std::max(options_.settle_iterations, checkpoint_iteration_ / 2);
+  return summary_.iterations - checkpoint_iteration_ >= watched;
+}
+
+bool StoppingRules::falls_still(double value) {
+  if (value >= checkpoint_ - options_.objective_tolerance * std::abs(checkpoint_)) return false;
+  checkpoint_ = value;
+  checkpoint_iteration_ = summary_.iterations;
+  return true;
+}
+
+void StoppingRules::settle(double value, double projected_gradient) {
+  stop(SolverStatus::Settled,
+       fmt::format("settled: objective {:.6g} fell by {:.2g} of itself in {} iterations; |pg| "
+                   "{:.2g}",
+                   value, checkpoint_ > 0.0 ? (checkpoint_ - value) / checkpoint_ : 0.0,
+                   summary_.iterations - checkpoint_iteration_, projected_gradient / gradient_scale_));
+}
+
+void StoppingRules::stop_at_rest(double value, double projected_gradient) {
+  stop(SolverStatus::Settled, fmt::format("settled: objective {:.6g} falls no more in rounding; |pg| {:.2g}", value,
+                                          projected_gradient / gradient_scale_));
+}
+
+std::string progress_line(const SolverProgress& progress) {
+  return fmt::format("iteration {}, residual {:.4g} nm RMS, {:.1f} s", progress.iterations, progress.residual_rms,
+                     progress.seconds);
+}
+
+}  // namespace dwell
