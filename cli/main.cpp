@@ -11,6 +11,7 @@
 #include "cli/terminal.h"
 #include "core/base/errors.h"
 #include "core/base/version.h"
+#include "runs/job/option_flags.h"
 
 namespace {
 
@@ -67,7 +68,7 @@ int main(int argc, char** argv) {
   try {
     return run(argc, argv);
   } catch (const dwell::InputError& error) {
-    return fail(kBadInput, "", error);
+    return fail(kBadInput, "", dwell::with_flags(error));
   } catch (const dwell::Interrupted& error) {
     return fail(kInterrupted, "", error);
   } catch (const std::exception& error) {

@@ -27,15 +27,19 @@ bool same(double a, double b, double size) { return std::abs(a - b) <= kSame * s
 
 void check_options(const MapReadOptions& options, const std::string& where) {
   if (options.pitch && !(std::isfinite(*options.pitch) && *options.pitch > 0.0)) {
-    throw InputError(fmt::format("--{}-pixel = {} mm for {}; a finite pixel pitch > 0 is required", options.name,
-                                 *options.pitch, where));
+    const std::string value = fmt::format("{} mm", *options.pitch);
+    throw InputError(
+        options.name + " pixel", value, "a finite pixel pitch > 0",
+        fmt::format("`{} pixel` = {} for {}; a finite pixel pitch > 0 is required", options.name, value, where));
   }
   if (options.origin && !(std::isfinite(options.origin->x) && std::isfinite(options.origin->y))) {
-    throw InputError(fmt::format("--{}-origin = {},{} mm for {}; finite numbers are required", options.name,
-                                 options.origin->x, options.origin->y, where));
+    const std::string value = fmt::format("{},{} mm", options.origin->x, options.origin->y);
+    throw InputError(options.name + " origin", value, "finite numbers",
+                     fmt::format("`{} origin` = {} for {}; finite numbers are required", options.name, value, where));
   }
   if (!(std::isfinite(options.scale) && options.scale > 0.0)) {
-    throw InputError(fmt::format("--{}-unit gives a factor of {} for {}; it must be finite and > 0", options.name,
+    throw InputError(options.name + " unit", fmt::format("{}", options.scale), "a factor that is finite and > 0",
+                     fmt::format("`{} unit` gives a factor of {} for {}; it must be finite and > 0", options.name,
                                  options.scale, where));
   }
 }
@@ -48,7 +52,7 @@ std::optional<Point> known_pitch(const MapHeader& header, const MapReadOptions& 
   const double rounding = header.pitch_rounding * pitch;
   if (!(std::abs(header.pitch->x - pitch) <= rounding && std::abs(header.pitch->y - pitch) <= rounding)) {
     throw InputError(
-        fmt::format("{}: header says pitch_mm = {},{} but --{}-pixel says {}; they must agree (or the option "
+        fmt::format("{}: header says pitch_mm = {},{} but `{} pixel` says {}; they must agree (or the option "
                     "be left out)",
                     where, header.pitch->x, header.pitch->y, options.name, pitch));
   }
@@ -63,7 +67,7 @@ std::optional<Point> known_origin(const MapHeader& header, const MapReadOptions&
   if (!same(header.origin->x, given.x, std::max(std::abs(given.x), pitch)) ||
       !same(header.origin->y, given.y, std::max(std::abs(given.y), pitch))) {
     throw InputError(
-        fmt::format("{}: header says origin_mm = {},{} but --{}-origin says {},{}; they must agree (or the "
+        fmt::format("{}: header says origin_mm = {},{} but `{} origin` says {},{}; they must agree (or the "
                     "option be left out)",
                     where, header.origin->x, header.origin->y, options.name, given.x, given.y));
   }
@@ -80,13 +84,13 @@ void check_unit(const MapHeader& header, const MapReadOptions& options, const st
     throw InputError(fmt::format("{}: header says unit {} ({})", where, error.what(),
                                  options.quantity == MapQuantity::Rate
                                      ? "removal rates are required here, not heights; of the surface that spots left, "
-                                       "give their --tif-dwell-time"
+                                       "give their `tif dwell time`"
                                      : "heights are required here, not rates"));
   }
   if (!same(factor, options.scale, factor)) {
     throw InputError(
-        fmt::format("{}: header says unit {} (a factor of {} to nm), but --{}-unit gives a factor of {}; they "
-                    "must agree: give --{}-unit {}",
+        fmt::format("{}: header says unit {} (a factor of {} to nm), but `{} unit` gives a factor of {}; they "
+                    "must agree: give `{} unit` {}",
                     where, *header.unit, factor, options.name, options.scale, options.name, *header.unit));
   }
 }
@@ -95,7 +99,7 @@ HeightMap map_of_source(MapSource source, const MapReadOptions& options, const s
   check_unit(source.header, options, where);
   const std::optional<Point> pitch = known_pitch(source.header, options, where);
   if (!pitch) {
-    throw InputError(fmt::format("{}: the file says no pixel pitch; give --{}-pixel [mm] > 0{}", where, options.name,
+    throw InputError(fmt::format("{}: the file says no pixel pitch; give `{} pixel` [mm] > 0{}", where, options.name,
                                  source.pitch_hint));
   }
   const Point on_camera{source.camera_pixel.x * pitch->x, source.camera_pixel.y * pitch->y};

@@ -55,13 +55,13 @@ void check_agreement(const Lattice& lattice, Direction axis, const std::optional
                      const std::optional<Point>& origin, const std::string& where, const std::string& name) {
   if (pitch && !(std::abs(*pitch.*axis.coordinate - lattice.pitch) <= kPitchAgreement * lattice.pitch)) {
     throw InputError(
-        fmt::format("{}: its points have a pitch of {} mm in {}, but --{}-pixel or pitch_mm says {} mm; they "
+        fmt::format("{}: its points have a pitch of {} mm in {}, but `{} pixel` or pitch_mm says {} mm; they "
                     "must agree (or be left out)",
                     where, lattice.pitch, axis.letter, name, *pitch.*axis.coordinate));
   }
   if (origin && !(std::abs(*origin.*axis.coordinate - lattice.origin) <= kLatticeTolerance * lattice.pitch)) {
     throw InputError(
-        fmt::format("{}: its points begin at {} = {} mm, but --{}-origin or origin_mm says {} mm; they must "
+        fmt::format("{}: its points begin at {} = {} mm, but `{} origin` or origin_mm says {} mm; they must "
                     "agree (or be left out)",
                     where, axis.letter, lattice.origin, name, *origin.*axis.coordinate));
   }
@@ -88,7 +88,7 @@ HeightMap grid_points(const std::vector<XyzPoint>& points, std::optional<Point> 
   if (!(y.pitch > 0.0)) y.pitch = pitch ? pitch->y : x.pitch;
   if (!(x.pitch > 0.0)) {
     throw InputError(fmt::format(
-        "{}: all its points are at one place, which says no pixel pitch; give --{}-pixel [mm] > 0", where, name));
+        "{}: all its points are at one place, which says no pixel pitch; give `{} pixel` [mm] > 0", where, name));
   }
   // With the pitches of the map: coordinates that were taken as one, being the same but for rounding, must also be so
   // on a borrowed pitch.

@@ -28,7 +28,7 @@ Point centroid(const HeightMap& rates) {
   if (!(sum > 0.0)) {
     throw InputError(
         fmt::format("removal function: its samples sum to {} nm/s; the centroid needs a positive sum "
-                    "(use --tif-centre middle or x,y)",
+                    "(use `tif centre` middle or x,y)",
                     sum));
   }
   return (1.0 / sum) * moment;

@@ -49,7 +49,7 @@ RemovalKernel removal_kernel(const RemovalFunction& tif, double pitch_x, double 
   if (!(tif.fwhm >= 2.0 * std::max(pitch_x, pitch_y))) {
     throw InputError(
         fmt::format("removal function: FWHM = {:.4g} mm is narrower than two pixels of the map ({:.4g} x {:.4g} mm); "
-                    "check --tif-pixel and --map-pixel",
+                    "check `tif pixel` and `map pixel`",
                     tif.fwhm, pitch_x, pitch_y));
   }
   const auto half = [&](double pitch) { return static_cast<Index>(std::ceil(tif.radius / pitch - 1e-6)); };

@@ -92,7 +92,7 @@ Settings settings_of(const MultiPitchOptions& o, const RemovalFunction& tif, dou
     throw InputError(
         fmt::format("multi-pitch: the pitches follow from the fastest feed, which is {} mm/s; required: a fastest feed "
                     "of the machine "
-                    "(--max-feed MM/MIN), or pitches=D1/D2/... in mm, shallowest first",
+                    "(`max feed` MM/MIN), or pitches=D1/D2/... in mm, shallowest first",
                     max_feed));
   }
   return s;

@@ -18,9 +18,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
+[[noreturn]] void refuse_out(const fs::path& value, const std::string& accepted, const std::string& why) {
+  throw InputError("out", value.string(), accepted, "`out`: " + why);
+}
+
 /// An absolute path without links or a trailing separator, so that its parent is the folder that holds it.
 fs::path normal(const fs::path& target, const ResultFiles& files) {
-  if (target.empty()) throw InputError(fmt::format("--out: required; the folder for the {}", files.kind));
+  if (target.empty())
+    refuse_out("", fmt::format("the folder for the {}", files.kind),
+               fmt::format("required; the folder for the {}", files.kind));
   std::error_code error;
   fs::path path = fs::weakly_canonical(fs::absolute(target), error);
   if (error) path = fs::absolute(target).lexically_normal();
@@ -51,16 +57,17 @@ void check_target(const fs::path& target, const fs::path& shown, const ResultFil
   const fs::file_status status = fs::status(target, error);
   if (!fs::exists(status)) return;
   if (!fs::is_directory(status))
-    throw InputError(fmt::format("--out: '{}' is a file; a folder is required", shown.string()));
+    refuse_out(shown, "a folder", fmt::format("'{}' is a file; a folder is required", shown.string()));
   if (fs::is_empty(target, error)) return;
   const std::string other = foreign_entry(target, files);
   if (other.empty()) return;
-  throw InputError(fmt::format("--out: '{}' is not an earlier {} ({}) and is left alone; give an empty or a new folder",
-                               shown.string(), files.kind, other));
+  refuse_out(shown, "an empty or a new folder",
+             fmt::format("'{}' is not an earlier {} ({}) and is left alone; give an empty or a new folder",
+                         shown.string(), files.kind, other));
 }
 
 [[noreturn]] void refuse(const fs::path& target, const std::string& reason) {
-  throw InputError(fmt::format("--out: cannot write '{}': {}", target.string(), reason));
+  refuse_out(target, "a folder that can be written", fmt::format("cannot write '{}': {}", target.string(), reason));
 }
 
 }  // namespace

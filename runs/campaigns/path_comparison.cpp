@@ -14,6 +14,7 @@
 #include "paths/domain/widest_place.h"
 #include "paths/metrics/path_coverage.h"
 #include "paths/tours/spanning_tree.h"
+#include "runs/job/option_flags.h"
 #include "runs/reports/plan_output.h"
 
 namespace dwell {
@@ -145,7 +146,7 @@ PathComparison compare_paths(const JobOptions& options, const std::string& list,
     try {
       plan_one(comparison.job, comparison.pitch, path, folder, progress.of_part(stage));
     } catch (const InputError& error) {
-      path.failure = error.what();
+      path.failure = with_flags(error).what();
       progress.report(stage + ": " + path.failure);
     }
   }

@@ -116,7 +116,7 @@ class ModelFit {
       const ModelParameter& p = model_.parameters[k - kOwn];
       if (!p.fitted && !p.fallback && std::isnan(given_[k])) {
         throw InputError(
-            fmt::format("fit of {0}: {1} must be held; --fit {0}:{1}=VALUE is required", model_.name, p.name));
+            fmt::format("fit of {0}: {1} must be held; `fit` {0}:{1}=VALUE is required", model_.name, p.name));
       }
       // All round, the direction of the lean means nothing.
       if (p.name == "angle" && model_.name == "bonnet" && given_[k - 2] == 0.0 && std::isnan(given_[k])) {

@@ -18,19 +18,19 @@ constexpr double kLeastRadiusInExtents = 1.2;  // that edge or neighbour must le
 
 void check(const SpotOptions& o) {
   if (!(std::isfinite(o.dwell_time) && o.dwell_time > 0.0)) {
-    throw InputError(fmt::format("--dwell-time = {} s; required finite and > 0", o.dwell_time));
+    throw InputError("dwell time", fmt::format("{} s", o.dwell_time), "finite and > 0");
   }
   if (o.radius && !(std::isfinite(*o.radius) && *o.radius > 0.0)) {
-    throw InputError(fmt::format("--radius = {} mm; required finite and > 0", *o.radius));
+    throw InputError("radius", fmt::format("{} mm", *o.radius), "finite and > 0");
   }
   if (!(o.noise_cut >= 0.0 && o.noise_cut <= 0.5)) {
-    throw InputError(fmt::format("--noise-cut = {}; required a share of the peak from 0 to 0.5", o.noise_cut));
+    throw InputError("noise cut", fmt::format("{}", o.noise_cut), "a share of the peak from 0 to 0.5");
   }
   if (!(std::isfinite(o.noise_sigmas) && o.noise_sigmas >= 0.0)) {
-    throw InputError(fmt::format("--noise-sigmas = {}; required finite and >= 0", o.noise_sigmas));
+    throw InputError("noise sigmas", fmt::format("{}", o.noise_sigmas), "finite and >= 0");
   }
   if (o.centre == SpotCentre::Given && o.at.empty()) {
-    throw InputError("--centre at: give the positions that the tool was sent to, --at X,Y for each spot");
+    throw InputError("`centre` at: give the positions that the tool was sent to, `at` X,Y for each spot");
   }
 }
 
@@ -49,8 +49,8 @@ std::vector<FoundSpot> spots_of(const HeightMap& depth, const SpotOptions& optio
     });
     if (distance(nearest->centre, p) > 2.0 * nearest->extent) {
       throw InputError(
-          fmt::format("--at {},{}: no spot there; the nearest one found is at ({:.4g}, {:.4g}) mm (with "
-                      "--radius the search starts at the place given)",
+          fmt::format("`at` {},{}: no spot there; the nearest one found is at ({:.4g}, {:.4g}) mm (with "
+                      "`radius` the search starts at the place given)",
                       p.x, p.y, nearest->centre.x, nearest->centre.y));
     }
     chosen.push_back(*nearest);
@@ -70,7 +70,7 @@ double radius_of(const HeightMap& depth, const std::vector<FoundSpot>& spots) {
     if (room < kLeastRadiusInExtents * extent) {
       throw InputError(fmt::format(
           "spot at ({:.4g}, {:.4g}) mm: it reaches at least {:.4g} mm, but the edge of the map or another spot "
-          "is {:.4g} mm away; choose others with --at, or give --radius",
+          "is {:.4g} mm away; choose others with `at`, or give `radius`",
           p.x, p.y, extent, room));
     }
   }
@@ -112,7 +112,7 @@ void refuse_jumps(const std::vector<SpotPatch>& patches, double radius, const st
     const double reach = 0.5 * width + std::max(patches[k].depth.grid.pitch_x, patches[k].depth.grid.pitch_y);
     if (away <= reach) continue;
     throw InputError(fmt::format(
-        "--at {},{} (spot {} of {}): the spot near there is at ({:.4g}, {:.4g}) mm, {:.4g} mm away; at most {:.4g} mm, "
+        "`at` {},{} (spot {} of {}): the spot near there is at ({:.4g}, {:.4g}) mm, {:.4g} mm away; at most {:.4g} mm, "
         "half of its width at half height and a pixel, is accepted: is this its place, in the coordinates of the map?",
         at[k].x, at[k].y, k + 1, at.size(), found.x, found.y, away, reach));
   }
@@ -137,7 +137,7 @@ Point apex(const HeightMap& map, double peak, double radius) {
   const Eigen::Vector2d at = -curvature.inverse() * Eigen::Vector2d(c[1], c[2]);
   if (!(curvature.determinant() > 0.0 && c[3] < 0.0 && at.norm() <= 1.0)) {
     throw InputError(
-        "--centre peak: the top of the spot is not rounded (a ring, several peaks, or noise); use centroid or at");
+        "`centre` peak: the top of the spot is not rounded (a ring, several peaks, or noise); use centroid or at");
   }
   return {radius * at.x(), radius * at.y()};
 }
@@ -207,7 +207,7 @@ HeightMap removed_depth(const HeightMap& before, const HeightMap& after) {
                     std::abs(a.origin.y - b.origin.y) <= 0.01 * b.pitch_y;
   if (!same) {
     throw InputError(
-        fmt::format("--before has {} x {} pixels of {:.6g} x {:.6g} mm from ({:.6g}, {:.6g}) mm, the map after {} x {} "
+        fmt::format("`before` has {} x {} pixels of {:.6g} x {:.6g} mm from ({:.6g}, {:.6g}) mm, the map after {} x {} "
                     "of {:.6g} x {:.6g} mm "
                     "from ({:.6g}, {:.6g}) mm; the same grid is required",
                     a.rows, a.cols, a.pitch_x, a.pitch_y, a.origin.x, a.origin.y, b.rows, b.cols, b.pitch_x, b.pitch_y,

@@ -99,7 +99,7 @@ void join_parts(std::vector<Region>& regions, const Grid& grid) {
 void refuse_rise(double rise, double fall) {
   throw InputError(fmt::format(
       "the surface stands {:.4g} nm higher after than before, and went down by only {:.4g} nm: no removal; are "
-      "--spot (after) and --before swapped, or is the sign of the heights the other one?",
+      "`spot` (after) and `before` swapped, or is the sign of the heights the other one?",
       rise, fall));
 }
 
@@ -119,7 +119,7 @@ std::vector<FoundSpot> find_spots(const HeightMap& depth) {
   if (!(deepest > kClear * scatter)) {
     throw InputError(
         fmt::format("no spot found: the deepest place is {:.4g} nm, the scatter of the map {:.4g} nm; a spot "
-                    "stands out by {:g} times the scatter (or give --at and --radius)",
+                    "stands out by {:g} times the scatter (or give `at` and `radius`)",
                     deepest, scatter, kClear));
   }
   const double threshold = std::max(kShare * deepest, kScatters * scatter);

@@ -59,7 +59,7 @@ Plane surroundings(const HeightMap& depth, Point centre, double radius, const st
   if (baseline == SpotBaseline::None) return {};
   throw InputError(fmt::format(
       "{}: {} pixels with data lie around it from {:.4g} to {:.4g} mm, in {} of 8 directions; the baseline needs {} in "
-      "{} (another --radius, or --baseline {})",
+      "{} (another `radius`, or `baseline` {})",
       place(centre), ring.size(), radius, kRing * radius, octants(depth, ring, centre), kLeastRing, needed,
       baseline == SpotBaseline::Plane ? "constant or none" : "none"));
 }
@@ -105,7 +105,7 @@ void refuse_missing(const SpotPatch& patch, Point centre, double radius) {
   if (missing > kMostMissing) {
     throw InputError(
         fmt::format("{}: {:.0f} % of the pixels within its radius of {:.4g} mm have no data or lie off the "
-                    "map; at most {:.0f} % are accepted (--radius says how far a spot reaches)",
+                    "map; at most {:.0f} % are accepted (`radius` says how far a spot reaches)",
                     place(centre), 100.0 * missing, radius, 100.0 * kMostMissing));
   }
 }
@@ -121,7 +121,8 @@ SpotPatch cut_spot(const HeightMap& depth, Point centre, double radius, const st
               half_cols = static_cast<Index>(std::ceil(radius / g.pitch_x)) + kMargin;
   if (half_rows > 2 * g.rows + 16 || half_cols > 2 * g.cols + 16) {
     throw InputError(
-        fmt::format("--radius = {:.4g} mm; the map is only {:.4g} x {:.4g} mm", radius, g.width(), g.height()));
+        "radius", fmt::format("{:.4g} mm", radius), "no more than the map's own size",
+        fmt::format("`radius` = {:.4g} mm; the map is only {:.4g} x {:.4g} mm", radius, g.width(), g.height()));
   }
   const Plane plane = surroundings(depth, centre, radius, others, baseline);
   SpotPatch patch;

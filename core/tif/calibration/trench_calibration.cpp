@@ -49,14 +49,17 @@ double median_of(std::vector<double> values) {
 
 void check(const TrenchOptions& o) {
   if (!(std::isfinite(o.feed) && o.feed > 0.0)) {
-    throw InputError(fmt::format("--feed = {} mm/min; required finite and > 0", o.feed * 60.0));
+    throw InputError("feed", fmt::format("{} mm/min", o.feed * 60.0), "finite and > 0");
   }
-  if (!std::isfinite(o.direction)) throw InputError("--direction: a finite angle in degrees is required");
+  if (!std::isfinite(o.direction)) {
+    throw InputError("direction", fmt::format("{} degrees", o.direction), "a finite angle in degrees",
+                     "`direction`: a finite angle in degrees is required");
+  }
   if (o.radius && !(std::isfinite(*o.radius) && *o.radius > 0.0)) {
-    throw InputError(fmt::format("--radius = {} mm; required finite and > 0", *o.radius));
+    throw InputError("radius", fmt::format("{} mm", *o.radius), "finite and > 0");
   }
   if (!(o.noise_cut >= 0.0 && o.noise_cut <= 0.5)) {
-    throw InputError(fmt::format("--noise-cut = {}; required a share of the peak from 0 to 0.5", o.noise_cut));
+    throw InputError("noise cut", fmt::format("{}", o.noise_cut), "a share of the peak from 0 to 0.5");
   }
 }
 
@@ -101,7 +104,7 @@ void locate(const std::vector<TrackPixel>& pixels, double pitch, TrenchCalibrati
   if (left - low < 0.2 * extent || high - right < 0.2 * extent || right - left > 0.6 * (high - low)) {
     throw InputError(
         fmt::format("no trench found: what is deeper than 30 % of the deepest spans {:.4g} to {:.4g} mm of {:.4g} "
-                    "to {:.4g} mm across the direction; check --direction, or measure more of its surroundings",
+                    "to {:.4g} mm across the direction; check `direction`, or measure more of its surroundings",
                     left, right, low, high));
   }
 }
@@ -140,7 +143,7 @@ void choose_stretch(const std::vector<TrackPixel>& pixels, TrenchCalibration& tr
   if (!(trench.to - trench.from >= trench.radius)) {
     throw InputError(
         fmt::format("the trench is even over only {:.4g} mm; at least its radius, {:.4g} mm, is required (check "
-                    "--direction, and that the feed was constant)",
+                    "`direction`, and that the feed was constant)",
                     trench.to - trench.from, trench.radius));
   }
 }
@@ -167,7 +170,7 @@ void cut_section(const std::vector<TrackPixel>& pixels, TrenchCalibration& trenc
   if (ring_pixels.size() < 6) {
     throw InputError(
         fmt::format("the surroundings of the trench have data at only {} places across beyond {:.4g} mm; at "
-                    "least 6 are required (a smaller --radius)",
+                    "least 6 are required (a smaller `radius`)",
                     ring_pixels.size(), trench.radius));
   }
   const Plane line = robust_plane(ring, ring_pixels, true);

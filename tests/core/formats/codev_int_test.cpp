@@ -81,7 +81,7 @@ TEST(CodevInt, IsChosenByContentOrExtension) {
   test::expect_same_map(read_map(folder.file("a.int", text), options), expected);
   test::expect_same_map(read_map(folder.file("a.txt", text), options), expected);
   test::expect_input_error([&] { read_map(folder.file("b.int", "1 2\n3 4\n"), options); }, {"b.int", "GRD"});
-  test::expect_input_error([&] { read_map(folder.file("a.int", text)); }, {"a.int", "--map-pixel"});
+  test::expect_input_error([&] { read_map(folder.file("a.int", text)); }, {"a.int", "`map pixel`"});
 }
 
 }  // namespace

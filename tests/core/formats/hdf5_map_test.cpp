@@ -66,7 +66,7 @@ TEST(Hdf5Map, ListsTheMatricesOfAFileThatHoldsSeveral) {
   EXPECT_EQ(read_map(name + ":/before", options).at(1, 2), 6.0);
   test::expect_input_error([&] { read_map(name + ":/runs", options); }, {"a.h5:/runs", "'/runs'", "no data set"});
   test::expect_input_error([&] { read_map(name + ":/none", options); }, {"a.h5:/none", "'/none' is not there"});
-  test::expect_input_error([&] { read_map(name + ":/before"); }, {"--map-pixel", "attribute pitch_mm"});
+  test::expect_input_error([&] { read_map(name + ":/before"); }, {"`map pixel`", "attribute pitch_mm"});
 }
 
 TEST(Hdf5Map, RefusesWhatIsNoMatrix) {

@@ -103,7 +103,7 @@ TEST(MapIo, ThreeColumnsAreAMatrixUnlessTheFileSaysXyz) {
   EXPECT_EQ(read_map(folder.file("a.txt", rows), with_pitch(1.0)).grid.rows, 4);
   EXPECT_EQ(read_map(folder.file("a.xyz", rows), with_pitch(1.0)).grid.rows, 2);
   EXPECT_EQ(read_map(folder.file("b.txt", "x y z\n" + rows)).at(1, 0), 3.0);
-  test::expect_input_error([&] { read_map(folder.file("c.txt", rows)); }, {"c.txt", "--map-pixel", "x y z"});
+  test::expect_input_error([&] { read_map(folder.file("c.txt", rows)); }, {"c.txt", "`map pixel`", "x y z"});
 }
 
 TEST(MapIo, HeaderAndOptionsMustAgree) {
@@ -117,13 +117,13 @@ TEST(MapIo, HeaderAndOptionsMustAgree) {
 
   MapReadOptions other = options;
   other.pitch = 0.1000001;
-  test::expect_input_error([&] { read_map(file, other); }, {"a.csv", "pitch_mm = 0.1,0.1", "--map-pixel", "0.1000001"});
+  test::expect_input_error([&] { read_map(file, other); }, {"a.csv", "pitch_mm = 0.1,0.1", "`map pixel`", "0.1000001"});
   other = options;
   other.origin = Point{0.001, -2.0};
-  test::expect_input_error([&] { read_map(file, other); }, {"a.csv", "origin_mm = 0,-2", "--map-origin", "0.001,-2"});
+  test::expect_input_error([&] { read_map(file, other); }, {"a.csv", "origin_mm = 0,-2", "`map origin`", "0.001,-2"});
   other = options;
   other.scale = 1.0;
-  test::expect_input_error([&] { read_map(file, other); }, {"a.csv", "unit um", "--map-unit um"});
+  test::expect_input_error([&] { read_map(file, other); }, {"a.csv", "unit um", "`map unit` um"});
   const auto waves = folder.file("b.csv", "# unit: waves\n# pitch_mm: 1\n1,2\n");
   test::expect_input_error([&] { read_map(waves); }, {"'waves'", "nm, um"});
 }
@@ -133,21 +133,21 @@ TEST(MapIo, NamesTheMissingOrBadPitchByTheOptionsName) {
   MapReadOptions tif;
   tif.name = "tif";
   const auto file = folder.file("spot.csv", "1,2\n3,4\n");
-  test::expect_input_error([&] { read_map(file, tif); }, {"tif", "spot.csv", "--tif-pixel"});
-  test::expect_input_error([&] { read_map(file); }, {"map", "spot.csv", "--map-pixel", "# pitch_mm"});
+  test::expect_input_error([&] { read_map(file, tif); }, {"tif", "spot.csv", "`tif pixel`"});
+  test::expect_input_error([&] { read_map(file); }, {"map", "spot.csv", "`map pixel`", "# pitch_mm"});
   write_whole_file(folder.path() / "spot.npy", npy_bytes(asymmetric()));
   test::expect_input_error([&] { read_map(folder.path() / "spot.npy", tif); },
-                           {"spot.npy", "--tif-pixel", "sidecar spot.npy.json"});
+                           {"spot.npy", "`tif pixel`", "sidecar spot.npy.json"});
   for (const double pitch : {0.0, -0.1, std::nan(""), HUGE_VAL}) {
-    test::expect_input_error([&] { read_map(file, with_pitch(pitch)); }, {"--map-pixel = ", "spot.csv", "> 0"});
+    test::expect_input_error([&] { read_map(file, with_pitch(pitch)); }, {"`map pixel` = ", "spot.csv", "> 0"});
   }
   MapReadOptions bad = with_pitch(1.0);
   bad.origin = Point{0.0, NAN};
-  test::expect_input_error([&] { read_map(file, bad); }, {"--map-origin", "nan", "finite"});
+  test::expect_input_error([&] { read_map(file, bad); }, {"`map origin`", "nan", "finite"});
   for (const double scale : {0.0, -1.0, std::nan(""), HUGE_VAL}) {
     bad = with_pitch(1.0);
     bad.scale = scale;
-    test::expect_input_error([&] { read_map(file, bad); }, {"--map-unit", "> 0"});
+    test::expect_input_error([&] { read_map(file, bad); }, {"`map unit`", "> 0"});
   }
 }
 

@@ -39,10 +39,10 @@ TEST(NpySidecar, OptionsMustAgree) {
   write_map(file, asymmetric(1));
   MapReadOptions options;
   options.pitch = 0.1;
-  test::expect_input_error([&] { read_map(file, options); }, {"a.npy", "0.1,0.25", "--map-pixel"});
+  test::expect_input_error([&] { read_map(file, options); }, {"a.npy", "0.1,0.25", "`map pixel`"});
   options = {};
   options.origin = Point{-1.7, 0.4};
-  test::expect_input_error([&] { read_map(file, options); }, {"a.npy", "-1.7,0.3", "--map-origin"});
+  test::expect_input_error([&] { read_map(file, options); }, {"a.npy", "-1.7,0.3", "`map origin`"});
   options.origin = Point{-1.7, 0.3};
   test::expect_same_map(read_map(file, options), asymmetric(1));
 }

@@ -146,10 +146,10 @@ TEST(SdfText, OptionsMustAgree) {
   const auto path = folder.file("a.sdf", file("aISO-1.0"));
   MapReadOptions options;
   options.pitch = 0.1;
-  test::expect_input_error([&] { read_map(path, options); }, {"a.sdf", "0.01,0.25", "--map-pixel"});
+  test::expect_input_error([&] { read_map(path, options); }, {"a.sdf", "0.01,0.25", "`map pixel`"});
   options = {};
   options.scale = 1e3;
-  test::expect_input_error([&] { read_map(path, options); }, {"a.sdf", "unit nm", "--map-unit"});
+  test::expect_input_error([&] { read_map(path, options); }, {"a.sdf", "unit nm", "`map unit`"});
   options = {};
   options.origin = Point{-1.0, 2.0};
   EXPECT_EQ(read_map(path, options).grid.origin, (Point{-1.0, 2.0}));

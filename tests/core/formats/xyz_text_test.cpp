@@ -81,7 +81,7 @@ TEST(PointGrid, NamesPointsOffTheGridAndPointsGivenTwice) {
   expect_refused(text + "2 1.7 1\n", {"line 21", "y = 1.7 mm", "regular grid"});
   expect_refused(text + "3 2 1\n", {"line 21", "(3, 2)", "line 14"});
   expect_refused(text + "3 900000 1\n", {"21 points", "900001 x 5", "stray"});
-  expect_refused("1 1 5\n", {"one place", "--map-pixel"});
+  expect_refused("1 1 5\n", {"one place", "`map pixel`"});
 }
 
 TEST(PointGrid, RefusesPointsThatAreAbsurdlyFarApart) {
@@ -109,9 +109,9 @@ TEST(PointGrid, AKnownPitchMustAgree) {
   const std::string text = "0 0 1\n0.5 0 2\n0 0.5 3\n";
   EXPECT_EQ(grid_of(text, Point{0.5, 0.5}).grid.pitch_x, 0.5);
   EXPECT_EQ(grid_of(text, Point{0.5002, 0.5002}).grid.pitch_x, 0.5);
-  test::expect_input_error([&] { grid_of(text, Point{0.25, 0.25}); }, {"pitch of 0.5 mm", "--map-pixel", "0.25"});
+  test::expect_input_error([&] { grid_of(text, Point{0.25, 0.25}); }, {"pitch of 0.5 mm", "`map pixel`", "0.25"});
   test::expect_input_error([&] { grid_of(text, Point{0.5, 0.51}); }, {"pitch of 0.5 mm in y", "0.51"});
-  test::expect_input_error([&] { grid_of(text, {}, Point{0.0, 0.5}); }, {"begin at y = 0 mm", "--map-origin", "0.5"});
+  test::expect_input_error([&] { grid_of(text, {}, Point{0.0, 0.5}); }, {"begin at y = 0 mm", "`map origin`", "0.5"});
   EXPECT_EQ(grid_of("1 1 5\n", Point{0.5, 0.25}).grid.pitch_y, 0.25);
 }
 

@@ -80,14 +80,14 @@ TEST(ZygoDat, LeavesThePitchOpenWhereTheFileDoes) {
   ZygoDatFile file;
   file.resolution = 0.0F;
   const auto path = folder.file("a.dat", file.bytes());
-  test::expect_input_error([&] { read_map(path); }, {"a.dat", "--map-pixel", "lateral resolution", "byte 184"});
+  test::expect_input_error([&] { read_map(path); }, {"a.dat", "`map pixel`", "lateral resolution", "byte 184"});
   MapReadOptions options;
   options.pitch = 0.25;
   EXPECT_EQ(read_map(path, options).grid, (Grid{2, 3, 0.25, 0.25, {7 * 0.25, -12 * 0.25}}));
   options.origin = Point{1.0, 2.0};
   EXPECT_EQ(read_map(path, options).grid.origin, (Point{1.0, 2.0})) << "the camera's place gives way to the user's";
   options.scale = 1e3;
-  test::expect_input_error([&] { read_map(path, options); }, {"a.dat", "unit nm", "--map-unit nm"});
+  test::expect_input_error([&] { read_map(path, options); }, {"a.dat", "unit nm", "`map unit` nm"});
 }
 
 TEST(ZygoDat, NamesFieldByteAndValueOfWhatItRefuses) {
@@ -140,7 +140,7 @@ TEST(ZygoDat, AgreesWithAPitchAsItIsPrinted) {
   options.pitch = 0.2;
   EXPECT_EQ(read_map(folder.path() / "a.dat", options).grid.pitch_x, static_cast<double>(2e-4F) * 1e3);
   options.pitch = 0.20001;
-  test::expect_input_error([&] { read_map(folder.path() / "a.dat", options); }, {"pitch_mm", "--map-pixel", "agree"});
+  test::expect_input_error([&] { read_map(folder.path() / "a.dat", options); }, {"pitch_mm", "`map pixel`", "agree"});
 }
 
 /// The file that comes with prysm (425 x 432 pixels of MetroPro 8.3.5). Reference: read_zygo_dat of prysm's io.py (the

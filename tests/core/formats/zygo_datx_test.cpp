@@ -98,7 +98,7 @@ TEST(ZygoDatx, LeavesThePitchOpenWhereTheFileDoes) {
   datx.y[1] = 0.0;
   const test::TemporaryFolder folder;
   const auto path = folder.file("a.datx", datx.bytes());
-  test::expect_input_error([&] { read_map(path); }, {"a.datx", "--map-pixel", "'Y Converter'"});
+  test::expect_input_error([&] { read_map(path); }, {"a.datx", "`map pixel`", "'Y Converter'"});
   MapReadOptions options;
   options.pitch = 0.5;
   EXPECT_EQ(read_map(path, options).grid, (Grid{2, 3, 0.5, 0.5, {7.5, -11.5}}));

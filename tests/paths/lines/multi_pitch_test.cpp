@@ -328,7 +328,7 @@ TEST(MultiPitch, RefusesBadOptions) {
   EXPECT_EQ(message({}, kInf),
             "multi-pitch: the pitches follow from the fastest feed, which is inf mm/s; required: a fastest feed of the "
             "machine "
-            "(--max-feed MM/MIN), or pitches=D1/D2/... in mm, shallowest first");
+            "(`max feed` MM/MIN), or pitches=D1/D2/... in mm, shallowest first");
   EXPECT_EQ(message(given({0.5, -1.0}, 0.3)), "multi-pitch: pitches = -1 mm; required > 0");
   EXPECT_EQ(message(given({0.5, kInf}, 0.3)), "multi-pitch: pitches = inf mm; required finite");
   EXPECT_EQ(message(with([](auto& o) { o.depths = {3.0, 2.0}; })), "multi-pitch: depths = 3/2 nm; required ascending");

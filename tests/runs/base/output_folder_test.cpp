@@ -83,10 +83,10 @@ TEST(OutputFolder, RefusesAFolderThatHoldsOtherThings) {
   fs::create_directory(temporary.path() / "photos");
   temporary.file("photos/holiday.jpg", "x");
   expect_input_error([&] { OutputFolder folder(temporary.path() / "photos"); },
-                     {"--out", "photos", "holiday.jpg", "empty or a new folder"});
+                     {"`out`", "photos", "holiday.jpg", "empty or a new folder"});
   // A summary.json does not make the other files beside it ours to remove.
   temporary.file("photos/summary.json", "{}");
-  expect_input_error([&] { OutputFolder folder(temporary.path() / "photos"); }, {"--out", "holiday.jpg"});
+  expect_input_error([&] { OutputFolder folder(temporary.path() / "photos"); }, {"`out`", "holiday.jpg"});
   EXPECT_EQ(read_whole_file(temporary.path() / "photos/holiday.jpg"), "x");
   EXPECT_EQ(temporary.entries(), 1u);
 }
@@ -96,18 +96,18 @@ TEST(OutputFolder, ReplacesOnlyAResultOfItsOwnKind) {
   const fs::path plan = temporary.path() / "plan", sweep = temporary.path() / "sweep";
   write_result(plan, "one");
   expect_input_error([&] { OutputFolder folder(plan, pareto_files()); },
-                     {"--out", "not an earlier pareto sweep", "it holds '"});
+                     {"`out`", "not an earlier pareto sweep", "it holds '"});
   {
     OutputFolder folder(sweep, pareto_files());
     folder.write("pareto.json", "{}");
     folder.commit();
   }
   EXPECT_NO_THROW(OutputFolder(sweep, pareto_files()));
-  expect_input_error([&] { OutputFolder folder(sweep); }, {"--out", "not an earlier plan", "pareto.json"});
+  expect_input_error([&] { OutputFolder folder(sweep); }, {"`out`", "not an earlier plan", "pareto.json"});
   fs::remove(sweep / "pareto.json");
   temporary.file("sweep/pareto.csv", "x");
   expect_input_error([&] { OutputFolder folder(sweep, pareto_files()); }, {"it holds no pareto.json"});
-  expect_input_error([] { OutputFolder folder("", pareto_files()); }, {"--out", "required", "pareto sweep"});
+  expect_input_error([] { OutputFolder folder("", pareto_files()); }, {"`out`", "required", "pareto sweep"});
 }
 
 TEST(OutputFolder, WritesThroughALinkToAFolder) {
@@ -125,10 +125,10 @@ TEST(OutputFolder, WritesThroughALinkToAFolder) {
 TEST(OutputFolder, RefusesWhatCannotBeWrittenBeforeAnyWork) {
   const TemporaryFolder temporary;
   const fs::path file = temporary.file("file", "x");
-  expect_input_error([] { OutputFolder folder(""); }, {"--out", "required"});
-  expect_input_error([&] { OutputFolder folder(file); }, {"--out", "file", "a folder is required"});
-  expect_input_error([&] { OutputFolder folder(file / "plan"); }, {"--out", "cannot write", "Not a directory"});
-  expect_input_error([] { OutputFolder folder("/proc/plan"); }, {"--out", "cannot write '/proc/plan'"});
+  expect_input_error([] { OutputFolder folder(""); }, {"`out`", "required"});
+  expect_input_error([&] { OutputFolder folder(file); }, {"`out`", "file", "a folder is required"});
+  expect_input_error([&] { OutputFolder folder(file / "plan"); }, {"`out`", "cannot write", "Not a directory"});
+  expect_input_error([] { OutputFolder folder("/proc/plan"); }, {"`out`", "cannot write '/proc/plan'"});
   EXPECT_EQ(temporary.entries(), 1u);
 }
 

@@ -64,7 +64,7 @@ TEST(LoadMap, SaysWhichOptionIsMissing) {
   std::vector<InputFile> inputs;
   expect_input_error([&] { load_map(options, inputs); }, {"--map", "required"});
   options.map = folder.file("map.csv", "1,2\n").string();
-  expect_input_error([&] { load_map(options, inputs); }, {"map.csv", "--map-pixel", "# pitch_mm"});
+  expect_input_error([&] { load_map(options, inputs); }, {"map.csv", "`map pixel`", "# pitch_mm"});
   EXPECT_TRUE(inputs.empty());
 }
 
@@ -134,7 +134,7 @@ TEST(LoadRemovalFunction, CalibratesTheSurfaceThatASpotLeft) {
   JobOptions options;
   options.tif = (folder.path() / "after.csv").string();
   std::vector<InputFile> inputs;
-  expect_input_error([&] { load_removal_function(options, inputs); }, {"after.csv", "--tif-dwell-time"});
+  expect_input_error([&] { load_removal_function(options, inputs); }, {"after.csv", "`tif dwell time`"});
   options.tif_dwell_time_s = 4.0;
   options.tif_centre = parse_tif_centre("7.8,2.3");
   const RemovalFunction tif = load_removal_function(options, inputs);

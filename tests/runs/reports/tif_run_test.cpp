@@ -64,7 +64,7 @@ TEST(MakeTif, CalibratesASpotAndWritesWhatAPlanTakesWithoutScaling) {
   plan.map = plan.tif;
   expect_input_error([&] { load_map(plan, inputs); }, {"tif.csv", "'nm/s'", "heights are required"});
   plan.tif_unit = "um/s";
-  expect_input_error([&] { load_removal_function(plan, inputs); }, {"tif.csv", "unit nm/s", "--tif-unit nm/s"});
+  expect_input_error([&] { load_removal_function(plan, inputs); }, {"tif.csv", "unit nm/s", "`tif unit` nm/s"});
   plan.tif = spot.job.spot;
   plan.tif_unit = "nm/s";
   expect_input_error([&] { load_removal_function(plan, inputs); }, {"after.csv", "'nm'", "removal rates are required"});
@@ -118,7 +118,7 @@ TEST(MakeTif, RefusesOptionsThatWouldMeanNothing) {
   expect_input_error(with([](TifJob& j) { j.spot.clear(); }), {"one of", "--spot", "--trench"});
   expect_input_error(with([](TifJob& j) { j.feed_mm_per_min = 10.0; }), {"--feed", "--trench"});
   expect_input_error(with([](TifJob& j) { j.dwell_time_s.reset(); }), {"--dwell-time", "required"});
-  expect_input_error(with([](TifJob& j) { j.dwell_time_s = -3.0; }), {"after.csv", "--dwell-time = -3"});
+  expect_input_error(with([](TifJob& j) { j.dwell_time_s = -3.0; }), {"after.csv", "`dwell time` = -3"});
   expect_input_error(with([](TifJob& j) { j.job.tif_pixel_mm = 0.1; }), {"--tif-pixel", "--map-pixel"});
   expect_input_error(with([](TifJob& j) { j.baseline = "none"; }), {"--baseline none", "--before"});
   expect_input_error(with([](TifJob& j) { j.centre = "top"; }), {"--centre", "'top'"});

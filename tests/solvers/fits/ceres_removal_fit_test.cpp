@@ -133,7 +133,7 @@ TEST(FitRemovalFunction, RefusesWhatItCannotFit) {
   const auto with = [&](const char* model, std::map<std::string, double> held) {
     return [&map, model, held] { fit_removal(map, removal_model(model), {held, false}); };
   };
-  expect_input_error(with("bonnet", {}), {"cap must be held", "--fit bonnet:cap=VALUE"});
+  expect_input_error(with("bonnet", {}), {"cap must be held", "`fit` bonnet:cap=VALUE"});
   expect_input_error(with("gaussian", {{"width", 2.0}}), {"unknown parameter \"width\"", "x, y, peak, fwhm"});
   expect_input_error(with("gaussian", {{"fwhm", -2.0}}), {"fwhm = -2", "> 0"});
   expect_input_error(with("gaussian", {{"peak", 0.0}}), {"peak = 0"});

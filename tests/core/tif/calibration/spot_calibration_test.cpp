@@ -97,7 +97,7 @@ TEST(CalibrateSpots, TakesTheDifferenceOfTwoMapsWhateverTheSurfaceWas) {
   EXPECT_LE(worst(c.rates, {}, 2.5), 0.011 * 11.0);  // what the noise cut of 1 % took
   HeightMap shifted = before;
   shifted.grid.origin.x += 0.05;
-  expect_input_error([&] { removed_depth(shifted, after); }, {"--before", "150 x 200", "same grid"});
+  expect_input_error([&] { removed_depth(shifted, after); }, {"`before`", "150 x 200", "same grid"});
 }
 
 // Four spots at places that are not whole pixels apart: with the axes known, the mean must be the tool itself, and its
@@ -209,7 +209,7 @@ TEST(CalibrateSpots, FillsFewHolesAndRefusesMany) {
 
 TEST(CalibrateSpots, RefusesASpotAtTheEdge) {
   const HeightMap depth = depth_of(after_spots(kGrid, {{-6.2, 12.0}}, 5.0, 0.0, 1));
-  expect_input_error([&] { calibrate_spots(depth, options_for(5.0)); }, {"spot at (", "edge of the map", "--radius"});
+  expect_input_error([&] { calibrate_spots(depth, options_for(5.0)); }, {"spot at (", "edge of the map", "`radius`"});
   SpotOptions options = options_for(5.0);
   options.at = {{-6.2, 12.0}};
   options.radius = 3.0;
@@ -233,12 +233,12 @@ TEST(CalibrateSpots, RefusesASpotFarFromThePlaceGiven) {
     EXPECT_LE(distance(found, place), 0.01) << off.x;
   }
   options.at[1] = {6.1, 12.9};
-  expect_input_error([&] { calibrate_spots(depth, options); }, {"--at 6.1,12.9 (spot 2 of 2)", "is at (6.3", ", 15.3",
+  expect_input_error([&] { calibrate_spots(depth, options); }, {"`at` 6.1,12.9 (spot 2 of 2)", "is at (6.3", ", 15.3",
                                                                 "2.4", "at most 1.1", "half of its width"});
   // Found by itself, too, where the nearest spot is not at the place.
   options.radius.reset();
   options.at = {{-2.0, 8.0}};
-  expect_input_error([&] { calibrate_spots(depth, options); }, {"--at -2,8 (spot 1 of 1)", "mm away"});
+  expect_input_error([&] { calibrate_spots(depth, options); }, {"`at` -2,8 (spot 1 of 1)", "mm away"});
 }
 
 TEST(CalibrateSpots, RefusesBeforeAndAfterSwapped) {
@@ -255,7 +255,7 @@ TEST(CalibrateSpots, RefusesBeforeAndAfterSwapped) {
 TEST(CalibrateSpots, RefusesWhatItCannotUse) {
   const HeightMap depth = depth_of(after_spots(kGrid, kFour, 5.0, 0.1, 1));
   for (const double seconds : {0.0, -5.0, kNaN, HUGE_VAL}) {
-    expect_input_error([&] { calibrate_spots(depth, options_for(seconds)); }, {"--dwell-time = ", "> 0"});
+    expect_input_error([&] { calibrate_spots(depth, options_for(seconds)); }, {"`dwell time` = ", "> 0"});
   }
   const auto with = [&](auto change) {
     return [&depth, change] {
@@ -264,13 +264,13 @@ TEST(CalibrateSpots, RefusesWhatItCannotUse) {
       calibrate_spots(depth, options);
     };
   };
-  expect_input_error(with([](auto& o) { o.radius = -1.0; }), {"--radius = -1"});
-  expect_input_error(with([](auto& o) { o.noise_cut = 0.9; }), {"--noise-cut = 0.9"});
-  expect_input_error(with([](auto& o) { o.noise_cut = kNaN; }), {"--noise-cut = nan"});
-  expect_input_error(with([](auto& o) { o.noise_sigmas = -1.0; }), {"--noise-sigmas = -1"});
-  expect_input_error(with([](auto& o) { o.centre = SpotCentre::Given; }), {"--centre at", "--at"});
-  expect_input_error(with([](auto& o) { o.at = {{3.0, 12.5}}; }), {"--at 3,12.5", "no spot there"});
-  expect_input_error(with([](auto& o) { o.at = {{3.0, 12.5}}, o.radius = 1e6; }), {"--radius = 1e+06"});
+  expect_input_error(with([](auto& o) { o.radius = -1.0; }), {"`radius` = -1"});
+  expect_input_error(with([](auto& o) { o.noise_cut = 0.9; }), {"`noise cut` = 0.9"});
+  expect_input_error(with([](auto& o) { o.noise_cut = kNaN; }), {"`noise cut` = nan"});
+  expect_input_error(with([](auto& o) { o.noise_sigmas = -1.0; }), {"`noise sigmas` = -1"});
+  expect_input_error(with([](auto& o) { o.centre = SpotCentre::Given; }), {"`centre` at", "`at`"});
+  expect_input_error(with([](auto& o) { o.at = {{3.0, 12.5}}; }), {"`at` 3,12.5", "no spot there"});
+  expect_input_error(with([](auto& o) { o.at = {{3.0, 12.5}}, o.radius = 1e6; }), {"`radius` = 1e+06"});
   expect_input_error([] { calibrate_spots(HeightMap(kGrid), options_for(1.0)); }, {"0 pixels with data"});
   Noise random(5);
   HeightMap noise(kGrid);
