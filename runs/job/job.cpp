@@ -19,17 +19,6 @@ PathSpec required_path(const JobOptions& options) {
   return parse_path_spec(options.path);
 }
 
-/// Says besides with which flags a tool that does not fit is mended.
-void check_fits_with_flags(const RemovalFunction& tif, const Grid& map) {
-  try {
-    check_tool_fits(tif, map);
-  } catch (const InputError& error) {
-    const bool measured = tif.kind == RemovalFunction::Kind::Measured;
-    throw InputError(
-        fmt::format("{}: {} and --map-pixel", error.what(), measured ? "--tif-pixel" : "--tif (its radius)"));
-  }
-}
-
 }  // namespace
 
 DwellOptions dwell_options(const JobOptions& o) {
@@ -44,7 +33,6 @@ Job load_job(const JobOptions& options, const Progress& progress) {
   map = within(std::move(map), options.aperture);
   progress.check();
   RemovalFunction tif = load_removal_function(options, job.inputs);
-  check_fits_with_flags(tif, map.grid);
   job.part = std::make_shared<const Part>(
       make_part(std::move(map), std::move(tif), options.remove, options.threads, progress));
   return job;

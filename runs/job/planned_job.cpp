@@ -2,11 +2,15 @@
 
 #include <utility>
 
+#include "core/base/errors.h"
+#include "runs/job/option_flags.h"
+
 namespace dwell {
 
 std::vector<std::string> PlannedJob::limits() const {
   std::vector<std::string> all = dwell.limits;
   all.insert(all.end(), program.limits.begin(), program.limits.end());
+  for (std::string& limit : all) limit = with_option_names(limit, flag_of);
   return all;
 }
 

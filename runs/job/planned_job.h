@@ -18,7 +18,7 @@ struct PlannedJob {
   MachineProgram program;
 
   const Part& part() const { return *job.part; }
-  /// Limits that were reached, one sentence each; not empty = exit code 3.
+  /// Limits that were reached, one sentence each, with the flags of the options; not empty = exit code 3.
   std::vector<std::string> limits() const;
 };
 

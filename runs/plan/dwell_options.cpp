@@ -11,7 +11,7 @@ bool weights_are_searched(const DwellOptions& options) {
   const WeightGoal &smoothness = options.smoothness, &price = options.time_price;
   if (smoothness.kind == GoalKind::ResidualAtMost && price.kind == GoalKind::ResidualAtMost) {
     throw InputError(fmt::format(
-        "smoothness '{}' and time price '{}' leave open which weight takes up the residual; required for one of "
+        "`smoothness` '{}' and `time price` '{}' leave open which weight takes up the residual; required for one of "
         "them: a number, auto, 'step<=S' (smoothness) or 'total<=S' (time price)",
         to_string(smoothness), to_string(price)));
   }

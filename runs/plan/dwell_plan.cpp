@@ -14,9 +14,9 @@ namespace {
 void collect_limits(DwellPlan& plan, const DwellOptions& options) {
   if (!plan.solver.converged()) {
     const bool time = plan.solver.status == SolverStatus::TimeLimit;
-    plan.limits.push_back(fmt::format(
-        "solver {}: {}: {}{}", to_string(options.solver), to_string(plan.solver.status), plan.solver.message,
-        time ? fmt::format("; the time limit on solving is {} s", options.max_seconds) : ""));
+    plan.limits.push_back(fmt::format("solver {}: {}: {}{}", to_string(options.solver), to_string(plan.solver.status),
+                                      plan.solver.message,
+                                      time ? fmt::format("; `max solve` is {} s", options.max_seconds) : ""));
   }
   if (plan.search) plan.limits.insert(plan.limits.end(), plan.search->limits.begin(), plan.search->limits.end());
 }

@@ -13,7 +13,7 @@ MachineProgram make_machine_program(const LaidPath& laid, const DwellPlan& dwell
   program.table =
       feed_table_of(laid.path, {dwell.seconds.begin(), dwell.seconds.end()}, laid.motion, machine.max_feed_mm_per_min);
   if (program.feed.segments_infeasible > 0) {
-    program.limits.push_back(fmt::format("{} of {} segments run faster than the maximum feed of {} mm/min allows",
+    program.limits.push_back(fmt::format("{} of {} segments run faster than `max feed` {} mm/min allows",
                                          program.feed.segments_infeasible, laid.path.size(),
                                          machine.max_feed_mm_per_min));
   }

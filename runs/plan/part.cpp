@@ -33,10 +33,10 @@ void check_tool_fits(const RemovalFunction& tif, const Grid& map) {
   if (!(diameter > map.width() && diameter > map.height())) return;
   const bool measured = tif.kind == RemovalFunction::Kind::Measured;
   throw InputError(fmt::format(
-      "removal function of {:.4g} mm diameter is larger than the map of {:.4g} x {:.4g} mm both ways; check {} and the "
-      "map's pixel pitch (it has {:.6g} mm)",
+      "removal function of {:.4g} mm diameter is larger than the map of {:.4g} x {:.4g} mm both ways; check {} and "
+      "`map pixel` (the map has {:.6g} mm)",
       diameter, map.width(), map.height(),
-      measured ? fmt::format("its pixel pitch (it has {:.6g} mm)", tif.samples.grid.pitch_x) : "its radius",
+      measured ? fmt::format("`tif pixel` (the file has {:.6g} mm)", tif.samples.grid.pitch_x) : "`tif` (its radius)",
       map.pitch_x));
 }
 

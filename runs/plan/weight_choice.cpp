@@ -60,7 +60,7 @@ void report_miss(const char* weight, const WeightGoal& goal, const WeightRange& 
   const double reached = quantity_of(goal.kind, best.trade_off);
   if (reached <= goal.value) return;
   search.limits.push_back(
-      fmt::format("{} '{}' is not met: {} weights tried from 0 to {:.3g}{}; the nearest has {} {:.6g} {} (smoothness "
+      fmt::format("`{}` '{}' is not met: {} weights tried from 0 to {:.3g}{}; the nearest has {} {:.6g} {} (smoothness "
                   "{:.4g}, time "
                   "price {:.4g} nm^2/s)",
                   weight, to_string(goal), search.trials.size(), range.most, unit, quantity_of(goal.kind), reached,
@@ -104,9 +104,8 @@ WeightedDwell choose_weights(PlanProblem& problem, const DwellOptions& options, 
   search.criterion = criterion_of("smoothness", how.smoothness, how.smoothness_range, "") + "; " +
                      criterion_of("time price", how.time_price, how.time_price_range, kPriceUnit);
   if (out_of_time) {
-    search.limits.push_back(
-        fmt::format("the search of the weights ended after {} solves; the time limit on solving is {} s", found.size(),
-                    options.max_seconds));
+    search.limits.push_back(fmt::format("the search of the weights ended after {} solves; `max solve` is {} s",
+                                        found.size(), options.max_seconds));
   }
   report_miss("smoothness", how.smoothness, how.smoothness_range, "", search);
   report_miss("time price", how.time_price, how.time_price_range, kPriceUnit, search);

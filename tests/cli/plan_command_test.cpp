@@ -147,7 +147,7 @@ TEST(PlanCommand, TimeLimitStillWritesAndSaysWhyWithExitCode3) {
   EXPECT_EQ(result.exit_code, 3) << result.err;
   expect_has(result.err, "limit reached");
   expect_has(result.err, "time limit");
-  expect_has(result.err, "the time limit on solving is 1e-09 s");
+  expect_has(result.err, "--max-solve is 1e-09 s");
   const json s = summary_of(inputs);
   ASSERT_FALSE(s["limits"].empty());
   expect_has(s["limits"][0], "time limit");

@@ -184,7 +184,7 @@ TEST(CheckToolFits, AllowsAStripNarrowerThanTheToolButNoMapSmallerBothWays) {
       [&] {
         check_tool_fits(tif, Grid{11, 11, 0.5, 0.5, {}});
       },
-      {"6 mm", "5.5 x 5.5 mm", "its radius", "the map's pixel pitch"});
+      {"6 mm", "5.5 x 5.5 mm", "`tif` (its radius)", "`map pixel`"});
 }
 
 }  // namespace
