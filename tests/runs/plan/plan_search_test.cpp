@@ -91,7 +91,7 @@ TEST(PlanSearch, TheWeightsFoundGivenAsNumbersMakeTheSamePlan) {
   SmallJob job;
   job.options.smoothness = {0.0, GoalKind::Corner};
   const PlannedJob found = plan_job(job.options, {});
-  const Plan given = plan_with(job, found.dwell.weights);
+  const PlannedJob given = plan_with(job, found.dwell.weights);
   EXPECT_EQ(found.dwell.seconds, given.dwell.seconds);
   EXPECT_EQ(found.dwell.residual.rms, given.dwell.residual.rms);
   EXPECT_GT(found.dwell.weights.smoothness, 1e-3);
@@ -118,11 +118,11 @@ TEST(PlanSearch, CountsTheWorkOfEverySolve) {
   job.options.smoothness = {0.0, GoalKind::Corner};
   const PlannedJob plan = plan_job(job.options, {});
   long sum = 0;
-  for (const PlanTrial& t : plan.dwell.search->trials) sum += t.operator_applications;
+  for (const TriedWeights& t : plan.dwell.search->trials) sum += t.operator_applications;
   EXPECT_EQ(plan.dwell.solver.operator_applications, sum);
   EXPECT_GE(plan.dwell.search->trials.size(), 7u);
   EXPECT_LE(plan.dwell.search->trials.size(), 20u);
-  const PlanTrial& chosen = plan.dwell.search->trials[plan.dwell.search->chosen];
+  const TriedWeights& chosen = plan.dwell.search->trials[plan.dwell.search->chosen];
   EXPECT_EQ(chosen.weights, plan.dwell.weights);
   EXPECT_EQ(chosen.trade_off.total, plan.dwell.seconds.sum());
   EXPECT_NEAR(chosen.trade_off.residual_rms, plan.dwell.residual.rms, 1e-9 * plan.dwell.residual.rms);
