@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <memory>
 
 #include "cli/commands.h"
 #include "cli/job_arguments.h"
+#include "cli/json_option.h"
 #include "cli/terminal.h"
 #include "core/base/units.h"
 #include "runs/job/job_file.h"
@@ -16,35 +16,38 @@ namespace {
 
 struct PlanArguments {
   std::unique_ptr<JobArguments> job;
-  bool json = false;
+  JsonOption json;
   bool write_job = false;
 };
 
-void print_plan(const Plan& plan, const WrittenPlan& written) {
+/// What is said of the plan to people.
+std::string plan_text(const Plan& plan, const WrittenPlan& written) {
   const Grid& g = plan.map.grid;
-  fmt::print("map       {} rows x {} columns of {:.6g} mm, {} pixels in the aperture\n", g.rows, g.cols, g.pitch_x,
-             plan.before.valid_pixels);
-  fmt::print("before    RMS {:.4g} nm, PV {:.4g} nm ({} removed)\n", plan.before.rms, plan.before.pv,
-             to_string(plan.terms));
-  fmt::print("tool      {}, peak {:.4g} nm/s, volume {:.4g} nm mm^2/s, FWHM {:.4g} mm, radius {:.4g} mm\n",
-             kind_of(plan.tif), plan.tif.peak, plan.tif.volume, plan.tif.fwhm, plan.tif.radius);
-  fmt::print("path      {}, {} points, {:.6g} mm, longest jump {:.4g} mm, {} lifts\n", plan.path.kind,
-             plan.metrics.points, plan.metrics.length, plan.metrics.longest_jump, plan.metrics.lifts);
-  for (const std::string& note : plan.path.notes) fmt::print("          {}\n", note);
-  fmt::print("weights   smoothness {:.4g}, time price {:.4g} nm^2/s ({})\n", plan.weights.smoothness,
-             plan.weights.time_price,
-             plan.search ? fmt::format("chosen from {} solves", plan.search->trials.size()) : "given");
-  fmt::print("solver    {}: {} after {} iterations, {} operator applications, {:.2f} s\n", to_string(plan.solver.kind),
-             to_string(plan.solver.status), plan.solver.iterations, plan.solver.operator_applications,
-             plan.solver.seconds);
-  fmt::print("dwell     total {:.2f} s, from {:.4g} s to {:.4g} s a point, step RMS {:.4g} s\n", plan.dwell.sum(),
-             plan.dwell.minCoeff(), plan.dwell.maxCoeff(), plan.step_rms);
-  fmt::print("feed      {:.4g} to {:.4g} mm/min, {} of {} segments at a limit\n",
-             units::mm_per_min(plan.feed.min_speed), units::mm_per_min(plan.feed.max_speed), plan.feed.segments_limited,
-             plan.path.size());
-  fmt::print("predicted RMS {:.4g} nm, PV {:.4g} nm by the solver\n", plan.residual.rms, plan.residual.pv);
-  fmt::print("program   RMS {:.4g} nm, PV {:.4g} nm by simulating program.nc as read back, {:.2f} s\n",
-             written.simulated.rms, written.simulated.pv, written.program_seconds);
+  std::string text;
+  text += fmt::format("map       {} rows x {} columns of {:.6g} mm, {} pixels in the aperture\n", g.rows, g.cols,
+                      g.pitch_x, plan.before.valid_pixels);
+  text += fmt::format("before    RMS {:.4g} nm, PV {:.4g} nm ({} removed)\n", plan.before.rms, plan.before.pv,
+                      to_string(plan.terms));
+  text += fmt::format("tool      {}, peak {:.4g} nm/s, volume {:.4g} nm mm^2/s, FWHM {:.4g} mm, radius {:.4g} mm\n",
+                      kind_of(plan.tif), plan.tif.peak, plan.tif.volume, plan.tif.fwhm, plan.tif.radius);
+  text += fmt::format("path      {}, {} points, {:.6g} mm, longest jump {:.4g} mm, {} lifts\n", plan.path.kind,
+                      plan.metrics.points, plan.metrics.length, plan.metrics.longest_jump, plan.metrics.lifts);
+  for (const std::string& note : plan.path.notes) text += fmt::format("          {}\n", note);
+  text += fmt::format("weights   smoothness {:.4g}, time price {:.4g} nm^2/s ({})\n", plan.weights.smoothness,
+                      plan.weights.time_price,
+                      plan.search ? fmt::format("chosen from {} solves", plan.search->trials.size()) : "given");
+  text += fmt::format("solver    {}: {} after {} iterations, {} operator applications, {:.2f} s\n",
+                      to_string(plan.solver.kind), to_string(plan.solver.status), plan.solver.iterations,
+                      plan.solver.operator_applications, plan.solver.seconds);
+  text += fmt::format("dwell     total {:.2f} s, from {:.4g} s to {:.4g} s a point, step RMS {:.4g} s\n",
+                      plan.dwell.sum(), plan.dwell.minCoeff(), plan.dwell.maxCoeff(), plan.step_rms);
+  text += fmt::format("feed      {:.4g} to {:.4g} mm/min, {} of {} segments at a limit\n",
+                      units::mm_per_min(plan.feed.min_speed), units::mm_per_min(plan.feed.max_speed),
+                      plan.feed.segments_limited, plan.path.size());
+  text += fmt::format("predicted RMS {:.4g} nm, PV {:.4g} nm by the solver\n", plan.residual.rms, plan.residual.pv);
+  text += fmt::format("program   RMS {:.4g} nm, PV {:.4g} nm by simulating program.nc as read back, {:.2f} s\n",
+                      written.simulated.rms, written.simulated.pv, written.program_seconds);
+  return text;
 }
 
 int run_plan(const PlanArguments& arguments) {
@@ -53,20 +56,15 @@ int run_plan(const PlanArguments& arguments) {
     fmt::print("{}", job_file_text(options));
     return kDone;
   }
+  arguments.json.check(arguments.job->files_read(options), options.out);
   OutputFolder folder(options.out);
   const Progress progress = terminal_progress();
   Plan plan = make_plan(options, progress);
   const WrittenPlan written = write_plan(plan, folder, progress);
   folder.commit();
   finish_progress();
-  if (arguments.json) {
-    fmt::print("{}", written.summary);
-  } else {
-    print_plan(plan, written);
-    fmt::print("written   {}\n", options.out);
-  }
-  for (const std::string& limit : plan.limits) fmt::print(stderr, "dwell: limit reached: {}\n", limit);
-  return plan.limits.empty() ? kDone : kLimitReached;
+  arguments.json.deliver(written.summary, plan_text(plan, written) + fmt::format("written   {}\n", options.out));
+  return say_limits(plan.limits);
 }
 
 }  // namespace
@@ -75,7 +73,7 @@ void add_plan_command(CLI::App& program, int& exit_code) {
   CLI::App* command = program.add_subcommand("plan", "plan a run: path, dwell, feed table, program, predicted surface");
   auto arguments = std::make_shared<PlanArguments>();
   arguments->job = std::make_unique<JobArguments>(*command, every_flag(), true);
-  command->add_flag("--json", arguments->json, "print summary.json on standard output instead of the table");
+  arguments->json.add_to(*command);
   command->add_flag("--write-job", arguments->write_job,
                     "print a job file with these options, with comments, and stop");
   command->footer(

@@ -56,6 +56,7 @@ std::optional<RippleSpectrum> waves_of(const HeightMap& residual, int threads) {
 
 void measure(const Plan& plan, double pitch, ComparedPath& path, const Progress& progress) {
   progress.report("path: spacing, coverage, spanning tree");
+  path.kind = plan.path.kind;
   path.metrics = plan.metrics;
   path.notes = plan.path.notes;
   path.spacing = path_spacing(plan.path, {.reach = 4.0 * plan.tif.radius});
@@ -84,10 +85,13 @@ void plan_one(const Plan& job, double pitch, ComparedPath& path, const OutputFol
   path.spectrum = radial_spectrum(written.residual, plan.threads);
   path.residual_ripple = waves_of(written.residual, plan.threads);
   path.dwell_total = plan.dwell.sum();
+  path.dwell_min = plan.dwell.minCoeff();
+  path.dwell_max = plan.dwell.maxCoeff();
   path.step_rms = plan.step_rms;
   path.lift_time = lift_time(plan.metrics, plan.options);
   path.total_time = written.program_seconds + path.lift_time;
   path.solver = plan.solver;
+  path.program = written.program;
 }
 
 std::array<double, 3> costs(const ComparedPath& p) { return {p.residual_rms, p.mid_rms().value_or(0.0), p.total_time}; }

@@ -91,6 +91,8 @@ WrittenPlan write_plan(Plan& plan, const OutputFolder& folder, const Progress& p
                                   plan.terms, plan.threads);
   written.simulated = map_statistics(written.residual, {}, plan.threads);
   written.program_seconds = program.total_seconds();
+  written.program = program_figures(program, written.simulated);
+  written.program.file = "program.nc";  // not the path of the temporary folder that it was read from
   if (differs(written.simulated.rms, plan.residual.rms, kSimulationTolerance)) {
     plan.limits.push_back(fmt::format("the simulated program leaves {:.4g} nm RMS, the solver expected {:.4g} nm",
                                       written.simulated.rms, plan.residual.rms));

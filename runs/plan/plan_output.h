@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "runs/base/json_blocks.h"
 #include "runs/base/output_folder.h"
 #include "runs/plan/plan.h"
 
@@ -12,6 +13,7 @@ struct WrittenPlan {
   HeightMap residual;                 // that the simulated program leaves, form terms removed [nm]
   MapStatistics simulated;            // residual of it
   double program_seconds = 0.0;       // of program.nc, as read back
+  ProgramFigures program;             // of it, for the summary
   bool table_has_same_steps = false;  // feed.csv as read back removes with the steps of program.nc; else simulated too
   std::string summary;                // the text of summary.json
 };

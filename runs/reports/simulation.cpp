@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/base/threads.h"
-#include "core/base/version.h"
 #include "core/base/whole_file.h"
 #include "core/map/aperture.h"
 #include "core/removal/simulate.h"
@@ -38,12 +38,17 @@ Simulation simulate_file(const std::filesystem::path& program, std::optional<Gco
   progress.report("read: program, map and removal function");
   s.program = read_program(program, dialect);
   s.inputs.push_back({"program", program.string(), sha256_of_file(program)});
-  const HeightMap map = within(load_map(options, s.inputs, progress), parse_aperture(options.aperture));
+  HeightMap whole = load_map(options, s.inputs, progress);
+  const Index valid_pixels = whole.valid_pixels();
+  const HeightMap map = within(std::move(whole), parse_aperture(options.aperture));
   const RemovalFunction tif = load_removal_function(options, s.inputs);
   check_tool_fits(tif, map.grid);
   const RemovalKernel kernel = removal_kernel(tif, map.grid.pitch_x, map.grid.pitch_y);
   s.terms = parse_form_terms(options.remove);
   s.before = map_statistics(map, s.terms, thread_count(options.threads));
+  s.map = {options.map, map.grid, map.history, valid_pixels, options.aperture, to_string(s.terms), s.before};
+  s.tif = tif;
+  s.volume_factor = kernel.volume_factor;
   progress.check();
   progress.report(fmt::format("simulate: {} steps", s.program.steps.size()));
   s.removal = simulate(s.program, map, kernel, thread_count(options.threads));
@@ -60,20 +65,14 @@ Simulation simulate_file(const std::filesystem::path& program, std::optional<Gco
 }
 
 std::string simulation_json(const Simulation& s) {
-  using Json = nlohmann::ordered_json;
-  Json json = {{"schema", 1},
-               {"version", version()},
-               {"program",
-                {{"file", s.program.file},
-                 {"steps", s.program.steps.size()},
-                 {"total_s", s.program.total_seconds()},
-                 {"removing_length_mm", s.program.removing_length()}}},
-               {"map", {{"valid_pixels", s.before.valid_pixels}, {"pv_nm", s.before.pv}, {"rms_nm", s.before.rms}}},
-               {"residual", {{"removed", to_string(s.terms)}, {"rms_nm", s.after.rms}, {"pv_nm", s.after.pv}}},
-               {"inputs", inputs_json(s.inputs)}};
+  nlohmann::ordered_json json = json_of_command("simulate");
+  json["map"] = map_block(s.map);
+  json["tif"] = tif_block(s.tif, kind_of(s.tif), s.tif.samples.history, s.volume_factor);
+  json["program"] = program_block(program_figures(s.program, s.after));
   if (s.spline_error) {
     json["spline_error"] = {{"rms_nm", s.spline_error->rms}, {"largest_nm", s.spline_error->largest}};
   }
+  json["inputs"] = inputs_json(s.inputs);
   return json.dump(2) + "\n";
 }
 
