@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "cli/commands.h"
+#include "cli/json_option.h"
 #include "cli/terminal.h"
 #include "runs/example/example_files.h"
 
@@ -13,12 +14,18 @@ struct ExampleArguments {
   std::string out, shape = "round";
   ExampleOptions mirror;
   ExampleTifOptions tif;
+  JsonOption json;
 };
 
 int run_example(ExampleArguments& arguments) {
   arguments.mirror.shape = arguments.shape == "round" ? ExampleOptions::Shape::Round : ExampleOptions::Shape::Rectangle;
-  write_example(arguments.out, arguments.mirror, arguments.tif);
-  fmt::print("written   {0}/mirror.csv, {0}/tif.csv, {0}/demo.toml, {0}/MANIFEST\n", arguments.out);
+  arguments.json.check({}, arguments.out);
+  OutputFolder folder(arguments.out, example_files());
+  const Example example = write_example(folder.path(""), arguments.mirror, arguments.tif);
+  folder.commit();
+  arguments.json.deliver(
+      example_json(example, arguments.mirror.seed),
+      fmt::format("written   {0}/mirror.csv, {0}/tif.csv, {0}/demo.toml, {0}/MANIFEST\n", arguments.out));
   return kDone;
 }
 
@@ -28,7 +35,11 @@ void add_example_command(CLI::App& program, int& exit_code) {
   CLI::App* command = program.add_subcommand("example", "make an example mirror, removal function and job file");
   auto arguments = std::make_shared<ExampleArguments>();
   ExampleOptions& m = arguments->mirror;
-  command->add_option("--out", arguments->out, "folder for the files")->type_name("FOLDER")->required();
+  command
+      ->add_option("--out", arguments->out,
+                   "where the files are written; replaced whole if it holds an earlier example")
+      ->type_name("FOLDER")
+      ->required();
   command->add_option("--shape", arguments->shape, "round or rectangle (default round)")
       ->check(CLI::IsMember({"round", "rectangle"}));
   command->add_option("--width", m.width, fmt::format("width along x or diameter in mm (default {})", m.width))
@@ -39,6 +50,7 @@ void add_example_command(CLI::App& program, int& exit_code) {
   command->add_option("--pitch", m.pitch, fmt::format("pixel pitch in mm (default {})", m.pitch))->type_name("MM");
   command->add_option("--seed", m.seed, fmt::format("seed of the roughness and the noise (default {})", m.seed))
       ->type_name("N");
+  arguments->json.add_to(*command);
   command->footer("Example:\n  dwell example --out example\n  dwell plan --job example/demo.toml --out plan");
   command->callback([arguments, &exit_code] { exit_code = run_example(*arguments); });
 }

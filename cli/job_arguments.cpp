@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string_view>
 
 #include "runs/job/job_file.h"
+#include "runs/map_steps/map_steps.h"
 
 namespace dwell::cli {
 
@@ -36,6 +38,14 @@ JobOptions JobArguments::options() const {
     set_job_option(options, *given.record, given.option->results().back(), "--" + given.record->flag);
   }
   return options;
+}
+
+std::vector<ReadFile> JobArguments::files_read(const JobOptions& options) const {
+  std::vector<ReadFile> read{{"the job file", job_}, {"the map", options.map}, {"the removal function", options.tif}};
+  constexpr std::string_view kPathFile = "file:";
+  if (options.path.starts_with(kPathFile)) read.push_back({"the path", options.path.substr(kPathFile.size())});
+  for (const std::string& file : map_step_files(options.map_steps)) read.push_back({"a map of a step", file});
+  return read;
 }
 
 }  // namespace dwell::cli

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/output_files.h"
 #include "runs/job/job_options.h"
 
 namespace dwell::cli {
@@ -17,6 +18,9 @@ class JobArguments {
 
   /// The job file, if one is given, then what the command line says over it. Throws InputError.
   JobOptions options() const;
+
+  /// The files that these options name for reading, the job file among them, as check_output_files takes them.
+  std::vector<ReadFile> files_read(const JobOptions& options) const;
 
  private:
   struct Given {

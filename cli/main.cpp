@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cli/commands.h"
+#include "cli/json_option.h"
 #include "cli/memory.h"
 #include "cli/terminal.h"
 #include "core/base/errors.h"
@@ -45,6 +46,7 @@ int run(int argc, char** argv) {
   add_map_command(program, exit_code);
   add_tif_command(program, exit_code);
   add_example_command(program, exit_code);
+  check_json_words({argv + 1, argv + argc});
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

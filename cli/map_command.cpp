@@ -3,9 +3,11 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "cli/commands.h"
 #include "cli/job_arguments.h"
+#include "cli/json_option.h"
 #include "cli/output_files.h"
 #include "cli/terminal.h"
 #include "core/base/errors.h"
@@ -26,8 +28,8 @@ struct MapArguments {
   std::unique_ptr<JobArguments> job;
   std::string file, write, write_image, png;
   std::vector<std::string> steps;
-  std::string remove = "piston,tilt", form, window = "hann", bands = "33,0.12", limit, json, psd_png, profile,
-              profile_png;
+  std::string remove = "piston,tilt", form, window = "hann", bands = "33,0.12", limit, psd_png, profile, profile_png;
+  JsonOption json;
   bool psd = false;
 };
 
@@ -61,22 +63,22 @@ void add_steps(JobOptions& options, const MapArguments& arguments) {
 }
 
 void check_outputs(const MapArguments& a, const JobOptions& options) {
-  std::vector<ReadFile> read{{"the map", a.file}};
-  for (const std::string& file : map_step_files(options.map_steps)) read.push_back({"a map of a step", file});
   using Kind = OutputFile::Kind;
   check_output_files({{Kind::Map, "--write", a.write},
                       {Kind::Png, "--write-image", a.write_image},
-                      {Kind::Json, "--json", a.json},
+                      a.json.output(),
                       {Kind::Png, "--png", a.png},
                       {Kind::Png, "--psd-png", a.psd_png},
                       {Kind::Png, "--profile-png", a.profile_png}},
-                     read);
+                     a.job->files_read(options));
 }
 
-/// The map as read and prepared by the steps, within the aperture.
-HeightMap prepared_map(const JobOptions& options, std::vector<InputFile>& inputs) {
-  HeightMap map = within(load_map(options, inputs, terminal_progress()), options.aperture);
+/// The map as read and prepared by the steps, within the aperture; `valid_pixels` are those before the aperture.
+HeightMap prepared_map(const JobOptions& options, std::vector<InputFile>& inputs, Index& valid_pixels) {
+  HeightMap whole = load_map(options, inputs, terminal_progress());
   finish_progress();
+  valid_pixels = whole.valid_pixels();
+  HeightMap map = within(std::move(whole), options.aperture);
   if (options.aperture.kind != Aperture::Kind::Map) map.history.push_back("aperture " + to_string(options.aperture));
   return map;
 }
@@ -101,14 +103,13 @@ std::string told(const HeightMap& map, const MapReport& report, const std::optio
 
 /// All pictures and texts, made before the first file is written.
 PendingFiles files_of(const MapArguments& a, const HeightMap& map, const MapReport& report,
-                      const std::optional<MapProfile>& profile, const std::vector<InputFile>& inputs) {
+                      const std::optional<MapProfile>& profile) {
   const std::string removed = to_string(report.removed);
   const std::string title = fmt::format("{}: RMS {:.4g} nm, PV {:.4g} nm ({} removed)", name_of(a.file),
                                         report.statistics.rms, report.statistics.pv, removed);
   PendingFiles files;
   files.add_map(a.write, map);
   files.add(a.write_image, [&] { return height_image_png(map); });
-  files.add(a.json, [&] { return map_report_json(report, map, inputs); });
   files.add(a.png, [&] { return map_picture(report.figure, {title, "nm", true, {}, {}}); });
   files.add(a.psd_png, [&] { return psd_picture(report, title); });
   files.add(a.profile_png, [&] {
@@ -127,14 +128,18 @@ int run_map(const MapArguments& arguments, const CLI::App& command) {
   add_steps(options, arguments);
   check_outputs(arguments, options);
   std::vector<InputFile> inputs;
-  const HeightMap map = prepared_map(options, inputs);
+  Index valid_pixels = 0;
+  const HeightMap map = prepared_map(options, inputs, valid_pixels);
   const MapReport report = map_report(map, wanted);
   std::optional<MapProfile> profile;
   if (line) profile = map_profile(report.figure, *line);
   const std::string text = told(map, report, profile, inputs[0]);
-  files_of(arguments, map, report, profile, inputs).write();
-  fmt::print("{}", text);
-  return report.spectrum && !report.spectrum->limit_met() ? kLimitReached : kDone;
+  const std::string json =
+      map_report_json(report, map_figures(report, options.map, map, valid_pixels, to_string(options.aperture)), inputs,
+                      profile ? &*profile : nullptr);
+  files_of(arguments, map, report, profile).write();
+  arguments.json.deliver(json, text);
+  return say_limits(report.broken_limits());
 }
 
 /// What is told of a map besides its size.
@@ -155,7 +160,7 @@ void add_report_options(CLI::App& command, MapArguments& arguments) {
        "for "
        "the radial one");
   text("--profile", arguments.profile, "LINE", "y=MM (along x), x=MM (along y) or X0,Y0,X1,Y1 in mm");
-  text("--json", arguments.json, "FILE.json", "write all that is printed, and the spectra, as JSON");
+  arguments.json.add_to(command);
   text("--psd-png", arguments.psd_png, "FILE.png", "draw the spectra");
   text("--profile-png", arguments.profile_png, "FILE.png", "draw the profile, form removed");
 }

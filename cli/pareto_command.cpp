@@ -5,6 +5,7 @@
 
 #include "cli/commands.h"
 #include "cli/job_arguments.h"
+#include "cli/json_option.h"
 #include "cli/terminal.h"
 #include "runs/campaigns/pareto_output.h"
 
@@ -14,23 +15,26 @@ namespace {
 struct ParetoArguments {
   std::unique_ptr<JobArguments> job;
   std::string smoothnesses, time_prices;
-  bool json = false;
+  JsonOption json;
 };
 
-void print_front(const ParetoSweep& sweep) {
+/// What is said of the sweep to people: its front.
+std::string front_text(const ParetoSweep& sweep) {
+  std::string text;
   const auto on_front =
       std::count_if(sweep.points.begin(), sweep.points.end(), [](const auto& p) { return p.on_front; });
   long applications = 0;
   for (const ParetoPoint& p : sweep.points) applications += p.solver.operator_applications;
-  fmt::print("solves    {}, {} operator applications, {:.2f} s; {} on the Pareto front:\n", sweep.points.size(),
-             applications, sweep.seconds, on_front);
-  fmt::print("{:>12} {:>20} {:>18} {:>10} {:>12}\n", "smoothness", "time price [nm^2/s]", "residual RMS [nm]",
-             "total [s]", "step RMS [s]");
+  text += fmt::format("solves    {}, {} operator applications, {:.2f} s; {} on the Pareto front:\n",
+                      sweep.points.size(), applications, sweep.seconds, on_front);
+  text += fmt::format("{:>12} {:>20} {:>18} {:>10} {:>12}\n", "smoothness", "time price [nm^2/s]", "residual RMS [nm]",
+                      "total [s]", "step RMS [s]");
   for (const ParetoPoint& p : sweep.points) {
     if (!p.on_front) continue;
-    fmt::print("{:>12.4g} {:>20.4g} {:>18.4g} {:>10.2f} {:>12.4g}\n", p.weights.smoothness, p.weights.time_price,
-               p.trade_off.residual_rms, p.trade_off.total, p.trade_off.step_rms);
+    text += fmt::format("{:>12.4g} {:>20.4g} {:>18.4g} {:>10.2f} {:>12.4g}\n", p.weights.smoothness,
+                        p.weights.time_price, p.trade_off.residual_rms, p.trade_off.total, p.trade_off.step_rms);
   }
+  return text;
 }
 
 int run_pareto(const ParetoArguments& arguments) {
@@ -39,19 +43,14 @@ int run_pareto(const ParetoArguments& arguments) {
   if (!arguments.smoothnesses.empty())
     ranges.smoothnesses = parse_weight_list(arguments.smoothnesses, "--smoothnesses");
   if (!arguments.time_prices.empty()) ranges.time_prices = parse_weight_list(arguments.time_prices, "--time-prices");
+  arguments.json.check(arguments.job->files_read(options), options.out);
   OutputFolder folder(options.out, pareto_files());
   const ParetoSweep sweep = sweep_weights(options, ranges, terminal_progress());
   const std::string json = write_pareto(sweep, folder);
   folder.commit();
   finish_progress();
-  if (arguments.json) {
-    fmt::print("{}", json);
-  } else {
-    print_front(sweep);
-    fmt::print("written   {}\n", options.out);
-  }
-  for (const std::string& limit : sweep.limits) fmt::print(stderr, "dwell: limit reached: {}\n", limit);
-  return sweep.limits.empty() ? kDone : kLimitReached;
+  arguments.json.deliver(json, front_text(sweep) + fmt::format("written   {}\n", options.out));
+  return say_limits(sweep.limits);
 }
 
 /// The options of a plan but for the weights, which are swept, and the program, which is not written.
@@ -81,7 +80,7 @@ void add_pareto_command(CLI::App& program, int& exit_code) {
           "prices of machine time in nm^2/s, likewise (default 0 and four up to a hundredth of the highest that "
           "has any effect)")
       ->type_name("PRICES");
-  command->add_flag("--json", arguments->json, "print pareto.json on standard output instead of the table");
+  arguments->json.add_to(*command);
   command->footer(
       "Example:\n"
       "  dwell pareto --map mirror.csv --map-pixel 0.0938 --tif spot.csv --tif-pixel 0.0938 \\\n"

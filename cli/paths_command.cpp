@@ -6,6 +6,7 @@
 
 #include "cli/commands.h"
 #include "cli/job_arguments.h"
+#include "cli/json_option.h"
 #include "cli/terminal.h"
 #include "core/base/errors.h"
 #include "paths/path_spec.h"
@@ -18,7 +19,8 @@ struct PathsArguments {
   std::unique_ptr<JobArguments> job;
   std::string list;
   std::optional<double> pitch;
-  bool json = false, kinds = false;
+  JsonOption json;
+  bool kinds = false;
 };
 
 void print_kinds() {
@@ -35,19 +37,16 @@ int run_paths(const PathsArguments& arguments) {
   if (arguments.list.empty())
     throw InputError("--paths: required; for instance raster,spiral,random (--kinds lists all)");
   const JobOptions options = arguments.job->options();
+  arguments.json.check(arguments.job->files_read(options), options.out);
   OutputFolder folder(options.out, path_comparison_files());
   const PathComparison comparison =
       compare_paths(options, arguments.list, arguments.pitch, folder, terminal_progress());
   const std::string json = write_path_comparison(comparison, folder);
   folder.commit();
   finish_progress();
-  if (arguments.json) {
-    fmt::print("{}", json);
-  } else {
-    fmt::print("{}written   {}, a plan a folder\n", path_comparison_text(comparison), options.out);
-  }
-  for (const std::string& limit : comparison.limits) fmt::print(stderr, "dwell: limit reached: {}\n", limit);
-  return comparison.limits.empty() ? kDone : kLimitReached;
+  arguments.json.deliver(
+      json, path_comparison_text(comparison) + fmt::format("written   {}, a plan a folder\n", options.out));
+  return say_limits(comparison.limits);
 }
 
 std::vector<std::string> flags_but_path() {
@@ -72,7 +71,7 @@ void add_paths_command(CLI::App& program, int& exit_code) {
       ->add_option("--pitch", arguments->pitch,
                    "pitch in mm of the paths that say none (default a quarter of the removal function's FWHM)")
       ->type_name("MM");
-  command->add_flag("--json", arguments->json, "print paths.json on standard output instead of the table");
+  arguments->json.add_to(*command);
   command->add_flag("--kinds", arguments->kinds, "list the kinds of path with their options, and stop");
   command->footer(
       "Example:\n"

@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <memory>
 
 #include "cli/commands.h"
 #include "cli/job_arguments.h"
+#include "cli/json_option.h"
 #include "cli/terminal.h"
 #include "core/base/units.h"
 #include "runs/job/job_file.h"
@@ -16,38 +16,43 @@ namespace {
 
 struct PlanArguments {
   std::unique_ptr<JobArguments> job;
-  bool json = false;
+  JsonOption json;
   bool write_job = false;
 };
 
-void print_plan(const PlannedJob& plan, const WrittenPlan& written) {
+/// What is said of the plan to people.
+std::string plan_text(const PlannedJob& plan, const WrittenPlan& written) {
+  std::string text;
   const Grid& g = plan.part().map.grid;
-  fmt::print("map       {} rows x {} columns of {:.6g} mm, {} pixels in the aperture\n", g.rows, g.cols, g.pitch_x,
-             plan.part().before.valid_pixels);
-  fmt::print("before    RMS {:.4g} nm, PV {:.4g} nm ({} removed)\n", plan.part().before.rms, plan.part().before.pv,
-             to_string(plan.part().form));
-  fmt::print("tool      {}, peak {:.4g} nm/s, volume {:.4g} nm mm^2/s, FWHM {:.4g} mm, radius {:.4g} mm\n",
-             kind_of(plan.part().tif), plan.part().tif.peak, plan.part().tif.volume, plan.part().tif.fwhm,
-             plan.part().tif.radius);
-  fmt::print("path      {}, {} points, {:.6g} mm, longest jump {:.4g} mm, {} lifts\n", plan.laid.path.kind,
-             plan.laid.metrics.points, plan.laid.metrics.length, plan.laid.metrics.longest_jump,
-             plan.laid.metrics.lifts);
-  for (const std::string& note : plan.laid.path.notes) fmt::print("          {}\n", note);
-  fmt::print("weights   smoothness {:.4g}, time price {:.4g} nm^2/s ({})\n", plan.dwell.weights.smoothness,
-             plan.dwell.weights.time_price,
-             plan.dwell.search ? fmt::format("chosen from {} solves", plan.dwell.search->trials.size()) : "given");
-  fmt::print("solver    {}: {} after {} iterations, {} operator applications, {:.2f} s\n",
-             to_string(plan.dwell.solver.kind), to_string(plan.dwell.solver.status), plan.dwell.solver.iterations,
-             plan.dwell.solver.operator_applications, plan.dwell.solver.seconds);
-  fmt::print("dwell     total {:.2f} s, from {:.4g} s to {:.4g} s a point, step RMS {:.4g} s\n",
-             plan.dwell.seconds.sum(), plan.dwell.seconds.minCoeff(), plan.dwell.seconds.maxCoeff(),
-             plan.dwell.step_rms);
-  fmt::print("feed      {:.4g} to {:.4g} mm/min, {} of {} segments at a limit\n",
-             units::mm_per_min(plan.program.feed.min_speed), units::mm_per_min(plan.program.feed.max_speed),
-             plan.program.feed.segments_limited, plan.laid.path.size());
-  fmt::print("predicted RMS {:.4g} nm, PV {:.4g} nm by the solver\n", plan.dwell.residual.rms, plan.dwell.residual.pv);
-  fmt::print("program   RMS {:.4g} nm, PV {:.4g} nm by simulating program.nc as read back, {:.2f} s\n",
-             written.simulated.rms, written.simulated.pv, written.program_seconds);
+  text += fmt::format("map       {} rows x {} columns of {:.6g} mm, {} pixels in the aperture\n", g.rows, g.cols,
+                      g.pitch_x, plan.part().before.valid_pixels);
+  text += fmt::format("before    RMS {:.4g} nm, PV {:.4g} nm ({} removed)\n", plan.part().before.rms,
+                      plan.part().before.pv, to_string(plan.part().form));
+  text += fmt::format("tool      {}, peak {:.4g} nm/s, volume {:.4g} nm mm^2/s, FWHM {:.4g} mm, radius {:.4g} mm\n",
+                      kind_of(plan.part().tif), plan.part().tif.peak, plan.part().tif.volume, plan.part().tif.fwhm,
+                      plan.part().tif.radius);
+  text += fmt::format("path      {}, {} points, {:.6g} mm, longest jump {:.4g} mm, {} lifts\n", plan.laid.path.kind,
+                      plan.laid.metrics.points, plan.laid.metrics.length, plan.laid.metrics.longest_jump,
+                      plan.laid.metrics.lifts);
+  for (const std::string& note : plan.laid.path.notes) text += fmt::format("          {}\n", note);
+  text +=
+      fmt::format("weights   smoothness {:.4g}, time price {:.4g} nm^2/s ({})\n", plan.dwell.weights.smoothness,
+                  plan.dwell.weights.time_price,
+                  plan.dwell.search ? fmt::format("chosen from {} solves", plan.dwell.search->trials.size()) : "given");
+  text += fmt::format("solver    {}: {} after {} iterations, {} operator applications, {:.2f} s\n",
+                      to_string(plan.dwell.solver.kind), to_string(plan.dwell.solver.status),
+                      plan.dwell.solver.iterations, plan.dwell.solver.operator_applications, plan.dwell.solver.seconds);
+  text += fmt::format("dwell     total {:.2f} s, from {:.4g} s to {:.4g} s a point, step RMS {:.4g} s\n",
+                      plan.dwell.seconds.sum(), plan.dwell.seconds.minCoeff(), plan.dwell.seconds.maxCoeff(),
+                      plan.dwell.step_rms);
+  text += fmt::format("feed      {:.4g} to {:.4g} mm/min, {} of {} segments at a limit\n",
+                      units::mm_per_min(plan.program.feed.min_speed), units::mm_per_min(plan.program.feed.max_speed),
+                      plan.program.feed.segments_limited, plan.laid.path.size());
+  text += fmt::format("predicted RMS {:.4g} nm, PV {:.4g} nm by the solver\n", plan.dwell.residual.rms,
+                      plan.dwell.residual.pv);
+  text += fmt::format("program   RMS {:.4g} nm, PV {:.4g} nm by simulating program.nc as read back, {:.2f} s\n",
+                      written.simulated.rms, written.simulated.pv, written.program_seconds);
+  return text;
 }
 
 int run_plan(const PlanArguments& arguments) {
@@ -56,20 +61,15 @@ int run_plan(const PlanArguments& arguments) {
     fmt::print("{}", job_file_text(options));
     return kDone;
   }
+  arguments.json.check(arguments.job->files_read(options), options.out);
   OutputFolder folder(options.out);
   const Progress progress = terminal_progress();
   const PlannedJob plan = plan_job(options, progress);
   const WrittenPlan written = write_plan(plan, folder, progress);
   folder.commit();
   finish_progress();
-  if (arguments.json) {
-    fmt::print("{}", written.summary);
-  } else {
-    print_plan(plan, written);
-    fmt::print("written   {}\n", options.out);
-  }
-  for (const std::string& limit : written.limits) fmt::print(stderr, "dwell: limit reached: {}\n", limit);
-  return written.limits.empty() ? kDone : kLimitReached;
+  arguments.json.deliver(written.summary, plan_text(plan, written) + fmt::format("written   {}\n", options.out));
+  return say_limits(written.limits);
 }
 
 }  // namespace
@@ -78,7 +78,7 @@ void add_plan_command(CLI::App& program, int& exit_code) {
   CLI::App* command = program.add_subcommand("plan", "plan a run: path, dwell, feed table, program, predicted surface");
   auto arguments = std::make_shared<PlanArguments>();
   arguments->job = std::make_unique<JobArguments>(*command, every_flag(), true);
-  command->add_flag("--json", arguments->json, "print summary.json on standard output instead of the table");
+  arguments->json.add_to(*command);
   command->add_flag("--write-job", arguments->write_job,
                     "print a job file with these options, with comments, and stop");
   command->footer(

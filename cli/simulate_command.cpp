@@ -5,11 +5,11 @@
 
 #include "cli/commands.h"
 #include "cli/job_arguments.h"
+#include "cli/json_option.h"
 #include "cli/output_files.h"
 #include "cli/terminal.h"
 #include "core/formats/map_formats.h"
 #include "runs/drawing/picture.h"
-#include "runs/map_steps/map_steps.h"
 #include "runs/reports/simulation.h"
 
 namespace dwell::cli {
@@ -18,15 +18,16 @@ namespace {
 struct SimulateArguments {
   std::unique_ptr<JobArguments> job;
   std::string program, gcode, residual, png;
-  bool json = false, exact = false;
+  JsonOption json;
+  bool exact = false;
 };
 
 void check_outputs(const SimulateArguments& a, const JobOptions& options) {
-  std::vector<ReadFile> read{
-      {"the program", a.program}, {"the map", options.map}, {"the removal function", options.tif}};
-  for (const std::string& file : map_step_files(options.map_steps)) read.push_back({"a map of a step", file});
-  check_output_files({{OutputFile::Kind::Map, "--residual", a.residual}, {OutputFile::Kind::Png, "--png", a.png}},
-                     read);
+  std::vector<ReadFile> read = a.job->files_read(options);
+  read.push_back({"the program", a.program});
+  check_output_files(
+      {{OutputFile::Kind::Map, "--residual", a.residual}, {OutputFile::Kind::Png, "--png", a.png}, a.json.output()},
+      read);
 }
 
 std::string told(const Simulation& s) {
@@ -50,7 +51,6 @@ int run_simulate(const SimulateArguments& arguments) {
   check_outputs(arguments, options);
   const Simulation s = simulate_file(arguments.program, dialect, options, terminal_progress(), arguments.exact);
   finish_progress();
-  const std::string text = arguments.json ? simulation_json(s) : told(s);
   PendingFiles files;
   files.add_map(arguments.residual, s.residual);
   files.add(arguments.png, [&] {
@@ -62,7 +62,7 @@ int run_simulate(const SimulateArguments& arguments) {
                                     {}});
   });
   files.write();
-  fmt::print("{}", text);
+  arguments.json.deliver(simulation_json(s), told(s));
   return kDone;
 }
 
@@ -87,7 +87,7 @@ void add_simulate_command(CLI::App& program, int& exit_code) {
   command->add_flag("--exact", arguments->exact,
                     "integrate the removal function itself, not its spline on the map's pixels: slow; says how far the "
                     "two are apart");
-  command->add_flag("--json", arguments->json, "print the result as JSON");
+  arguments->json.add_to(*command);
   command->footer(
       "Example:\n  dwell simulate --program plan/program.nc --map mirror.csv --map-pixel 0.0938 --tif spot.csv "
       "--tif-pixel 0.0938");

@@ -47,4 +47,9 @@ Progress terminal_progress() {
   return progress;
 }
 
+int say_limits(const std::vector<std::string>& limits) {
+  for (const std::string& limit : limits) fmt::print(stderr, "dwell: limit reached: {}\n", limit);
+  return limits.empty() ? kDone : kLimitReached;
+}
+
 }  // namespace dwell::cli

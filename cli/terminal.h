@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "core/base/progress.h"
 
 namespace dwell::cli {
@@ -16,5 +19,8 @@ void finish_progress();
 
 /// Installs the handlers that make a run stop cleanly.
 void catch_interrupts();
+
+/// Says on standard error which limits were reached. Gives back the exit code of the command.
+int say_limits(const std::vector<std::string>& limits);
 
 }  // namespace dwell::cli

@@ -4,6 +4,7 @@
 
 #include "cli/commands.h"
 #include "cli/job_arguments.h"
+#include "cli/json_option.h"
 #include "cli/output_files.h"
 #include "cli/terminal.h"
 #include "core/base/errors.h"
@@ -18,21 +19,23 @@ namespace {
 struct TifArguments {
   std::unique_ptr<JobArguments> options;
   TifJob job;
-  std::string tif, write, json, png, section_png, fit_png, mtf_png;
+  JsonOption json;
+  std::string tif, write, png, section_png, fit_png, mtf_png;
 };
 
-void check_outputs(const TifArguments& a) {
+void check_outputs(const TifArguments& a, const JobOptions& options) {
+  std::vector<ReadFile> read = a.options->files_read(options);
+  read.insert(read.end(), {{"the map of --spot", a.job.spot},
+                           {"the map of --trench", a.job.trench},
+                           {"the map of --before", a.job.before}});
   using Kind = OutputFile::Kind;
   check_output_files({{Kind::Map, "--write", a.write},
-                      {Kind::Json, "--json", a.json},
+                      a.json.output(),
                       {Kind::Png, "--png", a.png},
                       {Kind::Png, "--section-png", a.section_png},
                       {Kind::Png, "--fit-png", a.fit_png},
                       {Kind::Png, "--mtf-png", a.mtf_png}},
-                     {{"the removal function", a.tif},
-                      {"the map of --spot", a.job.spot},
-                      {"the map of --trench", a.job.trench},
-                      {"the map of --before", a.job.before}});
+                     read);
 }
 
 int run_tif(const TifArguments& arguments) {
@@ -40,19 +43,17 @@ int run_tif(const TifArguments& arguments) {
   job.job = arguments.options->options();
   job.job.tif = arguments.tif;
   if (!arguments.fit_png.empty() && job.fits.empty()) throw InputError("--fit-png: needs --fit");
-  check_outputs(arguments);
+  check_outputs(arguments, job.job);
   const TifResult result = make_tif(job);
-  const std::string text = tif_text(result);
   PendingFiles files;
   files.add_map(arguments.write, result.rates);
-  files.add(arguments.json, [&] { return tif_json(result); });
   files.add(arguments.png, [&] { return tif_picture(result); });
   files.add(arguments.section_png, [&] { return section_picture(result); });
   files.add(arguments.fit_png, [&] { return fit_picture(result); });
   files.add(arguments.mtf_png, [&] { return transfer_picture(result); });
   files.write();
-  fmt::print("{}", text);
-  return unfinished_fits(result) > 0 ? kLimitReached : kDone;
+  arguments.json.deliver(tif_json(result), tif_text(result));
+  return say_limits(unfinished_fits(result));
 }
 
 void add_inputs(CLI::App& command, TifArguments& arguments) {
@@ -111,7 +112,7 @@ void add_outputs(CLI::App& command, TifArguments& arguments) {
       .add_option("--write", arguments.write,
                   "write the rates in nm/s, the tool axis at (0, 0) mm: " + written_map_extensions())
       ->type_name("FILE");
-  command.add_option("--json", arguments.json, "write all results")->type_name("FILE");
+  arguments.json.add_to(command);
   command.add_option("--png", arguments.png, "draw the removal function")->type_name("FILE");
   command.add_option("--section-png", arguments.section_png, "draw cross sections along x and y, with the best fits")
       ->type_name("FILE");
@@ -128,14 +129,14 @@ void add_tif_command(CLI::App& program, int& exit_code) {
   auto arguments = std::make_shared<TifArguments>();
   add_inputs(*command, *arguments);
   add_outputs(*command, *arguments);
-  const std::vector<std::string> flags{"map-pixel",  "map-unit",  "map-origin", "tif-pixel", "tif-unit",
-                                       "tif-centre", "tif-angle", "tif-flip",   "threads"};
+  const std::vector<std::string> flags{"map-pixel", "map-unit",   "map-origin", "map-steps", "tif-pixel",
+                                       "tif-unit",  "tif-centre", "tif-angle",  "tif-flip",  "threads"};
   arguments->options = std::make_unique<JobArguments>(*command, flags, false);
   command->footer(
       "Example:\n"
       "  dwell tif --spot after.csv --before before.csv --map-pixel 0.1 --dwell-time 5 --fit gaussian,super-gaussian "
       "--write tif.csv\n"
-      "  dwell plan --map part.csv --tif tif.csv --tif-centre 0,0 ...\n"
+      "  dwell plan --map part.csv --tif tif.csv --path raster:pitch=1 --out plan\n"
       "  dwell tif planetary:radius=5,eccentricity=0.8,ratio=-1,peak=20 --mtf-png mtf.png");
   command->callback([arguments, &exit_code] { exit_code = run_tif(*arguments); });
 }

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "core/base/version.h"
+#include <utility>
+
 #include "runs/base/inputs_json.h"
 #include "runs/campaigns/pareto_picture.h"
 #include "runs/reports/options_json.h"
+#include "runs/reports/plan_blocks.h"
 
 namespace dwell {
 
@@ -26,28 +28,24 @@ std::string pareto_json_text(const ParetoSweep& sweep) {
   using Json = nlohmann::ordered_json;
   Json points = Json::array();
   for (const ParetoPoint& p : sweep.points) {
-    points.push_back({{"smoothness", p.weights.smoothness},
-                      {"time_price_nm2_per_s", p.weights.time_price},
-                      {"residual_rms_nm", p.trade_off.residual_rms},
-                      {"total_s", p.trade_off.total},
-                      {"step_rms_s", p.trade_off.step_rms},
-                      {"objective_nm2", p.objective},
-                      {"operator_applications", p.solver.operator_applications},
-                      {"status", to_string(p.solver.status)},
-                      {"front", p.on_front}});
+    Json point = trial_block(p.weights, p.trade_off, p.objective, p.solver.operator_applications);
+    point["status"] = to_string(p.solver.status);
+    point["front"] = p.on_front;
+    points.push_back(std::move(point));
   }
   Json options = options_json(sweep.job);
   for (const char* unused : {"smoothness", "time_price_nm2_per_s", "gcode", "lift_height_mm"}) options.erase(unused);
-  const Json summary = {{"schema", 1},
-                        {"version", version()},
-                        {"points", points},
-                        {"wall_s", sweep.seconds},
-                        {"before_rms_nm", sweep.job.part->before.rms},
-                        {"smoothnesses", sweep.ranges.smoothnesses},
-                        {"time_prices_nm2_per_s", sweep.ranges.time_prices},
-                        {"limits", sweep.limits},
-                        {"options", options},
-                        {"inputs", inputs_json(sweep.job.inputs)}};
+  Json summary = json_of_command("pareto");
+  summary.update({{"map", plan_map_block(sweep.job)},
+                  {"tif", plan_tif_block(sweep.job)},
+                  {"path", plan_path_block(sweep.laid)},
+                  {"points", points},
+                  {"wall_s", sweep.seconds},
+                  {"smoothnesses", sweep.ranges.smoothnesses},
+                  {"time_prices_nm2_per_s", sweep.ranges.time_prices},
+                  {"limits", sweep.limits},
+                  {"options", options},
+                  {"inputs", inputs_json(sweep.job.inputs)}});
   return summary.dump(2) + "\n";
 }
 

@@ -57,6 +57,7 @@ std::optional<RippleSpectrum> waves_of(const HeightMap& residual, int threads) {
 
 void measure(const Part& part, const LaidPath& laid, double pitch, ComparedPath& path, const Progress& progress) {
   progress.step("path: spacing, coverage, spanning tree");
+  path.kind = laid.path.kind;
   path.metrics = laid.metrics;
   path.notes = laid.path.notes;
   path.spacing = path_spacing(laid.path, {.reach = 4.0 * part.tif.radius});
@@ -83,10 +84,13 @@ void plan_one(Job job, double pitch, ComparedPath& path, const OutputFolder& fol
   path.spectrum = radial_spectrum(written.residual, plan.part().threads);
   path.residual_ripple = waves_of(written.residual, plan.part().threads);
   path.dwell_total = plan.dwell.seconds.sum();
+  path.dwell_min = plan.dwell.seconds.minCoeff();
+  path.dwell_max = plan.dwell.seconds.maxCoeff();
   path.step_rms = plan.dwell.step_rms;
   path.lift_time = lift_time(plan.laid.metrics, plan.job.options);
   path.total_time = written.program_seconds + path.lift_time;
   path.solver = plan.dwell.solver;
+  path.program = written.program;
 }
 
 std::array<double, 3> costs(const ComparedPath& p) { return {p.residual_rms, p.mid_rms().value_or(0.0), p.total_time}; }

@@ -8,6 +8,7 @@
 #include "paths/metrics/path_ripple.h"
 #include "paths/metrics/path_spacing.h"
 #include "paths/metrics/ripple_spectrum.h"
+#include "runs/base/json_blocks.h"
 #include "runs/base/output_folder.h"
 #include "runs/job/path_list.h"
 #include "runs/job/planned_job.h"
@@ -19,6 +20,7 @@ struct ComparedPath {
   ListedPath listed;
   std::string failure;  // why there is no plan; empty if there is one, and only then is the rest filled
 
+  std::string kind;  // of the path, as its planner names it
   PathMetrics metrics;
   PathSpacing spacing;       // to the neighbouring track
   double coverage = 0.0;     // share of the valid pixels within a pitch of the path (PathComparison::pitch)
@@ -31,12 +33,14 @@ struct ComparedPath {
   /// where there is no room for the patch; `no_ripple` says why.
   std::optional<PathRipple> ripple;
   std::string no_ripple;
-  PsdCurve spectrum;         // of the residual, radial
-  double dwell_total = 0.0;  // [s]
-  double step_rms = 0.0;     // [s]
-  double lift_time = 0.0;    // lifted moves and the way up to them, at maximum feed [s]
-  double total_time = 0.0;   // of the program, the way down after a lift included, and lift_time [s]
+  PsdCurve spectrum;                        // of the residual, radial
+  double dwell_total = 0.0;                 // [s]
+  double dwell_min = 0.0, dwell_max = 0.0;  // of a point [s]
+  double step_rms = 0.0;                    // [s]
+  double lift_time = 0.0;                   // lifted moves and the way up to them, at maximum feed [s]
+  double total_time = 0.0;                  // of the program, the way down after a lift included, and lift_time [s]
   SolverSummary solver;
+  ProgramFigures program;  // as read back, with residual_rms and residual_pv
 
   /// RMS of the residual between the wavelengths 33 and 0.12 mm, as far as the map resolves them [nm].
   std::optional<double> mid_rms() const {

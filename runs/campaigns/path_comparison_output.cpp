@@ -5,10 +5,10 @@
 
 #include <algorithm>
 
-#include "core/base/version.h"
 #include "runs/base/inputs_json.h"
 #include "runs/drawing/line_chart.h"
 #include "runs/reports/options_json.h"
+#include "runs/reports/plan_blocks.h"
 
 namespace dwell {
 namespace {
@@ -51,39 +51,38 @@ Json spacing_json(const PathSpacing& s) {
   return {{"least", s.min}, {"mean", s.mean}, {"deviation", s.deviation}, {"largest", s.max}, {"points", s.points}};
 }
 
+/// What of a path is told beyond its block "path": how it goes over the part.
+Json metrics_json(const ComparedPath& p) {
+  const PathMetrics& m = p.metrics;
+  return {{"lifted_length_mm", m.lifted_length},
+          {"point_length_mm", m.point_length},
+          {"tree_length_mm", p.tree_length},
+          {"reversals", m.reversals},
+          {"sharpest_corner_deg", m.sharpest_corner},
+          {"directions", m.directions},
+          {"anisotropy", m.anisotropy},
+          {"lattice_anisotropy", m.lattice_anisotropy},
+          {"spacing_mm", spacing_json(p.spacing)},
+          {"coverage", p.coverage}};
+}
+
 Json json_of(const ComparedPath& p) {
-  Json json = {{"path", p.listed.text}, {"folder", p.listed.name}};
+  Json json = {{"spec", p.listed.text}, {"folder", p.listed.name}};
   if (!p.failure.empty()) {
     json["failure"] = p.failure;
     return json;
   }
   json.update({{"front", p.on_front},
-               {"residual_rms_nm", p.residual_rms},
-               {"residual_pv_nm", p.residual_pv},
-               {"mid_rms_nm", p.residual_ripple ? Json(p.residual_ripple->rms) : Json(nullptr)},
+               {"path", path_block(p.kind, p.metrics, p.notes)},
+               {"metrics", metrics_json(p)},
+               {"solve", solve_block(p.solver)},
+               {"dwell", dwell_block({p.dwell_total, p.dwell_min, p.dwell_max, p.step_rms})},
+               {"program", program_block(p.program)},
+               {"total_s", p.total_time},
+               {"lift_s", p.lift_time},
+               {"mid_rms_nm", finite_or_null(p.mid_rms())},
                {"residual_waves", p.residual_ripple ? waves_json(*p.residual_ripple) : Json(nullptr)},
                {"ripple", p.ripple ? ripple_json(*p.ripple) : Json{{"missing", p.no_ripple}}},
-               {"total_s", p.total_time},
-               {"dwell_s", p.dwell_total},
-               {"lift_s", p.lift_time},
-               {"step_rms_s", p.step_rms},
-               {"points", p.metrics.points},
-               {"length_mm", p.metrics.length},
-               {"lifts", p.metrics.lifts},
-               {"lifted_length_mm", p.metrics.lifted_length},
-               {"longest_jump_mm", p.metrics.longest_jump},
-               {"point_length_mm", p.metrics.point_length},
-               {"tree_length_mm", p.tree_length},
-               {"reversals", p.metrics.reversals},
-               {"sharpest_corner_deg", p.metrics.sharpest_corner},
-               {"directions", p.metrics.directions},
-               {"anisotropy", p.metrics.anisotropy},
-               {"lattice_anisotropy", p.metrics.lattice_anisotropy},
-               {"spacing_mm", spacing_json(p.spacing)},
-               {"coverage", p.coverage},
-               {"solver_status", to_string(p.solver.status)},
-               {"operator_applications", p.solver.operator_applications},
-               {"notes", p.notes},
                {"limits", p.limits}});
   return json;
 }
@@ -205,15 +204,15 @@ std::string path_comparison_json(const PathComparison& comparison) {
   for (const ComparedPath& p : comparison.paths) paths.push_back(json_of(p));
   Json options = options_json(comparison.job);
   options.erase("path");
-  const Json summary = {{"schema", 1},
-                        {"version", version()},
-                        {"before_rms_nm", comparison.job.part->before.rms},
-                        {"pitch_mm", comparison.pitch},
-                        {"pitch_given", comparison.pitch_given},
-                        {"paths", paths},
-                        {"limits", comparison.limits},
-                        {"options", options},
-                        {"inputs", inputs_json(comparison.job.inputs)}};
+  Json summary = json_of_command("paths");
+  summary.update({{"map", plan_map_block(comparison.job)},
+                  {"tif", plan_tif_block(comparison.job)},
+                  {"pitch_mm", comparison.pitch},
+                  {"pitch_given", comparison.pitch_given},
+                  {"paths", paths},
+                  {"limits", comparison.limits},
+                  {"options", options},
+                  {"inputs", inputs_json(comparison.job.inputs)}});
   return summary.dump(2) + "\n";
 }
 

@@ -1,13 +1,17 @@
 #include "runs/example/example_files.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <cmath>
 
 #include "core/base/errors.h"
 #include "core/base/version.h"
 #include "core/base/whole_file.h"
+#include "core/form/map_statistics.h"
 #include "core/formats/map_io.h"
+#include "core/tif/removal_function.h"
+#include "runs/base/json_blocks.h"
 #include "runs/job/job_file.h"
 
 namespace dwell {
@@ -20,13 +24,18 @@ HeightMap rounded(HeightMap map) {
 
 }  // namespace
 
-void write_example(const std::filesystem::path& folder, const ExampleOptions& mirror, const ExampleTifOptions& tif) {
-  const HeightMap map = rounded(example_mirror(mirror)), spot = rounded(example_tif(tif));
+const ResultFiles& example_files() {
+  static const ResultFiles kFiles{"example", "MANIFEST", {"mirror.csv", "tif.csv", "demo.toml"}, nullptr};
+  return kFiles;
+}
+
+Example write_example(const std::filesystem::path& folder, const ExampleOptions& mirror, const ExampleTifOptions& tif) {
+  Example example{rounded(example_mirror(mirror)), rounded(example_tif(tif))};
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw InputError(fmt::format("--out: cannot make the folder '{}': {}", folder.string(), error.message()));
-  write_map(folder / "mirror.csv", map);
-  write_map(folder / "tif.csv", spot);
+  write_map(folder / "mirror.csv", example.mirror);
+  write_map(folder / "tif.csv", example.tif);
 
   JobOptions job;
   job.map = "mirror.csv";
@@ -44,6 +53,19 @@ void write_example(const std::filesystem::path& folder, const ExampleOptions& mi
           "demo.toml   the job that plans it: dwell plan --job demo.toml --out FOLDER\n"
           "Row 0 = smallest y; nan = outside the part. No measured data.\n",
           version(), mirror.seed, mirror.width, mirror.pitch, tif.seed, tif.pitch));
+  return example;
+}
+
+std::string example_json(const Example& example, std::uint64_t seed) {
+  const FormTerms terms = parse_form_terms(JobOptions{}.remove);
+  const RemovalFunction tif = measured_removal(example.tif, {TifCentre::Kind::Centroid, {}});
+  nlohmann::ordered_json json = json_of_command("example");
+  json["map"] = map_block({"mirror.csv", example.mirror.grid, example.mirror.history, example.mirror.valid_pixels(),
+                           "map", to_string(terms), map_statistics(example.mirror, terms)});
+  json["tif"] = tif_block(tif, kind_of(tif), tif.samples.history);
+  json["seed"] = seed;
+  json["files"] = {"mirror.csv", "tif.csv", "demo.toml", "MANIFEST"};
+  return json.dump(2) + "\n";
 }
 
 }  // namespace dwell

@@ -17,10 +17,10 @@ namespace dwell {
 namespace {
 
 const JobOptionRecord& record_of(const std::string& key, const std::string& file) {
-  std::string known;
+  std::string known = "schema";
   for (const JobOptionRecord& record : job_option_table()) {
     if (record.key == key) return record;
-    known += fmt::format("{}{}", known.empty() ? "" : ", ", record.key);
+    known += ", " + record.key;
   }
   throw InputError(fmt::format("{}: unknown field '{}'; accepted: {}", file, key, known));
 }
@@ -61,6 +61,18 @@ std::string text_of(const toml::node& node, const JobOptionRecord& record, const
                                                     : "a string (in quotes)"));
 }
 
+/// Refuses a layout that this program does not know. No field: layout 1, from version 0.1.
+void check_schema(const toml::node& node, const std::string& file) {
+  const auto number = node.as_integer();
+  if (number && number->get() >= 1 && number->get() <= kJobSchema) return;
+  std::ostringstream value;
+  node.visit([&value](const auto& v) {
+    if constexpr (toml::is_value<decltype(v)>) value << v;
+  });
+  throw InputError(fmt::format("{}: schema: {}; accepted: 1 (the layout of dwell 0.1) or {} (that of dwell {})", file,
+                               value.str().empty() ? "no number" : value.str(), kJobSchema, version()));
+}
+
 /// Whether the value of a file option names a file: a removal function may be a formula.
 bool names_a_file(const std::string& value) {
   const std::string kind = split_kind(value).first;
@@ -97,8 +109,10 @@ void read_job_file(const std::filesystem::path& file, JobOptions& options) {
     throw InputError(
         fmt::format("{}: line {}: {}", file.string(), error.source().begin.line, std::string(error.description())));
   }
+  if (const toml::node* schema = table.get("schema")) check_schema(*schema, file.string());
   for (const auto& [key, node] : table) {
     const std::string name(key.str());
+    if (name == "schema") continue;
     const JobOptionRecord& record = record_of(name, file.string());
     const std::string source = fmt::format("{}: {}", file.string(), name);
     const std::string value = text_of(node, record, source);
@@ -108,8 +122,9 @@ void read_job_file(const std::filesystem::path& file, JobOptions& options) {
 
 std::string job_file_text(const JobOptions& options) {
   std::string text = fmt::format(
-      "# Job file of dwell {}: dwell plan --job THIS.toml\n# File names are relative to this file's folder.\n",
-      version());
+      "# Job file of dwell {}: dwell plan --job THIS.toml\n# File names are relative to this file's folder.\n\n"
+      "# layout of this file\nschema = {}\n",
+      version(), kJobSchema);
   for (const JobOptionRecord& record : job_option_table()) {
     const std::string value = record.get(options);
     std::ostringstream quoted;

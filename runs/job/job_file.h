@@ -7,6 +7,10 @@
 
 namespace dwell {
 
+/// The number of the layout that a job file states as `schema`. Version 0.1 of the program wrote layout 1, mostly
+/// without saying so; its fields mean the same, and it is still read.
+inline constexpr int kJobSchema = 2;
+
 /// Reads a TOML job file over `options`. File names in it are relative to its folder. Throws InputError naming the
 /// file, the line or field, the value and what is accepted; an unknown field is an error that lists the known ones.
 void read_job_file(const std::filesystem::path& file, JobOptions& options);

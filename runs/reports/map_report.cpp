@@ -1,5 +1,7 @@
 #include "runs/reports/map_report.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -46,6 +48,23 @@ SpectrumReport spectrum_report(const HeightMap& figure, const MapReportOptions& 
 
 bool SpectrumReport::limit_met() const {
   return std::all_of(curves.begin(), curves.end(), [](const CurveReport& c) { return !c.limit || c.limit->met(); });
+}
+
+std::vector<std::string> MapReport::broken_limits() const {
+  std::vector<std::string> limits;
+  if (!spectrum) return limits;
+  for (const CurveReport& c : spectrum->curves) {
+    if (!c.limit || c.limit->met()) continue;
+    limits.push_back(fmt::format("the {} spectrum is up to {:.3g} times its limit, at {:.4g} /mm ({:.4g} mm)",
+                                 c.curve.name, c.limit->worst_factor, c.limit->worst_frequency,
+                                 1.0 / c.limit->worst_frequency));
+  }
+  return limits;
+}
+
+MapFigures map_figures(const MapReport& report, const std::string& file, const HeightMap& map, Index valid_pixels,
+                       const std::string& aperture) {
+  return {file, map.grid, map.history, valid_pixels, aperture, to_string(report.removed), report.statistics};
 }
 
 MapReport map_report(const HeightMap& map, const MapReportOptions& options) {

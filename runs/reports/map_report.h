@@ -9,7 +9,9 @@
 #include "core/form/robust_pv.h"
 #include "core/map/surface_slope.h"
 #include "core/spectra/psd_line.h"
+#include "runs/base/json_blocks.h"
 #include "runs/job/input_files.h"
+#include "runs/reports/map_profile.h"
 #include "runs/reports/wavelength_bands.h"
 
 namespace dwell {
@@ -56,6 +58,9 @@ struct MapReport {
   PolynomialFit form_fit;
   MapStatistics form_residual;  // of the map without `form`
   std::optional<SpectrumReport> spectrum;
+
+  /// A sentence for each spectrum that is above its limit; not empty = exit code 3.
+  std::vector<std::string> broken_limits() const;
 };
 
 /// Lines are fitted and limits checked where both the spectrum is resolved (PsdCurve; fits up to half the Nyquist
@@ -66,8 +71,13 @@ MapReport map_report(const HeightMap& map, const MapReportOptions& options);
 /// Lines of text, each "name      value unit".
 std::string map_report_text(const MapReport& report);
 
-/// All of it as JSON text (docs/statistics.md), units in the keys. `map` is the map as measured.
-std::string map_report_json(const MapReport& report, const HeightMap& map, const std::vector<InputFile>& inputs);
+/// What of a map its JSON tells besides the report: `valid_pixels` are those of the whole map, before the aperture.
+MapFigures map_figures(const MapReport& report, const std::string& file, const HeightMap& map, Index valid_pixels,
+                       const std::string& aperture);
+
+/// All of it as JSON text (docs/json.md), units in the keys; with the profile, if there is one.
+std::string map_report_json(const MapReport& report, const MapFigures& map, const std::vector<InputFile>& inputs,
+                            const MapProfile* profile = nullptr);
 
 /// The spectra as a PNG file: along x and y at the left, radial at the right, bands shaded, fit and limit. Throws
 /// std::invalid_argument without a spectrum.

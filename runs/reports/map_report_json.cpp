@@ -1,8 +1,5 @@
 #include <nlohmann/json.hpp>
 
-#include <cmath>
-
-#include "core/base/version.h"
 #include "runs/base/inputs_json.h"
 #include "runs/reports/map_report.h"
 
@@ -11,10 +8,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// JSON has neither infinity nor NaN: null.
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
-Json fit_json(const PolynomialSpec& spec, const PolynomialFit& fit) {
+/// The block of a form: polynomials and their coefficients.
+Json form_block(const PolynomialSpec& spec, const PolynomialFit& fit) {
   Json terms = Json::array();
   for (const PolynomialTerm& term : fit.terms) {
     terms.push_back({{"name", term.name},
@@ -52,8 +47,8 @@ Json curve_json(const CurveReport& c) {
                      {"range_per_mm", {c.limit->from, c.limit->to}},
                      {"checked", c.limit->checked},
                      {"above", c.limit->above},
-                     {"worst_factor", number(c.limit->worst_factor)},
-                     {"worst_frequency_per_mm", number(c.limit->worst_frequency)},
+                     {"worst_factor", finite_or_null(c.limit->worst_factor)},
+                     {"worst_frequency_per_mm", finite_or_null(c.limit->worst_frequency)},
                      {"above_per_mm", runs}};
   }
   return json;
@@ -63,7 +58,7 @@ Json spectrum_json(const SpectrumReport& s) {
   Json bands = Json::array();
   for (const BandRms& band : s.split.bands) {
     bands.push_back({{"name", band.name},
-                     {"longest_mm", number(band.longest)},
+                     {"longest_mm", finite_or_null(band.longest)},
                      {"shortest_mm", band.shortest},
                      {"rms_nm", band.rms ? Json(*band.rms) : Json(nullptr)},
                      {"note", band.note}});
@@ -83,27 +78,24 @@ Json spectrum_json(const SpectrumReport& s) {
 
 }  // namespace
 
-std::string map_report_json(const MapReport& report, const HeightMap& map, const std::vector<InputFile>& inputs) {
-  const Grid& g = map.grid;
-  Json json = {{"schema", 1}, {"version", version()}, {"inputs", inputs_json(inputs)}};
-  json["map"] = {{"rows", g.rows},
-                 {"columns", g.cols},
-                 {"pixel_mm", {g.pitch_x, g.pitch_y}},
-                 {"origin_mm", {g.origin.x, g.origin.y}},
-                 {"valid_pixels", report.statistics.valid_pixels},
-                 {"history", map.history}};
-  json["removed"] = fit_json(report.removed, report.removed_fit);
-  json["pv_nm"] = report.statistics.pv;
-  json["pvr_nm"] = report.robust ? Json(report.robust->pvr) : Json(nullptr);
-  json["rms_nm"] = report.statistics.rms;
-  json["slope_rms_urad"] = {
-      {"x", number(report.slope.x)}, {"y", number(report.slope.y)}, {"total", number(report.slope.total)}};
+std::string map_report_json(const MapReport& report, const MapFigures& map, const std::vector<InputFile>& inputs,
+                            const MapProfile* profile) {
+  Json json = json_of_command("map");
+  json["map"] = map_block(map);
+  json["figure"] = {{"pvr_nm", report.robust ? Json(report.robust->pvr) : Json(nullptr)},
+                    {"slope_rms_urad",
+                     {{"x", finite_or_null(report.slope.x)},
+                      {"y", finite_or_null(report.slope.y)},
+                      {"total", finite_or_null(report.slope.total)}}}};
+  json["removed_form"] = form_block(report.removed, report.removed_fit);
   if (report.form) {
-    json["form"] = fit_json(*report.form, report.form_fit);
-    json["form"]["residual_pv_nm"] = report.form_residual.pv;
-    json["form"]["residual_rms_nm"] = report.form_residual.rms;
+    json["form"] = form_block(*report.form, report.form_fit);
+    json["form"]["residual"] = residual_block(to_string(*report.form), report.form_residual);
   }
   if (report.spectrum) json["spectrum"] = spectrum_json(*report.spectrum);
+  if (profile) json["profile"] = {{"line", profile->name}, {"pv_nm", profile->pv()}, {"rms_nm", profile->rms()}};
+  json["limits"] = report.broken_limits();
+  json["inputs"] = inputs_json(inputs);
   return json.dump(2) + "\n";
 }
 

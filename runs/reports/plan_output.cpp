@@ -102,6 +102,8 @@ WrittenPlan write_plan(const PlannedJob& plan, const OutputFolder& folder, const
       plan.part().form, plan.part().threads);
   written.simulated = map_statistics(written.residual, {}, plan.part().threads);
   written.program_seconds = program.total_seconds();
+  written.program = program_figures(program, written.simulated);
+  written.program.file = "program.nc";  // not the path of the temporary folder that it was read from
   if (differs(written.simulated.rms, plan.dwell.residual.rms, kSimulationTolerance)) {
     written.limits.push_back(fmt::format("the simulated program leaves {:.4g} nm RMS, the solver expected {:.4g} nm",
                                          written.simulated.rms, plan.dwell.residual.rms));

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
-#include "core/base/version.h"
 #include "core/base/whole_file.h"
 #include "core/removal/simulate.h"
 #include "runs/base/inputs_json.h"
@@ -41,6 +41,10 @@ Simulation simulate_file(const std::filesystem::path& program, std::optional<Gco
   s.inputs.insert(s.inputs.end(), job.inputs.begin(), job.inputs.end());
   s.terms = part.form;
   s.before = part.before;
+  s.map = {options.map,        part.map.grid, part.map.history, job.map_pixels, to_string(options.aperture),
+           to_string(s.terms), s.before};
+  s.tif = part.tif;
+  s.volume_factor = part.kernel.volume_factor;
   progress.step(fmt::format("simulate: {} steps", s.program.steps.size()));
   s.removal = simulate(s.program, part.map, part.kernel, part.threads);
   if (exact) {
@@ -56,20 +60,14 @@ Simulation simulate_file(const std::filesystem::path& program, std::optional<Gco
 }
 
 std::string simulation_json(const Simulation& s) {
-  using Json = nlohmann::ordered_json;
-  Json json = {{"schema", 1},
-               {"version", version()},
-               {"program",
-                {{"file", s.program.file},
-                 {"steps", s.program.steps.size()},
-                 {"total_s", s.program.total_seconds()},
-                 {"removing_length_mm", s.program.removing_length()}}},
-               {"map", {{"valid_pixels", s.before.valid_pixels}, {"pv_nm", s.before.pv}, {"rms_nm", s.before.rms}}},
-               {"residual", {{"removed", to_string(s.terms)}, {"rms_nm", s.after.rms}, {"pv_nm", s.after.pv}}},
-               {"inputs", inputs_json(s.inputs)}};
+  nlohmann::ordered_json json = json_of_command("simulate");
+  json["map"] = map_block(s.map);
+  json["tif"] = tif_block(s.tif, kind_of(s.tif), s.tif.samples.history, s.volume_factor);
+  json["program"] = program_block(program_figures(s.program, s.after));
   if (s.spline_error) {
     json["spline_error"] = {{"rms_nm", s.spline_error->rms}, {"largest_nm", s.spline_error->largest}};
   }
+  json["inputs"] = inputs_json(s.inputs);
   return json.dump(2) + "\n";
 }
 

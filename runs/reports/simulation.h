@@ -9,6 +9,7 @@
 #include "core/form/map_statistics.h"
 #include "core/motion/program.h"
 #include "runs/base/input_file.h"
+#include "runs/base/json_blocks.h"
 #include "runs/job/job_options.h"
 #include "runs/programs/gcode_dialect.h"
 
@@ -26,6 +27,9 @@ struct Simulation {
   std::vector<InputFile> inputs;
   Program program;
   FormTerms terms;
+  MapFigures map;  // as it was before the run, for the summary
+  RemovalFunction tif;
+  double volume_factor = 1.0;  // of its kernel
   MapStatistics before;
   MapStatistics after;
   HeightMap removal;                        // [nm], within the aperture
@@ -40,7 +44,7 @@ struct Simulation {
 Simulation simulate_file(const std::filesystem::path& program, std::optional<GcodeDialect> dialect,
                          const JobOptions& options, const Progress& progress, bool exact = false);
 
-/// As JSON text: program, map, residual, inputs; units in the keys.
+/// As JSON text (docs/json.md), units in the keys.
 std::string simulation_json(const Simulation& simulation);
 
 }  // namespace dwell

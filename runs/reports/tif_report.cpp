@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "core/base/version.h"
 #include "runs/base/inputs_json.h"
+#include "runs/base/json_blocks.h"
 
 namespace dwell {
 namespace {
@@ -14,8 +14,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 std::string wave(const std::optional<double>& w) { return w ? fmt::format("{:.4g} mm", *w) : "none"; }
-Json wave_json(const std::optional<double>& w) { return w ? Json(*w) : Json(nullptr); }
-Json finite_or_null(double v) { return std::isfinite(v) ? Json(v) : Json(nullptr); }
 
 std::string spots_text(const SpotCalibration& c) {
   std::string text = fmt::format(
@@ -86,7 +84,7 @@ Json trench_json(const TrenchCalibration& t) {
 }
 
 Json waves_json(const RemovalAnalysis::Waves& w) {
-  return {{"x", wave_json(w.x)}, {"y", wave_json(w.y)}, {"radial", wave_json(w.radial)}};
+  return {{"x", finite_or_null(w.x)}, {"y", finite_or_null(w.y)}, {"radial", finite_or_null(w.radial)}};
 }
 
 Json fit_json(const RemovalFit& f) {
@@ -139,34 +137,25 @@ std::string tif_text(const TifResult& r) {
 
 std::string tif_json(const TifResult& r) {
   const RemovalAnalysis& a = r.analysis;
-  const Grid& g = r.rates.grid;
-  Json json = {{"schema", 1},
-               {"version", version()},
-               {"source", r.source},
-               {"grid",
-                {{"rows", g.rows},
-                 {"columns", g.cols},
-                 {"pixel_mm", {g.pitch_x, g.pitch_y}},
-                 {"origin_mm", {g.origin.x, g.origin.y}}}},
-               {"peak_nm_per_s", a.peak},
-               {"peak_at_mm", {a.peak_at.x, a.peak_at.y}},
-               {"volume_nm_mm2_per_s", a.volume},
-               {"fwhm_mm", a.fwhm},
-               {"fwhm_x_mm", a.fwhm_x},
-               {"fwhm_y_mm", a.fwhm_y},
-               {"radius_99_mm", a.radius},
-               {"centroid_mm", {a.centroid.x, a.centroid.y}},
-               {"sigma_mm", {a.sigma_major, a.sigma_minor}},
-               {"angle_deg", a.angle},
-               {"asymmetry", a.asymmetry},
-               {"wavelength_mm_at_50_percent", waves_json(a.at_half)},
-               {"wavelength_mm_at_10_percent", waves_json(a.at_tenth)}};
+  Json json = json_of_command("tif");
+  json["tif"] = tif_block(r.tif, r.source, r.rates.history);
+  json["grid"] = grid_block(r.rates.grid);
+  json["analysis"] = {{"peak_at_mm", {a.peak_at.x, a.peak_at.y}},
+                      {"fwhm_x_mm", a.fwhm_x},
+                      {"fwhm_y_mm", a.fwhm_y},
+                      {"radius_99_mm", a.radius},
+                      {"centroid_mm", {a.centroid.x, a.centroid.y}},
+                      {"sigma_mm", {a.sigma_major, a.sigma_minor}},
+                      {"angle_deg", a.angle},
+                      {"asymmetry", a.asymmetry},
+                      {"wavelength_mm_at_50_percent", waves_json(a.at_half)},
+                      {"wavelength_mm_at_10_percent", waves_json(a.at_tenth)}};
   if (r.spots) json["spots"] = spots_json(*r.spots);
   if (r.trench) json["trench"] = trench_json(*r.trench);
   auto fits = Json::array();
   for (const RemovalFit& f : r.fits) fits.push_back(fit_json(f));
   json["fits"] = fits;
-  json["made"] = r.rates.history;
+  json["limits"] = unfinished_fits(r);
   json["inputs"] = inputs_json(r.inputs);
   return json.dump(2) + "\n";
 }

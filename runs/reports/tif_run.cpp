@@ -43,7 +43,8 @@ void refuse_unused(const TifJob& job) {
   only(!job.baseline.empty(), spot, "--baseline", "--spot");
   only(!job.registration.empty(), spot, "--register", "--spot");
   const JobOptions& o = job.job;
-  only(o.map_pixel_mm || o.map_origin_mm || o.map_unit != "nm", measured, "--map-pixel, --map-origin or --map-unit",
+  only(o.map_pixel_mm || o.map_origin_mm || o.map_unit != "nm" || !o.map_steps.empty(), measured,
+       "--map-pixel, --map-origin, --map-unit or --map-steps",
        "--spot or --trench (for a file of rates: --tif-pixel, --tif-unit)");
   only(o.tif_pixel_mm || o.tif_unit != "nm/s" || o.tif_centre, !measured, "--tif-pixel, --tif-unit or --tif-centre",
        "a file of rates (for --spot and --trench: --map-pixel, --map-unit, --centre)");
@@ -164,9 +165,12 @@ std::vector<FitRequest> parse_fits(const std::vector<std::string>& texts, bool r
   return requests;
 }
 
-int unfinished_fits(const TifResult& result) {
-  return static_cast<int>(
-      std::count_if(result.fits.begin(), result.fits.end(), [](const auto& f) { return !f.converged; }));
+std::vector<std::string> unfinished_fits(const TifResult& result) {
+  std::vector<std::string> limits;
+  for (const RemovalFit& f : result.fits) {
+    if (!f.converged) limits.push_back(fmt::format("the fit of {} did not converge: {}", f.model, f.message));
+  }
+  return limits;
 }
 
 TifResult make_tif(const TifJob& job) {
@@ -176,11 +180,12 @@ TifResult make_tif(const TifJob& job) {
   TifResult result;
   if (job.job.tif.empty()) {
     const RemovalFunction tif = find_removal(job, result);
-    result.rates = oriented(tif, {job.job.tif_angle_deg, job.job.tif_flip}).samples;
+    result.tif = oriented(tif, {job.job.tif_angle_deg, job.job.tif_flip});
+    result.rates = result.tif.samples;
   } else {
-    const RemovalFunction tif = load_removal_function(job.job, result.inputs);
-    result.source = kind_of(tif);
-    result.rates = removal_samples(tif);
+    result.tif = load_removal_function(job.job, result.inputs);
+    result.source = kind_of(result.tif);
+    result.rates = removal_samples(result.tif);
   }
   result.rates.quantity = MapQuantity::Rate;
   result.analysis = analyse_removal(result.rates, thread_count(job.job.threads));

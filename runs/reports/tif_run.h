@@ -33,8 +33,9 @@ struct TifJob {
 
 /// A removal function and all that was found out about it.
 struct TifResult {
-  std::string source;  // "measured", "spot", "trench", or the name of a model
-  HeightMap rates;     // [nm/s], origin relative to the tool axis, turned as the job says
+  std::string source;   // "measured", "spot", "trench", or the name of a model
+  RemovalFunction tif;  // turned as the job says
+  HeightMap rates;      // its samples [nm/s], origin relative to the tool axis
   RemovalAnalysis analysis;
   std::optional<SpotCalibration> spots;
   std::optional<TrenchCalibration> trench;
@@ -45,8 +46,8 @@ struct TifResult {
 /// Reads, calibrates, turns, analyses and fits. Throws InputError naming the option or file.
 TifResult make_tif(const TifJob& job);
 
-/// Fits that ended before they converged.
-int unfinished_fits(const TifResult& result);
+/// A sentence for each fit that ended before it converged; not empty = exit code 3.
+std::vector<std::string> unfinished_fits(const TifResult& result);
 
 /// A fit as the user writes it: the model, and the parameters held.
 struct FitRequest {

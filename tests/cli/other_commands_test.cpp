@@ -16,7 +16,7 @@ using test::SmallInputs;
 
 TEST(Help, OfEverySubcommandShowsAnExampleAndItsUnits) {
   const test::TemporaryFolder folder;
-  for (const char* command : {"plan", "pareto", "simulate", "map", "tif", "example"}) {
+  for (const char* command : {"plan", "paths", "pareto", "simulate", "map", "tif", "example"}) {
     const ProgramResult result = test::run_program(folder.path(), {command, "--help"});
     EXPECT_EQ(result.exit_code, 0) << command;
     expect_has(result.out, "Example:\n  dwell " + std::string(command));
@@ -79,7 +79,7 @@ TEST(MapCommand, TellsFormSpectraAndProfile) {
   const SmallInputs inputs;
   const ProgramResult result = inputs.run(
       {"map", "map.csv", "--map-pixel", "0.5", "--form", "zernike-noll:1-6", "--psd", "--bands", "5,2", "--profile",
-       "y=3", "--json", "map.json", "--psd-png", "psd.png", "--profile-png", "profile.png", "--remove", "legendre:1"});
+       "y=3", "--json=map.json", "--psd-png", "psd.png", "--profile-png", "profile.png", "--remove", "legendre:1"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   for (const char* part : {"PVr  ", "urad RMS in x", "Z4 defocus", "PSD rad", "band mid", "5 - 2 mm",
                            "profile   y = 3 mm", "(legendre:1 removed)"}) {
@@ -112,7 +112,7 @@ TEST(MapCommand, RefusesWrongOptionsBeforeItWritesAnything) {
            {"--profile", "y=99", "does not lie on the map"},
            {"--profile-png", "p.png", "--profile"}}) {
     const ProgramResult result =
-        inputs.run({"map", "map.csv", "--map-pixel", "0.5", "--png", "map.png", "--json", "map.json", flag, value});
+        inputs.run({"map", "map.csv", "--map-pixel", "0.5", "--png", "map.png", "--json=map.json", flag, value});
     EXPECT_EQ(result.exit_code, 2) << flag;
     expect_has(result.err, word);
   }
@@ -170,7 +170,8 @@ TEST(SimulateCommand, AgreesWithThePlanForTheTableAndForTheProgram) {
                       "--tif-pixel", "0.5", "--threads", "1", "--json", "--residual", "left.npy"});
       ASSERT_EQ(result.exit_code, 0) << result.err;
       const json s = json::parse(result.out);
-      EXPECT_NEAR(s["residual"]["rms_nm"].get<double>(), expected, tolerance * expected) << gcode << " " << program;
+      EXPECT_NEAR(s["program"]["residual_rms_nm"].get<double>(), expected, tolerance * expected)
+          << gcode << " " << program;
       EXPECT_NEAR(s["map"]["rms_nm"].get<double>(), before, 1e-12 * before);
       EXPECT_EQ(s["inputs"].size(), 3u);
     }
@@ -210,7 +211,7 @@ TEST(SimulateCommand, SaysHowFarTheSplineIsFromTheRemovalFunction) {
   EXPECT_FALSE(fast.contains("spline_error"));
   EXPECT_GT(exact["spline_error"]["rms_nm"], 0.0);
   EXPECT_GE(exact["spline_error"]["largest_nm"], exact["spline_error"]["rms_nm"]);
-  EXPECT_NE(exact["residual"]["rms_nm"], fast["residual"]["rms_nm"]);
+  EXPECT_NE(exact["program"]["residual_rms_nm"], fast["program"]["residual_rms_nm"]);
 }
 
 TEST(ExampleCommand, MakesAJobThatPlans) {
@@ -222,6 +223,33 @@ TEST(ExampleCommand, MakesAJobThatPlans) {
       inputs.run({"plan", "--job", "demo/demo.toml", "--smoothness", "1", "--out", "plan", "--json"});
   EXPECT_EQ(planned.exit_code, 0) << planned.err;
   EXPECT_LT(json::parse(planned.out)["residual"]["rms_nm"], json::parse(planned.out)["map"]["rms_nm"]);
+}
+
+TEST(ExampleCommand, ReplacesAnEarlierExampleAndNoOtherFolder) {
+  const SmallInputs inputs;
+  const auto make = [&](const char* out, const char* seed) {
+    return inputs.run({"example", "--out", out, "--width", "20", "--seed", seed});
+  };
+  ASSERT_EQ(make("demo", "1").exit_code, 0);
+  const std::string first = read_whole_file(inputs / "demo/mirror.csv");
+  ASSERT_EQ(make("demo", "2").exit_code, 0);
+  EXPECT_NE(read_whole_file(inputs / "demo/mirror.csv"), first);
+  std::filesystem::create_directory(inputs / "mine");
+  inputs.folder.file("mine/holiday.jpg", "x");
+  const ProgramResult refused = make("mine", "1");
+  EXPECT_EQ(refused.exit_code, 2);
+  expect_has(refused.err, "not an earlier example");
+  EXPECT_FALSE(std::filesystem::exists(inputs / "mine/mirror.csv"));
+}
+
+TEST(MapCommand, SaysOnStandardErrorWhichLimitWasReached) {
+  const SmallInputs inputs;
+  const ProgramResult above = inputs.run({"map", "map.csv", "--map-pixel", "0.5", "--limit", "1e-9,2", "--json"});
+  EXPECT_EQ(above.exit_code, 3);
+  expect_has(above.err, "dwell: limit reached: the x spectrum is up to ");
+  const json limits = json::parse(above.out)["limits"];
+  EXPECT_EQ(limits.size(), 2u);
+  expect_has(above.err, limits[0]);
 }
 
 }  // namespace

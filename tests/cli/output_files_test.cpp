@@ -62,24 +62,24 @@ TEST(OutputFiles, NeverReplaceTheSidecarOrContainerOfAnInput) {
   const NamedInputs inputs;
   ASSERT_EQ(inputs.run(with(inputs.map, {"--write", "a.npy"})).exit_code, 0);
   ASSERT_EQ(inputs.run(with(inputs.map, {"--write", "b.h5"})).exit_code, 0);
-  expect_refused(inputs, {"map", "a.npy", "--json", "a.npy.json"}, {"--json", "the sidecar of the map"});
-  expect_refused(inputs, with(inputs.map, {"--write", "c.npy", "--json", "c.npy.json"}), {"the sidecar of --write"});
+  expect_refused(inputs, {"map", "a.npy", "--json=a.npy.json"}, {"--json", "the sidecar of the map"});
+  expect_refused(inputs, with(inputs.map, {"--write", "c.npy", "--json=c.npy.json"}), {"the sidecar of --write"});
   expect_refused(inputs, {"map", "b.h5:/anything", "--write", "b.h5"}, {"--write 'b.h5'", "same file as the map"});
 }
 
 TEST(OutputFiles, AreCheckedBeforeAnyWork) {
   const NamedInputs inputs;
-  const Words good = with(inputs.map, {"--json", "good.json", "--write", "good.csv"});
+  const Words good = with(inputs.map, {"--json=good.json", "--write", "good.csv"});
   expect_refused(inputs, with(good, {"--png", "a.png", "--psd-png", "./a.png"}),
                  {"--psd-png './a.png'", "same file as --png"});
   expect_refused(inputs, with(good, {"--png", "a.jpg"}), {"--png 'a.jpg'", "'.jpg'", "accepted: .png"});
   expect_refused(inputs, with(good, {"--png", "no/such/a.png"}), {"--png 'no/such/a.png'", "no folder 'no/such'"});
   expect_refused(inputs, with(good, {"--png", "folder.png"}), {"--png 'folder.png'", "is a folder"});
-  expect_refused(inputs, with(inputs.map, {"--json", "a.txt"}), {"--json 'a.txt'", "accepted: .json"});
-  expect_refused(inputs, with(inputs.map, {"--json", "a.json", "--write", "a.tif"}),
+  expect_refused(inputs, with(inputs.map, {"--json=a.txt"}), {"--json 'a.txt'", "accepted: .json"});
+  expect_refused(inputs, with(inputs.map, {"--json=a.json", "--write", "a.tif"}),
                  {"--write 'a.tif'", "accepted: .csv", ".npy"});
   expect_refused(inputs, with(good, {"--profile", "y=99"}), {"does not lie on the map"});
-  expect_refused(inputs, {"tif", "tif.csv", "--tif-pixel", "0.5", "--json", "t.json", "--mtf-png", "t.bmp"},
+  expect_refused(inputs, {"tif", "tif.csv", "--tif-pixel", "0.5", "--json=t.json", "--mtf-png", "t.bmp"},
                  {"--mtf-png 't.bmp'", "accepted: .png"});
   // The program is missing: the name of the output is found wrong before that.
   expect_refused(inputs,

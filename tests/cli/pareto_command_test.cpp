@@ -37,7 +37,7 @@ TEST(ParetoCommand, WritesTableAndPictureAndPrintsTheFront) {
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 7);
   EXPECT_EQ(read_whole_file(inputs / "sweep/pareto.png").substr(1, 3), "PNG");
   const json s = json::parse(read_whole_file(inputs / "sweep/pareto.json"));
-  EXPECT_EQ(s["schema"], 1);
+  EXPECT_EQ(s["schema"], 2);
   EXPECT_EQ(s["inputs"].size(), 2u);
   EXPECT_EQ(s["inputs"][0]["sha256"], sha256_of_file(inputs / "map.csv"));
   EXPECT_EQ(s["points"].size(), 6u);

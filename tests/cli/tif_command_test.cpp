@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+
 #include "core/base/whole_file.h"
 #include "tests/cli/small_inputs.h"
 #include "tests/core/tif/calibration/spot_truth.h"
@@ -24,7 +26,7 @@ struct SpotInputs : SmallInputs {
 TEST(TifCommand, FromSpotsToAPlan) {
   const SpotInputs inputs;
   const ProgramResult made = inputs.run({"tif", "--spot", "after.csv", "--dwell-time", "4", "--fit", "gaussian,mrf",
-                                         "--write", "spot.csv", "--json", "spot.json", "--png", "spot.png", "--fit-png",
+                                         "--write", "spot.csv", "--json=spot.json", "--png", "spot.png", "--fit-png",
                                          "fit.png", "--mtf-png", "mtf.png", "--threads", "1"});
   ASSERT_EQ(made.exit_code, 0) << made.err;
   for (const char* part : {"spots     2", "peak ", " nm/s", "FWHM", " mm along x", "fit       ", "+-"})
@@ -36,7 +38,8 @@ TEST(TifCommand, FromSpotsToAPlan) {
   const ProgramResult planned =
       inputs.run(SmallInputs::plan({"--tif", "spot.csv", "--tif-pixel", "0.15", "--tif-centre", "0,0", "--json"}));
   ASSERT_EQ(planned.exit_code, 0) << planned.err;
-  EXPECT_NEAR(json::parse(planned.out)["tif"]["peak_nm_per_s"].get<double>(), j["peak_nm_per_s"].get<double>(), 1e-9);
+  EXPECT_NEAR(json::parse(planned.out)["tif"]["peak_nm_per_s"].get<double>(), j["tif"]["peak_nm_per_s"].get<double>(),
+              1e-9);
   const ProgramResult again = inputs.run({"tif", "spot.csv", "--tif-centre", "0,0"});
   ASSERT_EQ(again.exit_code, 0) << again.err;
   EXPECT_EQ(inputs.run({"map", "spot.csv"}).exit_code, 2);
@@ -56,6 +59,21 @@ TEST(TifCommand, LooksAtAModelAndPlansWithIt) {
   EXPECT_EQ(turned.exit_code, 0) << turned.err;
 }
 
+TEST(TifCommand, PreparesTheMapsOfSpotsBySteps) {
+  const SpotInputs inputs;
+  const std::vector<std::string> words{"tif",    "--spot",    "after.csv", "--dwell-time", "4",
+                                       "--json", "--threads", "1",         "--map-steps",  "flip:x"};
+  const ProgramResult result = inputs.run(words);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  // The map reaches from -10 to 10.85 mm: what was at x is at 0.85 - x.
+  std::vector<double> places;
+  for (const json& spot : json::parse(result.out)["spots"]["each"]) places.push_back(spot["x_mm"]);
+  std::sort(places.begin(), places.end());
+  ASSERT_EQ(places.size(), 2u);
+  EXPECT_NEAR(places[0], 0.85 - 5.01, 0.2);
+  EXPECT_NEAR(places[1], 0.85 + 4.52, 0.2);
+}
+
 TEST(TifCommand, NamesWhatIsWrong) {
   const SpotInputs inputs;
   struct Case {
@@ -71,6 +89,7 @@ TEST(TifCommand, NamesWhatIsWrong) {
       {{"--spot", "after.csv", "--dwell-time", "4", "--at", "0,0"}, {"--at 0,0", "no spot there"}},
       {{"--spot", "after.csv", "--dwell-time", "4", "--fit-png", "f.png"}, {"--fit-png", "--fit"}},
       {{"--trench", "after.csv"}, {"--feed", "required"}},
+      {{"tif.csv", "--tif-pixel", "0.5", "--map-steps", "flip:x"}, {"--map-steps", "--spot or --trench"}},
       {{"planetary:radius=1,peak=2"}, {"eccentricity", "missing"}},
       {{"planatary:radius=1,peak=2"}, {"'planatary'", "accepted", "planetary"}},
       {{"mrf:lead=1,trail=1,width=1,peak=1", "--tif-angle", "1e9"}, {"--tif-angle", "-360 to 360"}},

@@ -85,8 +85,8 @@ TEST(PathComparison, SaysOfEachPathWhatItsOwnProgramDoes) {
   EXPECT_NEAR(nearest.total_time - nearest.lift_time - nearest.dwell_total,
               10.0 * static_cast<double>(nearest.metrics.lifts + 1) / 50.0, 1e-3);
   const auto parsed = nlohmann::json::parse(json);
-  EXPECT_EQ(parsed["paths"][1]["path"], "raster:pitch=2,angle=90");
-  EXPECT_EQ(parsed["paths"][0]["residual_rms_nm"], comparison.paths[0].residual_rms);
+  EXPECT_EQ(parsed["paths"][1]["spec"], "raster:pitch=2,angle=90");
+  EXPECT_EQ(parsed["paths"][0]["program"]["residual_rms_nm"], comparison.paths[0].residual_rms);
   EXPECT_FALSE(parsed["options"].contains("path"));
   EXPECT_NO_THROW(OutputFolder(out, path_comparison_files()));  // an earlier comparison may be replaced
   expect_input_error([&] { OutputFolder plan(out); }, {"not an earlier plan"});

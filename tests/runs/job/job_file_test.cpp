@@ -175,5 +175,27 @@ TEST(JobFile, NamesTheLineThatIsNotToml) {
   expect_input_error([&] { read_job_file(folder.path() / "none.toml", options); }, {"none.toml", "No such file"});
 }
 
+TEST(JobFile, SaysItsLayoutAndReadsThatOfVersion01) {
+  const TemporaryFolder folder;
+  EXPECT_NE(job_file_text({}).find("\nschema = 2\n"), std::string::npos);
+  for (const char* schema : {"", "schema = 1\n", "schema = 2\n"}) {
+    EXPECT_EQ(read(folder, std::string(schema) + "min_dwell_s = 0.25\n").min_dwell_s, 0.25) << schema;
+  }
+}
+
+TEST(JobFile, RefusesALayoutThatItDoesNotKnow) {
+  const TemporaryFolder folder;
+  const auto refused = [&](const char* line, const char* value) {
+    // The layout is looked at first: a field of a later layout is not what is wrong.
+    expect_input_error([&] { read(folder, std::string("of_a_later_layout = 1\n") + line); },
+                       {"job.toml: schema: ", value, "accepted: 1 (the layout of dwell 0.1) or 2"});
+  };
+  refused("schema = 3\n", "3");
+  refused("schema = 0\n", "0");
+  refused("schema = '2'\n", "'2'");
+  refused("schema = 2.5\n", "2.5");
+  refused("schema = [2]\n", "no number");
+}
+
 }  // namespace
 }  // namespace dwell

@@ -38,6 +38,11 @@ MapReportOptions options() {
   return o;
 }
 
+/// The JSON of a whole map, no aperture.
+std::string json_text(const MapReport& report, const HeightMap& map, const std::vector<InputFile>& inputs = {}) {
+  return map_report_json(report, map_figures(report, "a.npy", map, map.valid_pixels(), "map"), inputs);
+}
+
 TEST(MapReport, FindsWhatTheMapIsMadeOf) {
   const MapReport report = map_report(rippled(), options());
   EXPECT_NEAR(report.statistics.rms, std::sqrt(8.0 + 0.5), 0.05);
@@ -88,24 +93,24 @@ TEST(MapReport, SaysWhichTermsWereDropped) {
   EXPECT_NE(text.find("depend on the others here: tilt y"), std::string::npos) << text;
   EXPECT_NE(text.find("none in y"), std::string::npos) << text;
   EXPECT_NE(text.find("PVr       too few pixels: 6 with data"), std::string::npos) << text;
-  const json j = json::parse(map_report_json(map_report(row, o), row, {}));
-  EXPECT_TRUE(j["pvr_nm"].is_null());
+  const json j = json::parse(json_text(map_report(row, o), row));
+  EXPECT_TRUE(j["figure"]["pvr_nm"].is_null());
 }
 
 TEST(MapReport, JsonHoldsAllOfIt) {
   const HeightMap map = rippled();
   const MapReport report = map_report(map, options());
-  const json j = json::parse(map_report_json(report, map, {{"map", "a.npy", "00"}}));
-  EXPECT_EQ(j["schema"], 1);
+  const json j = json::parse(json_text(report, map, {{"map", "a.npy", "00"}}));
+  EXPECT_EQ(j["schema"], 2);
   EXPECT_EQ(j["inputs"][0]["file"], "a.npy");
   EXPECT_EQ(j["map"]["rows"], 300);
   EXPECT_EQ(j["map"]["pixel_mm"], json({0.2, 0.1}));
-  EXPECT_EQ(j["rms_nm"], report.statistics.rms);
-  EXPECT_EQ(j["pvr_nm"], report.robust->pvr);
-  EXPECT_EQ(j["slope_rms_urad"]["total"], report.slope.total);
-  EXPECT_EQ(j["removed"]["terms"].size(), 4u);
+  EXPECT_EQ(j["map"]["rms_nm"], report.statistics.rms);
+  EXPECT_EQ(j["figure"]["pvr_nm"], report.robust->pvr);
+  EXPECT_EQ(j["figure"]["slope_rms_urad"]["total"], report.slope.total);
+  EXPECT_EQ(j["removed_form"]["terms"].size(), 4u);
   EXPECT_EQ(j["form"]["terms"][3]["coefficient_nm"], report.form_fit.terms[3].coefficient);
-  EXPECT_EQ(j["form"]["residual_rms_nm"], report.form_residual.rms);
+  EXPECT_EQ(j["form"]["residual"]["rms_nm"], report.form_residual.rms);
   EXPECT_TRUE(j["spectrum"]["bands"][0]["longest_mm"].is_null());
   EXPECT_EQ(j["spectrum"]["x"]["frequency_per_mm"].size(), report.spectrum->curves[0].curve.frequency.size());
   EXPECT_EQ(j["spectrum"]["radial"]["density_nm2_mm2"].size(), report.spectrum->curves[2].curve.density.size());
@@ -199,7 +204,7 @@ TEST(MapReport, SaysWhichBandsAreNotResolvedInWordsAndJson) {
                            "in the bands shorter than two pixels", "(plain RMS "}) {
     EXPECT_NE(text.find(part), std::string::npos) << part << " is not in\n" << text;
   }
-  const json s = json::parse(map_report_json(report, map, {}))["spectrum"];
+  const json s = json::parse(json_text(report, map))["spectrum"];
   EXPECT_TRUE(s["bands"][0]["rms_nm"].is_null());
   EXPECT_EQ(s["bands"][0]["note"], "not resolved: the part is 10 mm long");
   EXPECT_TRUE(s["bands"][1]["rms_nm"].is_number());

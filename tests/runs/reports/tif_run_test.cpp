@@ -79,7 +79,7 @@ TEST(MakeTif, ReportsFitsAndDrawsThem) {
   const auto json = nlohmann::json::parse(tif_json(result));
   EXPECT_EQ(json["fits"].size(), 3u);
   EXPECT_EQ(json["fits"][0]["model"], result.fits[0].model);
-  EXPECT_NEAR(json["peak_nm_per_s"].get<double>(), result.analysis.peak, 1e-12);
+  EXPECT_NEAR(json["tif"]["peak_nm_per_s"].get<double>(), result.analysis.peak, 1e-12);
   EXPECT_EQ(json["inputs"][0]["role"], "after");
   EXPECT_EQ(json["spots"]["each"].size(), 1u);
   const std::string text = tif_text(result);

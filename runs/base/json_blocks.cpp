@@ -1,0 +1,103 @@
+#include "runs/base/json_blocks.h"
+
+#include <cmath>
+
+#include "core/base/version.h"
+#include "solvers/solver_catalogue.h"
+
+namespace dwell {
+
+nlohmann::ordered_json json_of_command(const std::string& command) {
+  return {{"schema", kJsonSchema}, {"version", version()}, {"command", command}};
+}
+
+nlohmann::ordered_json finite_or_null(double value) {
+  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
+}
+
+nlohmann::ordered_json finite_or_null(const std::optional<double>& value) {
+  return value ? finite_or_null(*value) : nlohmann::ordered_json(nullptr);
+}
+
+nlohmann::ordered_json grid_block(const Grid& grid) {
+  return {{"rows", grid.rows},
+          {"columns", grid.cols},
+          {"pixel_mm", {grid.pitch_x, grid.pitch_y}},
+          {"origin_mm", {grid.origin.x, grid.origin.y}}};
+}
+
+nlohmann::ordered_json map_block(const MapFigures& map) {
+  nlohmann::ordered_json block = {{"file", map.file}};
+  block.update(grid_block(map.grid));
+  block.update({{"history", map.history},
+                {"valid_pixels", map.valid_pixels},
+                {"aperture", map.aperture},
+                {"aperture_pixels", map.statistics.valid_pixels},
+                {"removed", map.removed},
+                {"pv_nm", map.statistics.pv},
+                {"rms_nm", map.statistics.rms}});
+  return block;
+}
+
+nlohmann::ordered_json tif_block(const RemovalFunction& tif, const std::string& kind,
+                                 const std::vector<std::string>& history, std::optional<double> volume_factor) {
+  nlohmann::ordered_json block = {
+      {"kind", kind},        {"history", history},     {"peak_nm_per_s", tif.peak}, {"volume_nm_mm2_per_s", tif.volume},
+      {"fwhm_mm", tif.fwhm}, {"radius_mm", tif.radius}};
+  if (volume_factor) block["volume_factor"] = *volume_factor;
+  return block;
+}
+
+nlohmann::ordered_json residual_block(const std::string& removed, const MapStatistics& left) {
+  return {{"removed", removed}, {"rms_nm", left.rms}, {"pv_nm", left.pv}};
+}
+
+nlohmann::ordered_json path_block(const std::string& kind, const PathMetrics& metrics,
+                                  const std::vector<std::string>& notes) {
+  return {{"kind", kind},
+          {"points", metrics.points},
+          {"length_mm", metrics.length},
+          {"longest_jump_mm", metrics.longest_jump},
+          {"lifts", metrics.lifts},
+          {"notes", notes}};
+}
+
+nlohmann::ordered_json solve_block(const SolverSummary& solver) {
+  return {{"solver", to_string(solver.kind)},
+          {"status", to_string(solver.status)},
+          {"message", solver.message},
+          {"iterations", solver.iterations},
+          {"operator_applications", solver.operator_applications},
+          {"coarse_pairs", solver.coarse_pairs},
+          {"wall_s", solver.seconds}};
+}
+
+nlohmann::ordered_json dwell_block(const DwellFigures& dwell) {
+  return {{"total_s", dwell.total}, {"min_s", dwell.min}, {"max_s", dwell.max}, {"step_rms_s", dwell.step_rms}};
+}
+
+ProgramFigures program_figures(const Program& program, const MapStatistics& residual) {
+  return {program.file, program.steps.size(), program.removing_length(), program.total_seconds(), residual};
+}
+
+nlohmann::ordered_json program_block(const ProgramFigures& program) {
+  return {{"file", program.file},
+          {"steps", program.steps},
+          {"removing_length_mm", program.removing_length},
+          {"total_s", program.seconds},
+          {"residual_rms_nm", program.residual.rms},
+          {"residual_pv_nm", program.residual.pv}};
+}
+
+nlohmann::ordered_json trial_block(const Weights& weights, const TradeOff& trade_off, double objective,
+                                   long operator_applications) {
+  return {{"smoothness", weights.smoothness},
+          {"time_price_nm2_per_s", weights.time_price},
+          {"residual_rms_nm", trade_off.residual_rms},
+          {"total_s", trade_off.total},
+          {"step_rms_s", trade_off.step_rms},
+          {"objective_nm2", objective},
+          {"operator_applications", operator_applications}};
+}
+
+}  // namespace dwell

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "runs/base/json_blocks.h"
+#include "runs/job/job.h"
+#include "runs/plan/dwell_plan.h"
+
+namespace dwell {
+
+/// The blocks "map", "tif" and "path" of whatever is told of a plan: by a plan, a sweep of weights, or a comparison of
+/// paths.
+nlohmann::ordered_json plan_map_block(const Job& job);
+nlohmann::ordered_json plan_tif_block(const Job& job);
+nlohmann::ordered_json plan_path_block(const LaidPath& laid);
+
+/// The figures of the plan's dwell times, for its block "dwell".
+DwellFigures plan_dwell_figures(const DwellPlan& plan);
+
+}  // namespace dwell

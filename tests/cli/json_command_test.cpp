@@ -1,0 +1,271 @@
+/// --json is one flag with one meaning in every command, and docs/json.md lists the keys that it prints.
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <sstream>
+
+#include "core/base/whole_file.h"
+#include "runs/job/job_options.h"
+#include "tests/cli/json_documentation.h"
+#include "tests/cli/small_inputs.h"
+#include "tests/core/tif/calibration/spot_truth.h"
+
+namespace dwell {
+namespace {
+
+using nlohmann::json;
+using test::expect_has;
+using test::ProgramResult;
+using test::SmallInputs;
+using Words = std::vector<std::string>;
+
+Words with(Words words, const Words& more) {
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+const Words kMap{"map", "map.csv", "--map-pixel", "0.5"};
+const Words kSimulate{"simulate", "--program", "plan/program.nc", "--map",       "map.csv", "--map-pixel",
+                      "0.5",      "--tif",     "tif.csv",         "--tif-pixel", "0.5",     "--threads",
+                      "1"};
+
+/// The usual plan as another command, which does not take the options named in `without`.
+Words as(const char* command, const Words& without, const Words& more) {
+  Words words = with(SmallInputs::plan(), more);
+  words[0] = command;
+  for (const std::string& flag : without) {
+    const auto at = std::find(words.begin(), words.end(), flag);
+    words.erase(at, at + 2);
+  }
+  return words;
+}
+
+/// A folder in which every command can run, with a plan in it.
+struct CommandInputs : SmallInputs {
+  CommandInputs() {
+    const Grid grid{90, 140, 0.15, 0.15, {-10.0, -7.0}};
+    write_map(*this / "after.csv", test::after_spots(grid, {{-4.52, -0.31}, {5.01, 0.77}}, 4.0, 0.1, 2));
+    HeightMap trench(Grid{60, 120, 0.2, 0.2, {-12.0, -6.0}});
+    for (Index i = 0; i < trench.grid.size(); ++i) {
+      const double y = trench.grid.centre(i).y;
+      trench.values[static_cast<std::size_t>(i)] = -30.0 * std::exp(-y * y);
+    }
+    write_map(*this / "trench.csv", trench);
+    HeightMap wide(Grid{120, 120, 0.5, 0.5, {}});
+    for (Index i = 0; i < wide.grid.size(); ++i) {
+      const Point p = wide.grid.centre(i);
+      wide.values[static_cast<std::size_t>(i)] = 20.0 * std::sin(0.3 * p.x + 0.1) * std::cos(0.7 * p.y) + 30.0;
+    }
+    write_map(*this / "wide.csv", wide);
+    EXPECT_EQ(run(SmallInputs::plan()).exit_code, 0);
+  }
+};
+
+/// Runs of each command that between them print every key.
+std::map<std::string, std::vector<Words>> runs_of_commands() {
+  return {
+      {"plan", {SmallInputs::plan({"--out", "a"}), SmallInputs::plan({"--out", "a", "--smoothness", "step<=0.05"})}},
+      {"paths",
+       {{"paths", "--map", "wide.csv", "--tif", "gaussian:peak=10,fwhm=3,radius=4", "--threads", "1", "--paths",
+         "raster:pitch=2;nearest:critical=1e9", "--out", "b"},
+        as("paths", {"--path", "--tif", "--tif-pixel", "--out"},
+           {"--tif", "gaussian:peak=10,fwhm=5,radius=5", "--paths", "raster:pitch=2", "--out", "b", "--aperture",
+            "rect:0,0,14,1.2"})}},
+      {"pareto", {as("pareto", {"--out"}, {"--smoothnesses", "0.1,1", "--time-prices", "0", "--out", "c"})}},
+      {"simulate", {kSimulate, with(kSimulate, {"--exact"})}},
+      {"map",
+       {kMap,
+        with(kMap, {"--form", "zernike-noll:1-6", "--remove", "legendre:1", "--limit", "1e-9,2", "--profile", "y=3"}),
+        with(kMap, {"--form", "legendre:2", "--limit", "radial:1e9,2"})}},
+      {"tif",
+       {{"tif", "gaussian:peak=2,fwhm=3,radius=4"},
+        {"tif", "--spot", "after.csv", "--dwell-time", "4", "--fit", "gaussian", "--threads", "1"},
+        {"tif", "--trench", "trench.csv", "--feed", "60"}}},
+      {"example", {{"example", "--out", "d", "--width", "20"}}},
+  };
+}
+
+/// Whether a leaf that is null or an empty list stands for keys that are documented.
+bool stands_for_documented(const std::string& leaf, const test::JsonDocumentation::Keys& keys) {
+  return std::any_of(keys.begin(), keys.end(), [&](const auto& key) {
+    return key.first.starts_with(leaf + ".") || key.first.starts_with(leaf + "[]");
+  });
+}
+
+TEST(JsonOfEveryCommand, HasTheKeysThatAreDocumentedAndNoOthers) {
+  const CommandInputs inputs;
+  const test::JsonDocumentation documentation(DWELL_SOURCE_DIR "/docs/json.md");
+  const auto runs = runs_of_commands();
+  ASSERT_EQ(documentation.commands().size(), runs.size());
+  for (const auto& [command, keys] : documentation.commands()) {
+    ASSERT_TRUE(runs.contains(command)) << command;
+    std::set<std::string> printed_once;
+    for (const Words& words : runs.at(command)) {
+      const ProgramResult result = inputs.run(with(words, {"--json"}));
+      ASSERT_TRUE(result.exit_code == 0 || result.exit_code == 3) << command << ": " << result.err;
+      const json printed = json::parse(result.out);
+      EXPECT_EQ(printed["schema"], 2) << command;
+      EXPECT_EQ(printed["command"], command);
+      EXPECT_EQ(result.exit_code == 3, printed.contains("limits") && !printed["limits"].empty()) << command;
+      test::PrintedKeys found;
+      found.collect(printed);
+      for (const std::string& key : found.leaves) {
+        const std::string known = key.starts_with("options.") ? "options.*" : key;
+        EXPECT_TRUE(keys.contains(known) || (found.empty.contains(key) && stands_for_documented(key, keys)))
+            << "docs/json.md, dwell " << command << ", lacks " << key;
+        printed_once.insert(known);
+      }
+      for (const auto& [key, optional] : keys) {
+        if (optional || key == "options.*" || found.stand_for(key)) continue;
+        EXPECT_TRUE(found.leaves.contains(key)) << "dwell " << command << " does not print " << key;
+      }
+    }
+    for (const auto& [key, optional] : keys) {
+      EXPECT_TRUE(printed_once.contains(key)) << "no run of dwell " << command << " prints " << key;
+    }
+  }
+}
+
+TEST(JsonOfEveryCommand, NamesOptionsAsTheJobFileDoes) {
+  const CommandInputs inputs;
+  const json plan = json::parse(read_whole_file(inputs / "plan/summary.json"));
+  std::set<std::string> known;
+  for (const JobOptionRecord& record : job_option_table()) known.insert(record.key);
+  for (const auto& [key, value] : plan["options"].items()) EXPECT_TRUE(known.contains(key)) << key;
+}
+
+// The same map and the same removal function, told by whoever: equal key by key.
+TEST(JsonOfEveryCommand, TellsTheSameMapAndToolTheSameWay) {
+  const CommandInputs inputs;
+  const json plan = json::parse(read_whole_file(inputs / "plan/summary.json"));
+  const auto printed = [&](const Words& words) { return json::parse(inputs.run(with(words, {"--json"})).out); };
+  const json map = printed(with(kMap, {"--threads", "1"})), simulated = printed(kSimulate);
+  const json tif = printed({"tif", "tif.csv", "--tif-pixel", "0.5"});
+  ASSERT_EQ(map["map"].size(), plan["map"].size());
+  for (const auto& [key, value] : plan["map"].items()) {
+    EXPECT_EQ(simulated["map"][key], value) << key;
+    if (value.is_number_float()) {
+      EXPECT_NEAR(map["map"][key].get<double>(), value.get<double>(), 1e-9) << key;
+    } else {
+      EXPECT_EQ(map["map"][key], value) << key;
+    }
+  }
+  EXPECT_EQ(simulated["tif"], plan["tif"]);
+  for (const char* key : {"kind", "peak_nm_per_s", "volume_nm_mm2_per_s", "fwhm_mm", "radius_mm"}) {
+    EXPECT_EQ(tif["tif"][key], plan["tif"][key]) << key;
+  }
+  EXPECT_NEAR(simulated["program"]["residual_rms_nm"].get<double>(), plan["program"]["residual_rms_nm"].get<double>(),
+              1e-9);
+  EXPECT_EQ(simulated["program"]["steps"], plan["program"]["steps"]);
+}
+
+TEST(JsonOfEveryCommand, WritesAFileBesideTheText) {
+  const CommandInputs inputs;
+  for (const auto& [command, runs] : runs_of_commands()) {
+    const std::string file = command + ".json";
+    const ProgramResult result = inputs.run(with(runs[0], {"--json=" + file}));
+    ASSERT_TRUE(result.exit_code == 0 || result.exit_code == 3) << command << ": " << result.err;
+    EXPECT_EQ(json::parse(read_whole_file(inputs / file))["command"], command);
+    EXPECT_NE(result.out, "") << command;
+    EXPECT_FALSE(result.out.starts_with("{")) << command;
+  }
+}
+
+TEST(JsonOfEveryCommand, RefusesAFileWithoutTheEqualsSignBeforeAnyWork) {
+  const CommandInputs inputs;
+  const std::size_t before = inputs.folder.entries();
+  for (const auto& [command, runs] : runs_of_commands()) {
+    const auto refused = [&, &words = runs[0]](const Words& more, const Words& parts) {
+      const ProgramResult result = inputs.run(with(words, more));
+      EXPECT_EQ(result.exit_code, 2) << words[0];
+      EXPECT_EQ(result.out, "") << words[0];
+      for (const std::string& part : parts) expect_has(result.err, part);
+      EXPECT_EQ(inputs.folder.entries(), before) << words[0];
+    };
+    refused({"--json", "out.json"}, {"--json out.json", "--json=out.json", "standard output"});
+    refused({"--json="}, {"--json=: empty", "--json=FILE.json"});
+    refused({"--json=out.txt"}, {"--json 'out.txt'", "accepted: .json"});
+    refused({"--json=no/such/out.json"}, {"no folder 'no/such'"});
+  }
+  const ProgramResult map = inputs.run({"map", "--json", "map.json", "--map-pixel", "0.5"});
+  EXPECT_EQ(map.exit_code, 2) << "the positional would have taken it";
+  expect_has(map.err, "--json=map.json");
+}
+
+TEST(JsonOfEveryCommand, RefusesAFileThatIsReadOrThatTheResultsWouldReplace) {
+  const CommandInputs inputs;
+  ASSERT_EQ(inputs.run(with(kMap, {"--write", "a.npy"})).exit_code, 0);
+  inputs.folder.file("job.json", "max_feed_mm_per_min = 3000\n");
+  const auto refused = [&](const Words& words, const Words& parts) {
+    const ProgramResult result = inputs.run(words);
+    EXPECT_EQ(result.exit_code, 2) << result.out;
+    for (const std::string& part : parts) expect_has(result.err, part);
+  };
+  const std::string sidecar = read_whole_file(inputs / "a.npy.json");
+  refused(SmallInputs::plan({"--map", "a.npy", "--map-pixel", "0.5", "--json=a.npy.json"}),
+          {"--json 'a.npy.json'", "the sidecar of the map"});
+  refused(SmallInputs::plan({"--job", "job.json", "--json=job.json"}), {"--json 'job.json'", "the job file"});
+  refused(SmallInputs::plan({"--json=plan/own.json"}), {"--json 'plan/own.json'", "--out"});
+  refused(SmallInputs::plan({"--out", "plan/", "--json=./plan/own.json"}), {"--json './plan/own.json'", "--out"});
+  EXPECT_EQ(read_whole_file(inputs / "a.npy.json"), sidecar);
+}
+
+TEST(JsonOfEveryCommand, GoesWithNoFlagThatPrintsSomethingElse) {
+  const SmallInputs inputs;
+  for (const Words& words : {Words{"map", "--steps", "--json"}, Words{"paths", "--kinds", "--json"},
+                             SmallInputs::plan({"--write-job", "--json=job.json"})}) {
+    const ProgramResult result = inputs.run(words);
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_EQ(result.out, "");
+    expect_has(result.err, "--json: not with --");
+  }
+}
+
+/// The examples of a command's help: lines after "Example:" that begin with two blanks, lines that end in a backslash
+/// joined.
+std::vector<std::string> examples_in(const std::string& help) {
+  std::vector<std::string> examples;
+  bool within = false, open = false;
+  std::istringstream lines(help);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("Example:"))
+      within = true;
+    else if (within && !line.starts_with("  "))
+      within = false;
+    if (!within || line.starts_with("Example:")) continue;
+    if (!open) examples.emplace_back();
+    open = line.ends_with('\\');
+    examples.back() += line.substr(0, line.size() - (open ? 1 : 0));
+  }
+  return examples;
+}
+
+// An example parses if it fails, if at all, for the files that are not there: the words themselves are accepted.
+TEST(Help, HasExamplesWhoseWordsAreAccepted) {
+  for (const auto& [command, runs] : runs_of_commands()) {
+    const auto examples = examples_in(SmallInputs().run({command, "--help"}).out);
+    ASSERT_FALSE(examples.empty()) << command;
+    for (const std::string& example : examples) {
+      std::istringstream text(example);
+      Words words;
+      for (std::string word; text >> word;) words.push_back(word);
+      ASSERT_EQ(words.at(0), "dwell") << example;
+      words.erase(words.begin());
+      const SmallInputs inputs;  // a new one each, so that none finds what the one before made
+      const ProgramResult result = inputs.run(words);
+      EXPECT_EQ(result.err.find(" --help'"), std::string::npos) << example << "\n" << result.err;
+      if (result.exit_code == 2) {
+        expect_has(result.err, "No such file");
+      } else {
+        EXPECT_EQ(result.exit_code, 0) << example << "\n" << result.err;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace dwell
