@@ -4,8 +4,17 @@ include(CMakePackageConfigHelpers)
 install(TARGETS dwell_core dwell_paths dwell_solvers dwell_runs EXPORT dwellTargets)
 install(TARGETS dwell RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(FILES LICENSE NOTICE DESTINATION ${CMAKE_INSTALL_DOCDIR})
-foreach(folder IN ITEMS core paths solvers runs)
-  install(DIRECTORY ${PROJECT_SOURCE_DIR}/${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/dwell FILES_MATCHING PATTERN "*.h")
+install(CODE "set(source_dir ${PROJECT_SOURCE_DIR})
+set(binary_dir ${PROJECT_BINARY_DIR})
+set(include_dir ${CMAKE_INSTALL_INCLUDEDIR})")
+install(SCRIPT cmake/install_headers.cmake)
+
+# Whoever takes the source tree with add_subdirectory() writes <dwell/core/...> as well: each of these headers leads to
+# the one in the tree.
+include(public_headers)
+dwell_public_headers(public_headers ${PROJECT_SOURCE_DIR})
+foreach(header IN LISTS public_headers)
+  file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/include/dwell/${header} CONTENT "#include \"${header}\"\n" @ONLY)
 endforeach()
 
 set(dwell_cmake_dir ${CMAKE_INSTALL_LIBDIR}/cmake/dwell)

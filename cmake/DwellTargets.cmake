@@ -35,7 +35,8 @@ function(dwell_library name)
   set_target_properties(dwell_${name} PROPERTIES EXPORT_NAME ${name} OUTPUT_NAME dwell_${name})
   target_include_directories(dwell_${name} PUBLIC
     $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}>
-    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/dwell>)
+    $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include>
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_compile_features(dwell_${name} PUBLIC cxx_std_20)
   target_compile_definitions(dwell_${name} PRIVATE DWELL_VERSION="${PROJECT_VERSION}")
   target_link_libraries(dwell_${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})

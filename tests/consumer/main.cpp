@@ -4,9 +4,9 @@
 #include <cstdio>
 #include <vector>
 
-#include "core/map/height_map.h"
-#include "core/motion/program.h"
-#include "core/motion/tool_path.h"
+#include <dwell/core/map/height_map.h>
+#include <dwell/core/motion/program.h>
+#include <dwell/core/motion/tool_path.h>
 
 int main() {
   dwell::HeightMap map(dwell::Grid{2, 3, 0.5, 0.5, {0.0, 0.0}});
