@@ -37,12 +37,12 @@ Instance make_instance(const Scenario& scenario, int threads) {
     p.target[static_cast<Index>(k)] = parts.map.values[static_cast<std::size_t>(geometry->pixels[k])];
   p.form = form_basis(grid, geometry->pixels, {true, true, false});
   remove_form(p.form, p.target);
-  p.smoothness = path_smoothness(parts.path, geometry->strokes, threads);
   p.lower = Vector::Constant(i.removal->cols(), parts.least);
   const double rms = std::sqrt(p.target.squaredNorm() / static_cast<double>(p.target.size()));
   p.alpha = scenario.smoothness * geometry->kernel.energy;
   p.gamma = scenario.price * rms * parts.tif.volume / (grid.pitch_x * grid.pitch_y);
-  p.geometry = std::move(geometry);
+  PathSmoothness smoothness = path_smoothness(parts.path, geometry->strokes, threads);
+  p.parts = {{std::move(geometry), std::move(smoothness)}};
   return i;
 }
 

@@ -9,6 +9,7 @@
 #include "cli/commands.h"
 #include "cli/json_option.h"
 #include "cli/memory.h"
+#include "cli/quiet_threads.h"
 #include "cli/terminal.h"
 #include "core/base/errors.h"
 #include "core/base/version.h"
@@ -65,6 +66,7 @@ int fail(int exit_code, const char* prefix, const std::exception& error) {
 
 int main(int argc, char** argv) {
   using namespace dwell::cli;
+  start_with_quiet_threads(argv);
   keep_freed_memory();
   catch_interrupts();
   try {

@@ -2,6 +2,7 @@
 
 #include "core/removal/lattice_removal.h"
 #include "core/removal/scattered_removal.h"
+#include "core/removal/stacked_removal.h"
 
 namespace dwell {
 
@@ -9,6 +10,14 @@ std::unique_ptr<RemovalOperator> make_removal_operator(const RemovalGeometry& g)
   if (LatticeRemoval::commensurate(g.map, g.strokes))
     return std::make_unique<LatticeRemoval>(g.map, g.pixels, g.kernel, g.strokes, g.threads);
   return std::make_unique<ScatteredRemoval>(g.map, g.pixels, g.kernel, g.strokes, g.threads);
+}
+
+std::unique_ptr<RemovalOperator> make_removal_operator(
+    const std::vector<std::shared_ptr<const RemovalGeometry>>& geometries) {
+  if (geometries.size() == 1) return make_removal_operator(*geometries.front());
+  std::vector<std::unique_ptr<RemovalOperator>> parts;
+  for (const auto& geometry : geometries) parts.push_back(make_removal_operator(*geometry));
+  return std::make_unique<StackedRemoval>(std::move(parts));
 }
 
 }  // namespace dwell

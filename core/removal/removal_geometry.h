@@ -23,4 +23,9 @@ struct RemovalGeometry {
 /// ScatteredRemoval. The geometry is copied where needed and may go.
 std::unique_ptr<RemovalOperator> make_removal_operator(const RemovalGeometry& geometry);
 
+/// The operator of several tools or passes on the same pixels: that of the only one, or a StackedRemoval. Throws
+/// std::invalid_argument unless there is a part and all have the same number of pixels.
+std::unique_ptr<RemovalOperator> make_removal_operator(
+    const std::vector<std::shared_ptr<const RemovalGeometry>>& geometries);
+
 }  // namespace dwell

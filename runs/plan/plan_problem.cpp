@@ -42,9 +42,8 @@ PlanProblem::PlanProblem(const Part& part, const LaidPath& laid, const DwellOpti
   problem_.removal = removal_.get();
   problem_.target = target_of(part, laid, geometry_->pixels, limits.max_feed);
   problem_.form = form_basis(grid_, geometry_->pixels, part.form, {}, part.threads);
-  problem_.smoothness = path_smoothness(laid.path, laid.strokes, part.threads);
+  problem_.parts = {{geometry_, path_smoothness(laid.path, laid.strokes, part.threads)}};
   problem_.lower = minimum_dwell(laid.strokes, limits);
-  problem_.geometry = geometry_;
 }
 
 const DwellProblem& PlanProblem::with(const Weights& weights) {
@@ -69,7 +68,7 @@ WeightedDwell PlanProblem::solve(const Weights& weights, Vector start, double ma
   Vector residual;
   DwellObjective(problem_).residual(found.dwell, residual);
   found.trade_off = {residual.norm() / std::sqrt(static_cast<double>(problem_.pixels())), found.dwell.sum(),
-                     problem_.smoothness.step_rms(found.dwell)};
+                     step_rms(problem_, found.dwell)};
   return found;
 }
 

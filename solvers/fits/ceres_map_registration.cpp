@@ -22,6 +22,7 @@
 #include "core/map/map_outliers.h"
 #include "core/map/map_sampler.h"
 #include "core/map/robust_plane.h"
+#include "solvers/fits/stop_callback.h"
 
 namespace dwell {
 namespace {
@@ -168,8 +169,8 @@ class RegistrationFit {
     }
   }
 
-  /// One robust fit from q. Returns the number of iterations.
-  int run(Parameters& q, const std::vector<Index>& pixels) {
+  /// One robust fit from q. Returns the number of iterations. Throws Interrupted.
+  int run(Parameters& q, const std::vector<Index>& pixels, const Progress& progress) {
     constexpr double kCauchy = 2.3849;
     width_ = kCauchy * robust_sigma(residuals(pair_, q, pixels));
     if (!(width_ > 0.0)) width_ = std::numeric_limits<double>::min();  // equal maps: nothing left to be robust against
@@ -187,9 +188,7 @@ class RegistrationFit {
     o.parameter_tolerance = 1e-12;
     o.num_threads = threads_;
     o.logging_type = ceres::SILENT;
-    ceres::Solver::Summary summary;
-    ceres::Solve(o, &problem, &summary);
-    return static_cast<int>(summary.iterations.size());
+    return static_cast<int>(solve_with_stop(o, problem, progress).iterations.size());
   }
 
   /// Standard errors of all parameters, from the weights of the last fit.
@@ -273,7 +272,7 @@ MapRegistration register_maps(const HeightMap& moving, const HeightMap& fixed, c
   result.before = size_of_difference(pair, q, options.level);
   if (options.range.shift > 0.0 || options.range.degrees > 0.0) {
     const RegistrationRange range{options.range.shift, options.rotation ? options.range.degrees : 0.0};
-    const RegistrationStart start = coarse_registration(clear_moving, clear_fixed, range, threads);
+    const RegistrationStart start = coarse_registration(clear_moving, clear_fixed, range, threads, progress);
     q[kX] = start.shift.x, q[kY] = start.shift.y, q[kAngle] = start.degrees / kDegrees;
   }
   std::vector<Index> pixels = enough_pixels(pair, q);
@@ -284,7 +283,7 @@ MapRegistration register_maps(const HeightMap& moving, const HeightMap& fixed, c
     progress.step(fmt::format("registration: {} pixels, pass {}, RMS {:.4g} nm", pixels.size(), pass + 1,
                               rms(residuals(pair, q, pixels))));
     const Parameters before = q;
-    result.iterations += fit.run(q, pixels);
+    result.iterations += fit.run(q, pixels, progress);
     pixels = enough_pixels(pair, q);
     const double moved = std::hypot(q[kX] - before[kX], q[kY] - before[kY]);
     const double turned = std::abs(q[kAngle] - before[kAngle]) + std::abs(q[kScale] - before[kScale]);

@@ -13,6 +13,7 @@
 
 #include "core/base/errors.h"
 #include "solvers/fits/removal_fit_starts.h"
+#include "solvers/fits/stop_callback.h"
 
 namespace dwell {
 namespace {
@@ -58,8 +59,9 @@ class ModelResiduals {
 /// The fit of one model, from start to numbers.
 class ModelFit {
  public:
-  ModelFit(const HeightMap& rates, const RemovalModel& model, const RemovalFitOptions& options)
-      : rates_(rates), model_(model), blur_(std::max(rates.grid.pitch_x, rates.grid.pitch_y)) {
+  ModelFit(const HeightMap& rates, const RemovalModel& model, const RemovalFitOptions& options,
+           const Progress& progress)
+      : rates_(rates), model_(model), progress_(progress), blur_(std::max(rates.grid.pitch_x, rates.grid.pitch_y)) {
     for (const Index i : finite_pixels(rates))
       samples_.push_back({rates.grid.centre(i), rates.values[static_cast<std::size_t>(i)]});
     const std::size_t step = samples_.size() / kScreeningPixels + 1;
@@ -188,8 +190,7 @@ class ModelFit {
     options.gradient_tolerance = 1e-14;
     options.num_threads = 1;
     options.logging_type = ceres::SILENT;
-    ceres::Solver::Summary summary;
-    ceres::Solve(options, &problem, &summary);
+    const ceres::Solver::Summary summary = solve_with_stop(options, problem, progress_);
     iterations_ += static_cast<int>(summary.iterations.size());
     return summary;
   }
@@ -324,6 +325,7 @@ class ModelFit {
 
   const HeightMap& rates_;
   const RemovalModel& model_;
+  const Progress& progress_;
   double blur_;
   double scale_ = 0.0;  // of the robust loss; 0: least squares
   std::vector<RateSample> samples_, few_;
@@ -342,8 +344,9 @@ const FittedParameter& RemovalFit::at(const std::string& name) const {
   throw std::out_of_range("no parameter " + name);
 }
 
-RemovalFit fit_removal(const HeightMap& rates, const RemovalModel& model, const RemovalFitOptions& options) {
-  return ModelFit(rates, model, options).run(options.robust);
+RemovalFit fit_removal(const HeightMap& rates, const RemovalModel& model, const RemovalFitOptions& options,
+                       const Progress& progress) {
+  return ModelFit(rates, model, options, progress).run(options.robust);
 }
 
 }  // namespace dwell

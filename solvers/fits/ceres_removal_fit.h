@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/progress.h"
 #include "core/map/height_map.h"
 #include "core/tif/models/removal_models.h"
 
@@ -42,8 +43,9 @@ struct RemovalFit {
 /// sigma^2 = sum of squares / (samples - parameters), for noise that is independent from sample to sample; a robust fit
 /// has Huber's correction (Huber and Ronchetti 2009, eq. 7.81). They say nothing of a model that is wrong. aic = m
 /// ln(sum of squares / m) + 2 (p + 1), bic with ln m in place of 2. Throws InputError for an unknown or unusable held
-/// parameter, one that must be held and is not, or fewer samples than parameters. Cost: seconds at most for 10^5
-/// samples.
-RemovalFit fit_removal(const HeightMap& rates, const RemovalModel& model, const RemovalFitOptions& options = {});
+/// parameter, one that must be held and is not, or fewer samples than parameters; Interrupted. Cost: seconds at most
+/// for 10^5 samples.
+RemovalFit fit_removal(const HeightMap& rates, const RemovalModel& model, const RemovalFitOptions& options = {},
+                       const Progress& progress = {});
 
 }  // namespace dwell

@@ -60,7 +60,7 @@ Index steps_of(double range, double step) { return static_cast<Index>(std::min(s
 }  // namespace
 
 RegistrationStart coarse_registration(const HeightMap& moving, const HeightMap& fixed, const RegistrationRange& range,
-                                      int threads) {
+                                      int threads, const Progress& progress) {
   const Grid& g = fixed.grid;
   const double area = g.width() * g.height() / static_cast<double>(kStartPixels);
   const double pitch = std::max(std::sqrt(area), std::min(g.pitch_x, g.pitch_y));
@@ -86,10 +86,16 @@ RegistrationStart coarse_registration(const HeightMap& moving, const HeightMap& 
     return RegistrationStart{{dx, dy}, step(turns, turn_step)};
   };
   std::vector<double> score(static_cast<std::size_t>(places));
+  constexpr Index kBetweenLooks = 4096;  // places tried between two looks at whether to stop: a tenth of a second
+  for (Index begin = 0; begin < places; begin += kBetweenLooks) {
+    progress.check();
+    const Index end = std::min(begin + kBetweenLooks, places);
 #pragma omp parallel for num_threads(threads) schedule(static)
-  for (Index place = 0; place < places; ++place) {
-    const RegistrationStart s = start_of(place);
-    score[static_cast<std::size_t>(place)] = mismatch(samples, similarity(middle, s.shift, s.degrees, 1.0), b, needed);
+    for (Index place = begin; place < end; ++place) {
+      const RegistrationStart s = start_of(place);
+      score[static_cast<std::size_t>(place)] =
+          mismatch(samples, similarity(middle, s.shift, s.degrees, 1.0), b, needed);
+    }
   }
   const auto best = std::min_element(score.begin(), score.end());
   if (!std::isfinite(*best)) {

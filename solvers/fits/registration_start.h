@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/base/progress.h"
 #include "core/map/height_map.h"
 
 namespace dwell {
@@ -19,9 +20,9 @@ struct RegistrationStart {
 /// fixed one has at most kStartPixels pixels, every shift by whole such pixels and every rotation by as much as moves
 /// the corner of the moving map by one, the RMS difference without its mean over the common pixels, of which there must
 /// be kStartOverlap of the smaller map. Nearest pixels, robust planes removed from both maps before. Good to about one
-/// averaged pixel. Throws InputError if no place has that overlap. Cost O(kStartPixels) a place.
+/// averaged pixel. Throws InputError if no place has that overlap, Interrupted. Cost O(kStartPixels) a place.
 RegistrationStart coarse_registration(const HeightMap& moving, const HeightMap& fixed, const RegistrationRange& range,
-                                      int threads = 1);
+                                      int threads = 1, const Progress& progress = {});
 
 inline constexpr Index kStartPixels = 3000;
 inline constexpr double kStartOverlap = 0.4;

@@ -56,9 +56,32 @@ CoarseFactor pixels_for(const RemovalKernel& kernel) {
   return matched_factor(kernel, kLooseKernelTolerance);
 }
 
+/// Of several tools, the narrowest sets the pixels.
+CoarseFactor pixels_for(const DwellProblem& problem) {
+  CoarseFactor least = pixels_for(problem.parts.front().geometry->kernel);
+  for (const DwellPart& part : problem.parts) {
+    const CoarseFactor factor = pixels_for(part.geometry->kernel);
+    least = {std::min(least.x, factor.x), std::min(least.y, factor.y)};
+  }
+  return least;
+}
+
+double narrowest_sigma(const DwellProblem& problem) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const DwellPart& part : problem.parts) least = std::min(least, equivalent_sigma(part.geometry->kernel));
+  return least;
+}
+
+/// Of an operator pair of the full problem, by transform_cost.
+double pair_cost(const DwellProblem& problem) {
+  double sum = 0.0;
+  for (const DwellPart& part : problem.parts) sum += transform_cost(part.geometry->map, part.geometry->kernel);
+  return sum;
+}
+
 /// A lattice of half the pitch or less, kFinePitch sigmas at most, even if possible, so that it can be halved.
-CoarseFactor fine_pixels(const RemovalKernel& kernel, CoarseFactor factor) {
-  const double finest = kFinePitch * equivalent_sigma(kernel);
+CoarseFactor fine_pixels(double sigma, CoarseFactor factor) {
+  const double finest = kFinePitch * sigma;
   const double parts = std::max(2.0, std::ceil(static_cast<double>(std::max(factor.x, factor.y)) / finest));
   const auto part = [&](Index q) {
     const auto f = std::max<Index>(1, static_cast<Index>(static_cast<double>(q) / parts));
@@ -91,7 +114,14 @@ SolverOptions options_of_finish(const SolverOptions& options, const SolverSummar
 class Run {
  public:
   Run(const DwellProblem& problem, const SolverOptions& options, Vector& t, SolverSummary& summary)
-      : p_(problem), o_(options), summary_(summary), rules_(problem, options, summary), objective_(problem), t_(t) {
+      : p_(problem),
+        o_(options),
+        summary_(summary),
+        rules_(problem, options, summary),
+        objective_(problem),
+        t_(t),
+        sigma_(narrowest_sigma(problem)),
+        pair_cost_(pair_cost(problem)) {
     monitor_ = [this](const QuadraticPoint& model) { return go_on(model); };
   }
 
@@ -99,7 +129,7 @@ class Run {
     point_.x.swap(t_);  // a vector less while solving
     take_stock();
     rules_.start(objective_.gradient_scale(), point_.value);
-    const CoarseFactor fine = fine_pixels(p_.geometry->kernel, factor);
+    const CoarseFactor fine = fine_pixels(sigma_, factor);
     const bool smooth = !done() && point_.x == p_.lower && smooth_levels(fine);
     if (smooth) most_products_ = kFirstOnPoints;
     if (!done()) points_levels(smooth ? fine : factor);
@@ -136,7 +166,7 @@ class Run {
   /// The cost of a product, by its transforms alone and with all else.
   void set_product_cost(double transforms, double other) {
     product_cost_ = transforms;
-    product_work_ = transforms + other / transform_cost(p_.geometry->map, p_.geometry->kernel);
+    product_work_ = transforms + other / pair_cost_;
   }
 
   void minimise(BoundedLbfgs& lbfgs, QuadraticForm& hessian, QuadraticPoint& model) {
@@ -150,12 +180,12 @@ class Run {
 
   /// Coarsest first, on lattices each of which holds the one before. Returns whether there was any.
   bool smooth_levels(CoarseFactor factor) {
-    std::optional<SmoothDwell> dwell;
+    std::optional<StackedSmoothDwell> dwell;
     Vector s;
     Index points_per_variable = kPointsPerVariable;
     for (; std::min(factor.x, factor.y) >= kFinestFactor && !done(); factor = {factor.x / 2, factor.y / 2}) {
-      SmoothDwell next(*p_.geometry, factor);
-      if (next.size() * points_per_variable > p_.points()) break;
+      StackedSmoothDwell next(p_, factor);
+      if (!next.has_points_for_each(points_per_variable)) break;
       s = dwell ? next.refined(*dwell, s) : Vector::Zero(next.size());
       dwell = std::move(next);
       smooth_level(*dwell, factor, s);
@@ -167,11 +197,11 @@ class Run {
     return dwell.has_value();
   }
 
-  void smooth_level(SmoothDwell& dwell, CoarseFactor factor, Vector& s) {
+  void smooth_level(StackedSmoothDwell& dwell, CoarseFactor factor, Vector& s) {
     SmoothDwellHessian hessian(p_, dwell, factor);
     set_product_cost(hessian.relative_cost(), kSmoothWork * static_cast<double>(dwell.size()));
     const Vector lower = Vector::Zero(dwell.size()), upper = dwell.largest(p_);
-    BoundedLbfgs lbfgs(lower, upper, p_.geometry->threads);
+    BoundedLbfgs lbfgs(lower, upper, p_.threads());
     QuadraticPoint at, model;
     Vector step;
     at.x = s;
@@ -212,7 +242,7 @@ class Run {
 
   /// The dwell points themselves, on pixels made finer each time the model no longer leads on.
   void points_levels(CoarseFactor factor) {
-    BoundedLbfgs lbfgs(p_.lower, p_.upper, p_.geometry->threads);
+    BoundedLbfgs lbfgs(p_.lower, p_.upper, p_.threads());
     for (bool exact = false; !done() && std::min(factor.x, factor.y) >= kFinestFactor;
          factor = {factor.x / 2, factor.y / 2})
       exact = points_level(lbfgs, factor, exact);
@@ -225,8 +255,7 @@ class Run {
     set_product_cost(hessian.relative_cost(), kPointWork * static_cast<double>(p_.points()));
     lbfgs.forget();
     const double pitch = static_cast<double>(std::max(factor.x, factor.y));
-    const bool fine =
-        pitch <= kFinePitch * equivalent_sigma(p_.geometry->kernel) || std::min(factor.x, factor.y) / 2 < kFinestFactor;
+    const bool fine = pitch <= kFinePitch * sigma_ || std::min(factor.x, factor.y) / 2 < kFinestFactor;
     while (!done()) {
       model_.x = point_.x;
       model_.value = point_.value;
@@ -279,6 +308,7 @@ class Run {
   QuadraticPoint model_;  // of the dwell points; its x becomes the step to take
   Vector &d_ = model_.x, r_, image_;
   BoundedLbfgs::Monitor monitor_;
+  double sigma_, pair_cost_;  // of the narrowest removal function [pixels]; transform_cost of an operator pair
   double product_cost_ = 0.0;
 
   double product_work_ = 0.0, work_ = 0.0;  // in operator pairs
@@ -293,8 +323,8 @@ class Run {
 void AutoSolver::do_solve(const DwellProblem& problem, Vector& t, SolverSummary& summary) {
   std::string why = "no removal geometry to coarsen";
   double seconds = 0.0;
-  if (problem.geometry) {
-    const CoarseFactor factor = pixels_for(problem.geometry->kernel);
+  if (problem.has_geometry()) {
+    const CoarseFactor factor = pixels_for(problem);
     if (std::min(factor.x, factor.y) < kFinestFactor) {
       why = "removal function too narrow to coarsen the map";
     } else {

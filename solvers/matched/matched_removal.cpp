@@ -14,9 +14,9 @@ std::vector<Index> all_nodes(const Grid& grid) {
 
 }  // namespace
 
-MatchedRemoval::MatchedRemoval(const DwellProblem& problem, const Grid& dwell, CoarseFactor factor)
-    : problem_(problem), pixels_(problem.geometry->map, factor, problem.geometry->threads) {
-  const RemovalGeometry& g = *problem.geometry;
+MatchedRemoval::MatchedRemoval(const DwellProblem& problem, const std::vector<Grid>& dwell, CoarseFactor factor)
+    : problem_(problem), pixels_(problem.parts.front().geometry->map, factor, problem.parts.front().geometry->threads) {
+  const RemovalGeometry& g = *problem.parts.front().geometry;
   pixels_.add(g.pixels, problem.weights.cwiseAbs2(), SplineGram::Take::Value, 1.0);
   const Grid& lattice = pixels_.lattice();
   form_.resize(lattice.size(), problem.form.cols());
@@ -27,26 +27,46 @@ MatchedRemoval::MatchedRemoval(const DwellProblem& problem, const Grid& dwell, C
     pixels_.spread(g.pixels, column, spread);
     form_.col(k) = spread;
   }
-  const RemovalKernel kernel = matched_kernel(g.kernel, factor);
-  // A coarse transform is too short to share between threads.
-  convolution_.emplace(lattice, all_nodes(lattice), kernel.surface.coefficients(), kernel.half_rows, kernel.half_cols,
-                       1);
-  const auto row0 = static_cast<Index>(std::llround((dwell.origin.y - lattice.origin.y) / lattice.pitch_y));
-  const auto col0 = static_cast<Index>(std::llround((dwell.origin.x - lattice.origin.x) / lattice.pitch_x));
-  field_node_.reserve(static_cast<std::size_t>(dwell.size()));
-  for (Index i = 0; i < dwell.size(); ++i)
-    field_node_.push_back(convolution_->node(row0 + i / dwell.cols, col0 + i % dwell.cols));
+  double coarse = 0.0, fine = 0.0;
+  tools_.reserve(problem.parts.size());
+  for (std::size_t k = 0; k < problem.parts.size(); ++k) {
+    const RemovalGeometry& of_part = *problem.parts[k].geometry;
+    const RemovalKernel kernel = matched_kernel(of_part.kernel, factor);
+    add_tool(kernel, dwell[k]);
+    coarse += transform_cost(lattice, kernel);
+    fine += transform_cost(of_part.map, of_part.kernel);
+  }
   surface_.resize(lattice.size());
-  relative_cost_ = transform_cost(lattice, kernel) / transform_cost(g.map, g.kernel);
+  if (tools_.size() > 1) of_tool_.resize(lattice.size());
+  relative_cost_ = coarse / fine;
 }
 
-void MatchedRemoval::normal(const Vector& c, Vector& out) {
-  convolution_->clear_field();
-  const auto field = convolution_->field();
-  for (std::size_t i = 0; i < field_node_.size(); ++i) {
-    if (field_node_[i] >= 0) field[static_cast<std::size_t>(field_node_[i])] = c[static_cast<Index>(i)];
+void MatchedRemoval::add_tool(const RemovalKernel& kernel, const Grid& dwell) {
+  const Grid& lattice = pixels_.lattice();
+  // A coarse transform is too short to share between threads.
+  Tool tool{{lattice, all_nodes(lattice), kernel.surface.coefficients(), kernel.half_rows, kernel.half_cols, 1}, {}};
+  const auto row0 = static_cast<Index>(std::llround((dwell.origin.y - lattice.origin.y) / lattice.pitch_y));
+  const auto col0 = static_cast<Index>(std::llround((dwell.origin.x - lattice.origin.x) / lattice.pitch_x));
+  tool.field_node.reserve(static_cast<std::size_t>(dwell.size()));
+  for (Index i = 0; i < dwell.size(); ++i)
+    tool.field_node.push_back(tool.convolution.node(row0 + i / dwell.cols, col0 + i % dwell.cols));
+  tools_.push_back(std::move(tool));
+}
+
+void MatchedRemoval::put(const Vector& c, Tool& tool) {
+  tool.convolution.clear_field();
+  const auto field = tool.convolution.field();
+  for (std::size_t i = 0; i < tool.field_node.size(); ++i) {
+    if (tool.field_node[i] >= 0) field[static_cast<std::size_t>(tool.field_node[i])] = c[static_cast<Index>(i)];
   }
-  convolution_->convolve(surface_.data());
+}
+
+void MatchedRemoval::normal(const std::vector<Vector>& c, std::vector<Vector>& out) {
+  for (std::size_t k = 0; k < tools_.size(); ++k) {
+    put(c[k], tools_[k]);
+    tools_[k].convolution.convolve(k == 0 ? surface_.data() : of_tool_.data());
+    if (k > 0) surface_ += of_tool_;
+  }
   pixels_.apply(surface_, weighed_);
   if (form_.cols() != 0) {
     const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxFormTerms, 1> q = form_.transpose() * surface_;
@@ -55,8 +75,8 @@ void MatchedRemoval::normal(const Vector& c, Vector& out) {
   correlate(weighed_, out);
 }
 
-void MatchedRemoval::adjoint(const Vector& r, Vector& out) {
-  const std::vector<Index>& pixels = problem_.geometry->pixels;
+void MatchedRemoval::adjoint(const Vector& r, std::vector<Vector>& out) {
+  const std::vector<Index>& pixels = problem_.parts.front().geometry->pixels;
   if (problem_.weights.size() == 0) {
     pixels_.spread(pixels, r, surface_);
   } else {
@@ -66,12 +86,17 @@ void MatchedRemoval::adjoint(const Vector& r, Vector& out) {
   correlate(surface_, out);
 }
 
-void MatchedRemoval::correlate(const Vector& surface, Vector& out) {
-  convolution_->correlate(surface.data());
-  const auto field = convolution_->field();
-  out.resize(static_cast<Index>(field_node_.size()));
-  for (std::size_t i = 0; i < field_node_.size(); ++i)
-    out[static_cast<Index>(i)] = field_node_[i] >= 0 ? field[static_cast<std::size_t>(field_node_[i])] : 0.0;
+void MatchedRemoval::correlate(const Vector& surface, std::vector<Vector>& out) {
+  out.resize(tools_.size());
+  for (std::size_t k = 0; k < tools_.size(); ++k) {
+    Tool& tool = tools_[k];
+    tool.convolution.correlate(surface.data());
+    const auto field = tool.convolution.field();
+    out[k].resize(static_cast<Index>(tool.field_node.size()));
+    for (std::size_t i = 0; i < tool.field_node.size(); ++i)
+      out[k][static_cast<Index>(i)] =
+          tool.field_node[i] >= 0 ? field[static_cast<std::size_t>(tool.field_node[i])] : 0.0;
+  }
 }
 
 }  // namespace dwell

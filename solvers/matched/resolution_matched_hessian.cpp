@@ -1,25 +1,58 @@
 #include "solvers/matched/resolution_matched_hessian.h"
 
 namespace dwell {
+namespace {
+
+std::vector<SplineSpreading> spread_strokes(const DwellProblem& problem, CoarseFactor factor) {
+  std::vector<SplineSpreading> strokes;
+  strokes.reserve(problem.parts.size());
+  for (const DwellPart& part : problem.parts) {
+    const RemovalGeometry& g = *part.geometry;
+    strokes.emplace_back(dwell_lattice(g, factor).lattice, g.strokes, StrokePart::Whole, g.threads);
+  }
+  return strokes;
+}
+
+std::vector<Grid> lattices_of(const std::vector<SplineSpreading>& strokes) {
+  std::vector<Grid> lattices;
+  for (const SplineSpreading& part : strokes) lattices.push_back(part.lattice());
+  return lattices;
+}
+
+}  // namespace
 
 ResolutionMatchedHessian::ResolutionMatchedHessian(const DwellProblem& problem, CoarseFactor factor)
     : problem_(problem),
-      strokes_(dwell_lattice(*problem.geometry, factor).lattice, problem.geometry->strokes, StrokePart::Whole,
-               problem.geometry->threads),
-      removal_(problem, strokes_.lattice(), factor) {}
+      strokes_(spread_strokes(problem, factor)),
+      removal_(problem, lattices_of(strokes_), factor),
+      density_(strokes_.size()) {}
 
 void ResolutionMatchedHessian::product(const Vector& d, Vector& hd) {
-  strokes_.spread(d, density_);
+  Index first = 0;
+  for (std::size_t k = 0; k < strokes_.size(); ++k) {
+    strokes_[k].spread(d.segment(first, strokes_[k].strokes()), density_[k]);
+    first += strokes_[k].strokes();
+  }
   removal_.normal(density_, correlated_);
-  strokes_.gather(correlated_, hd);
-  if (problem_.alpha > 0.0 && !problem_.smoothness.empty()) problem_.smoothness.add_normal(problem_.alpha, d, hd);
+  gather(hd);
+  add_smoothness(problem_, d, hd);
   if (problem_.beta > 0.0) hd += problem_.beta * d;
 }
 
 void ResolutionMatchedHessian::gradient(const Vector& r, const Vector& t, Vector& g) {
   removal_.adjoint(r, correlated_);
-  strokes_.gather(correlated_, g);
+  gather(g);
   add_penalty_gradient(problem_, t, g);
+}
+
+/// What the coarse nodes of each part say of its dwell points.
+void ResolutionMatchedHessian::gather(Vector& result) {
+  result.resize(problem_.points());
+  Index first = 0;
+  for (std::size_t k = 0; k < strokes_.size(); ++k) {
+    strokes_[k].gather(correlated_[k], result.segment(first, strokes_[k].strokes()));
+    first += strokes_[k].strokes();
+  }
 }
 
 }  // namespace dwell

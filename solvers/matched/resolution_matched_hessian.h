@@ -11,8 +11,8 @@ namespace dwell {
 ///   H = P'K' S'W (I - Q Q') W S K P + alpha D'D + beta I
 ///
 /// where P spreads the strokes on the coarse dwell lattice. The same variables as the problem's; the transforms are
-/// about q^2 cheaper, what remains is some 60 multiply-adds a dwell point. problem.geometry must be set; the problem
-/// must outlive this.
+/// about q^2 cheaper, what remains is some 60 multiply-adds a dwell point. Every part's geometry must be set; the
+/// problem must outlive this.
 class ResolutionMatchedHessian final : public QuadraticForm {
  public:
   ResolutionMatchedHessian(const DwellProblem& problem, CoarseFactor factor);
@@ -26,10 +26,12 @@ class ResolutionMatchedHessian final : public QuadraticForm {
   double relative_cost() const { return removal_.relative_cost(); }
 
  private:
+  void gather(Vector& result);
+
   const DwellProblem& problem_;
-  SplineSpreading strokes_;
+  std::vector<SplineSpreading> strokes_;  // of each part
   MatchedRemoval removal_;
-  Vector density_, correlated_;
+  std::vector<Vector> density_, correlated_;
 };
 
 }  // namespace dwell

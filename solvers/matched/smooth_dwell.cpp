@@ -50,23 +50,98 @@ Vector SmoothDwell::refined(const SmoothDwell& coarse, const Vector& s) const {
   return result;
 }
 
-Vector SmoothDwell::largest(const DwellProblem& problem) const {
-  if (problem.upper.size() == 0) return {};
+Vector SmoothDwell::largest(const Eigen::Ref<const Vector>& room) const {
   Vector result = Vector::Constant(size(), std::numeric_limits<double>::infinity());
-  for (Index j = 0; j < problem.points(); ++j) {
-    const double room = problem.upper[j] - problem.lower[j];
-    points_.for_nodes(j, [&](Index node) { result[node] = std::min(result[node], room); });
+  for (Index j = 0; j < points(); ++j)
+    points_.for_nodes(j, [&](Index node) { result[node] = std::min(result[node], room[j]); });
+  return result;
+}
+
+StackedSmoothDwell::StackedSmoothDwell(const DwellProblem& problem, CoarseFactor factor) {
+  for (const DwellPart& part : problem.parts) {
+    parts_.emplace_back(*part.geometry, factor);
+    size_ += parts_.back().size();
+  }
+}
+
+bool StackedSmoothDwell::has_points_for_each(Index points_per_coefficient) const {
+  return std::all_of(parts_.begin(), parts_.end(),
+                     [&](const SmoothDwell& p) { return p.size() * points_per_coefficient <= p.points(); });
+}
+
+void StackedSmoothDwell::prolong(const Vector& s, Vector& t) const {
+  Index node = 0, point = 0, points = 0;
+  for (const SmoothDwell& p : parts_) points += p.points();
+  t.resize(points);
+  for (const SmoothDwell& p : parts_) {
+    p.prolong(s.segment(node, p.size()), t.segment(point, p.points()));
+    node += p.size();
+    point += p.points();
+  }
+}
+
+void StackedSmoothDwell::restrict_to(const Vector& g, Vector& coarse) {
+  Index node = 0, point = 0;
+  coarse.resize(size_);
+  for (SmoothDwell& p : parts_) {
+    p.restrict_to(g.segment(point, p.points()), part_);
+    coarse.segment(node, p.size()) = part_;
+    node += p.size();
+    point += p.points();
+  }
+}
+
+Vector StackedSmoothDwell::refined(const StackedSmoothDwell& coarse, const Vector& s) const {
+  Vector result(size_);
+  Index node = 0, from = 0;
+  for (std::size_t k = 0; k < parts_.size(); ++k) {
+    const Index of_coarse = coarse.parts_[k].size();
+    result.segment(node, parts_[k].size()) = parts_[k].refined(coarse.parts_[k], s.segment(from, of_coarse));
+    node += parts_[k].size();
+    from += of_coarse;
   }
   return result;
 }
 
-SmoothDwellHessian::SmoothDwellHessian(const DwellProblem& problem, const SmoothDwell& dwell, CoarseFactor factor)
-    : points_(dwell.cover(), factor, problem.geometry->threads),
-      penalty_(dwell.cover(), factor, problem.geometry->threads),
-      to_removal_(dwell.lattice(), problem.geometry->map.origin),
-      removal_(problem, to_removal_.coarse(), {2 * factor.x, 2 * factor.y}) {
-  const std::vector<Stroke>& strokes = problem.geometry->strokes;
+Vector StackedSmoothDwell::largest(const DwellProblem& problem) const {
+  if (problem.upper.size() == 0) return {};
+  const Vector room = problem.upper - problem.lower;
+  Vector result(size_);
+  Index node = 0, point = 0;
+  for (const SmoothDwell& p : parts_) {
+    result.segment(node, p.size()) = p.largest(room.segment(point, p.points()));
+    node += p.size();
+    point += p.points();
+  }
+  return result;
+}
+
+SmoothDwellHessian::SmoothDwellHessian(const DwellProblem& problem, const StackedSmoothDwell& dwell,
+                                       CoarseFactor factor)
+    : sums_(make_all_sums(problem, dwell, factor)),
+      removal_(problem, removal_lattices(sums_), {2 * factor.x, 2 * factor.y}),
+      coarse_(sums_.size()) {}
+
+std::vector<SmoothDwellHessian::Sums> SmoothDwellHessian::make_all_sums(const DwellProblem& problem,
+                                                                        const StackedSmoothDwell& dwell,
+                                                                        CoarseFactor factor) {
+  std::vector<Sums> all;
+  for (std::size_t k = 0; k < problem.parts.size(); ++k)
+    all.push_back(make_sums(problem, problem.parts[k], dwell.parts()[k], factor));
+  return all;
+}
+
+std::vector<Grid> SmoothDwellHessian::removal_lattices(const std::vector<Sums>& sums) {
+  std::vector<Grid> lattices;
+  for (const Sums& part : sums) lattices.push_back(part.to_removal.coarse());
+  return lattices;
+}
+
+SmoothDwellHessian::Sums SmoothDwellHessian::make_sums(const DwellProblem& problem, const DwellPart& part,
+                                                       const SmoothDwell& dwell, CoarseFactor factor) {
+  const RemovalGeometry& g = *part.geometry;
   const Grid& cover = dwell.cover();
+  Sums result{{cover, factor, g.threads}, {cover, factor, g.threads}, {dwell.lattice(), g.map.origin}, {}};
   const auto pixel = [&](const Stroke& s) {
     // Strokes far off are at the edge, as they are for SplineSpreading.
     const auto nearest = [](double at, Index lines) {
@@ -76,37 +151,63 @@ SmoothDwellHessian::SmoothDwellHessian(const DwellProblem& problem, const Smooth
                        nearest((s.via.x - cover.origin.x) / cover.pitch_x, cover.cols));
   };
   Vector sums = Vector::Zero(cover.size());
-  for (const Stroke& s : strokes) sums[pixel(s)] += 1.0;
-  add_sums(sums, SplineGram::Take::Value, 1.0, points_);
-  add_sums(sums, SplineGram::Take::Value, problem.beta, penalty_);
-  if (!(problem.alpha > 0.0) || problem.smoothness.empty()) return;
+  for (const Stroke& s : g.strokes) sums[pixel(s)] += 1.0;
+  add_sums(sums, SplineGram::Take::Value, 1.0, result.points);
+  add_sums(sums, SplineGram::Take::Value, problem.beta, result.penalty);
+  const double alpha = problem.alpha_of(part);
+  if (!(alpha > 0.0) || part.smoothness.empty()) return result;
   for (const auto take : {SplineGram::Take::SlopeX, SplineGram::Take::SlopeY}) {
     sums.setZero();
-    for (Index j = 1; j < problem.points(); ++j) {
-      if (!problem.smoothness.linked(j)) continue;
-      const Point step = strokes[static_cast<std::size_t>(j)].via - strokes[static_cast<std::size_t>(j) - 1].via;
+    for (Index j = 1; j < part.points(); ++j) {
+      if (!part.smoothness.linked(j)) continue;
+      const Point step = g.strokes[static_cast<std::size_t>(j)].via - g.strokes[static_cast<std::size_t>(j) - 1].via;
       const double pixels = take == SplineGram::Take::SlopeX ? step.x / cover.pitch_x : step.y / cover.pitch_y;
-      const double slope = problem.smoothness.scale(j) * pixels;
-      sums[pixel(strokes[static_cast<std::size_t>(j)])] += slope * slope;
+      const double slope = part.smoothness.scale(j) * pixels;
+      sums[pixel(g.strokes[static_cast<std::size_t>(j)])] += slope * slope;
     }
-    add_sums(sums, take, problem.alpha, penalty_);
+    add_sums(sums, take, alpha, result.penalty);
   }
+  return result;
 }
 
 void SmoothDwellHessian::product(const Vector& d, Vector& hd) {
-  points_.apply(d, density_);
-  to_removal_.restrict_to(density_, coarse_);
+  Index first = 0;
+  for (std::size_t k = 0; k < sums_.size(); ++k) {
+    Sums& part = sums_[k];
+    const Index size = part.points.lattice().size();
+    part.density.resize(size);
+    part.points.apply_to_stretch(d.segment(first, size), part.density);
+    part.to_removal.restrict_to(part.density, coarse_[k]);
+    first += size;
+  }
   removal_.normal(coarse_, correlated_);
-  to_removal_.prolong(correlated_, density_);
-  points_.apply(density_, hd);
-  penalty_.apply(d, part_);
-  hd += part_;
+  gather(hd);
+  first = 0;
+  for (Sums& part : sums_) {
+    const Index size = part.points.lattice().size();
+    part.density.resize(size);
+    part.penalty.apply_to_stretch(d.segment(first, size), part.density);
+    hd.segment(first, size) += part.density;
+    first += size;
+  }
 }
 
 void SmoothDwellHessian::removal_gradient(const Vector& r, Vector& g) {
   removal_.adjoint(r, correlated_);
-  to_removal_.prolong(correlated_, density_);
-  points_.apply(density_, g);
+  gather(g);
+}
+
+/// What the coarse nodes of each part say of its coefficients.
+void SmoothDwellHessian::gather(Vector& result) {
+  Index size = 0, first = 0;
+  for (const Sums& part : sums_) size += part.points.lattice().size();
+  result.resize(size);
+  for (std::size_t k = 0; k < sums_.size(); ++k) {
+    Sums& part = sums_[k];
+    part.to_removal.prolong(correlated_[k], part.density);
+    part.points.apply_to_stretch(part.density, result.segment(first, part.points.lattice().size()));
+    first += part.points.lattice().size();
+  }
 }
 
 }  // namespace dwell

@@ -108,9 +108,13 @@ void SplineGram::add_band(Cells& cells, Index first_row) {
 
 void SplineGram::apply(const Vector& d, Vector& out) const {
   out.resize(lattice_.size());
+  apply_to_stretch(d, out);
+}
+
+void SplineGram::apply_to_stretch(const Eigen::Ref<const Vector>& d, Eigen::Ref<Vector> out) const {
   constexpr Index kWorthThreads = 8000;  // nodes
 #pragma omp parallel for num_threads(threads_) schedule(static) if (threads_ > 1 && lattice_.size() >= kWorthThreads)
-  for (Index r = 0; r < lattice_.rows; ++r) apply_row(r, d, out);
+  for (Index r = 0; r < lattice_.rows; ++r) apply_row(r, d.data(), out.data());
 }
 
 namespace {
@@ -121,12 +125,12 @@ DWELL_SIMD void add_product(const float* a, const double* b, double* to, Index n
 
 }  // namespace
 
-void SplineGram::apply_row(Index r, const Vector& d, Vector& out) const {
+void SplineGram::apply_row(Index r, const double* d, double* out) const {
   const Index cols = lattice_.cols;
-  double* to = out.data() + r * cols;
+  double* to = out + r * cols;
   std::fill(to, to + cols, 0.0);
   for (Index dy = std::max(-kReach, -r); dy <= std::min(kReach, lattice_.rows - 1 - r); ++dy) {
-    const double* from = d.data() + (r + dy) * cols;
+    const double* from = d + (r + dy) * cols;
     for (Index dx = -kReach; dx <= kReach; ++dx) {
       const float* s = stencil_.data() + ((r * kWidth + dy + kReach) * kWidth + dx + kReach) * cols;
       const Index begin = std::max<Index>(0, -dx), end = std::min(cols, cols - dx);

@@ -36,6 +36,8 @@ class SplineGram {
 
   /// out = the matrix times d. Cost 49 multiply-adds a node.
   void apply(const Vector& d, Vector& out) const;
+  /// The same for stretches of longer vectors; out has the lattice's size.
+  void apply_to_stretch(const Eigen::Ref<const Vector>& d, Eigen::Ref<Vector> out) const;
 
   /// S' v for one value a pixel. Cost about five multiply-adds a pixel.
   void spread(const std::vector<Index>& pixels, const Vector& v, Vector& out) const;
@@ -46,7 +48,7 @@ class SplineGram {
   using Cells = std::vector<std::array<double, 100>>;
 
   void add_band(Cells& cells, Index first_row);
-  void apply_row(Index row, const Vector& d, Vector& out) const;
+  void apply_row(Index row, const double* d, double* out) const;
 
   Grid map_, lattice_;
   CoarseFactor factor_;

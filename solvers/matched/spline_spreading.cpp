@@ -59,9 +59,8 @@ void SplineSpreading::append(Point p) {
        phase(u - fu), phase(v - fv)});
 }
 
-DWELL_SIMD void SplineSpreading::spread_range(const Vector& t, Index from, Index to, double* nodes) const {
+DWELL_SIMD void SplineSpreading::spread_range(const double* dwell, Index from, Index to, double* nodes) const {
   const Index cols = lattice_.cols;
-  const double* dwell = t.data();
   for (Index j = from; j < to; ++j) {
     const std::int32_t begin = begin_[static_cast<std::size_t>(j)], end = begin_[static_cast<std::size_t>(j) + 1];
     const double value = dwell[j] / static_cast<double>(end - begin);
@@ -77,10 +76,10 @@ DWELL_SIMD void SplineSpreading::spread_range(const Vector& t, Index from, Index
   }
 }
 
-void SplineSpreading::spread(const Vector& t, Vector& nodes) {
+void SplineSpreading::spread(const Eigen::Ref<const Vector>& t, Vector& nodes) {
   nodes.setZero(lattice_.size());
   if (partial_.empty()) {
-    spread_range(t, 0, strokes(), nodes.data());
+    spread_range(t.data(), 0, strokes(), nodes.data());
     return;
   }
   // A lattice of its own for every thread: cheap, since the lattice is coarse, and the order of summation is fixed.
@@ -88,13 +87,12 @@ void SplineSpreading::spread(const Vector& t, Vector& nodes) {
   for (int k = 0; k < threads_; ++k) {
     Vector& to = k == 0 ? nodes : partial_[static_cast<std::size_t>(k - 1)];
     if (k > 0) to.setZero();
-    spread_range(t, strokes() * k / threads_, strokes() * (k + 1) / threads_, to.data());
+    spread_range(t.data(), strokes() * k / threads_, strokes() * (k + 1) / threads_, to.data());
   }
   for (const Vector& part : partial_) nodes += part;
 }
 
-void SplineSpreading::gather(const Vector& nodes, Vector& t) const {
-  t.resize(strokes());
+void SplineSpreading::gather(const Eigen::Ref<const Vector>& nodes, Eigen::Ref<Vector> t) const {
   const int parts = partial_.empty() ? 1 : threads_;
 #pragma omp parallel for num_threads(parts) schedule(static, 1) if (parts > 1)
   for (int k = 0; k < parts; ++k)

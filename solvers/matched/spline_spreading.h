@@ -28,9 +28,9 @@ class SplineSpreading {
   const Grid& lattice() const { return lattice_; }
 
   /// nodes = sum_j t_j w_j. Cost 16 multiply-adds a point.
-  void spread(const Vector& t, Vector& nodes);
+  void spread(const Eigen::Ref<const Vector>& t, Vector& nodes);
   /// t_j = w_j'nodes. Cost 16 multiply-adds a point.
-  void gather(const Vector& nodes, Vector& t) const;
+  void gather(const Eigen::Ref<const Vector>& nodes, Eigen::Ref<Vector> t) const;
   /// Calls visit(node) for the 16 nodes on which the first point of stroke j stands.
   template <class Visit>
   void for_nodes(Index j, const Visit& visit) const {
@@ -48,7 +48,7 @@ class SplineSpreading {
   };
 
   void append(Point p);
-  void spread_range(const Vector& t, Index from, Index to, double* nodes) const;
+  void spread_range(const double* dwell, Index from, Index to, double* nodes) const;
   void gather_range(const double* nodes, Index from, Index to, double* t) const;
 
   Grid lattice_;

@@ -33,7 +33,10 @@ DenseProblem dense_problem(const DwellProblem& p) {
   }
   DenseProblem d;
   d.h = a.transpose() * a;
-  if (p.alpha > 0.0 && !p.smoothness.empty()) d.h += p.alpha * p.smoothness.dense_normal();
+  for_parts(p, [&](const DwellPart& part, Index first, Index points) {
+    if (p.alpha_of(part) > 0.0 && !part.smoothness.empty())
+      d.h.block(first, first, points, points) += p.alpha_of(part) * part.smoothness.dense_normal();
+  });
   if (p.beta > 0.0) d.h.diagonal().array() += p.beta;
   Vector r;
   objective.residual(unit, r);

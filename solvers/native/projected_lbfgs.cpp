@@ -6,7 +6,7 @@
 namespace dwell {
 
 void ProjectedLbfgs::do_solve(const DwellProblem& problem, Vector& t, SolverSummary& summary) {
-  BoundedLbfgs lbfgs(problem.lower, problem.upper, problem.geometry ? problem.geometry->threads : 1);
+  BoundedLbfgs lbfgs(problem.lower, problem.upper, problem.threads());
   solve_in_full(problem, options_, lbfgs, t, summary);
 }
 

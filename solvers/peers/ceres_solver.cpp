@@ -164,13 +164,15 @@ class Model {
 
   void add_weights_on_dwell() {
     const Index n = t_.size();
-    for (Index j = 1; p_.alpha > 0.0 && !p_.smoothness.empty() && j < n; ++j) {
-      if (!p_.smoothness.linked(j)) continue;
-      const double root = std::sqrt(p_.alpha);
-      ceres_.AddResidualBlock(
-          new LinearResidual({-root * p_.smoothness.scale(j - 1), root * p_.smoothness.scale(j)}, {}, 0.0), nullptr,
-          std::vector<double*>{&t_[j - 1], &t_[j]});
-    }
+    for_parts(p_, [&](const DwellPart& part, Index first, Index points) {
+      const PathSmoothness& d = part.smoothness;
+      const double root = std::sqrt(p_.alpha_of(part));
+      for (Index j = 1; root > 0.0 && !d.empty() && j < points; ++j) {
+        if (!d.linked(j)) continue;
+        ceres_.AddResidualBlock(new LinearResidual({-root * d.scale(j - 1), root * d.scale(j)}, {}, 0.0), nullptr,
+                                std::vector<double*>{&t_[first + j - 1], &t_[first + j]});
+      }
+    });
     for (Index j = 0; p_.beta > 0.0 && j < n; ++j) {
       const double root = std::sqrt(p_.beta), t0 = p_.reference.size() == 0 ? 0.0 : p_.reference[j];
       ceres_.AddResidualBlock(new LinearResidual({root}, {}, root * t0), nullptr, &t_[j]);

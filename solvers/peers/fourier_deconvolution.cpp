@@ -1,5 +1,7 @@
 #include "solvers/peers/fourier_deconvolution.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -27,7 +29,7 @@ bool piston_is_free(const DwellProblem& p) {
 class WienerFilter {
  public:
   explicit WienerFilter(const DwellProblem& p)
-      : g_(*p.geometry),
+      : g_(*p.parts.front().geometry),
         margin_rows_(2 * g_.kernel.half_rows),
         margin_cols_(2 * g_.kernel.half_cols),
         fft_(good_fft_size(g_.map.rows + 2 * margin_rows_), good_fft_size(g_.map.cols + 2 * margin_cols_), g_.threads) {
@@ -134,8 +136,14 @@ void scale_to_fit(DwellObjective& objective, const Vector& target, Vector& d) {
 }  // namespace
 
 void FourierDeconvolution::do_solve(const DwellProblem& problem, Vector& t, SolverSummary& summary) {
-  if (!problem.geometry)
-    throw InputError("solver = 'fourier' needs to know what the removal operator is made of: DwellProblem.geometry");
+  if (!problem.has_geometry())
+    throw InputError("solver = 'fourier' needs to know what the removal operator is made of: DwellPart.geometry");
+  if (problem.parts.size() > 1) {
+    throw InputError(
+        fmt::format("solver = 'fourier' with {} tools or passes; accepted: 1, as it divides by the spectrum "
+                    "of one removal function",
+                    problem.parts.size()));
+  }
   AdapterRun run(problem, options_, t, summary);
   run.settle_by_evaluations(false);
   if (!run.stopped() && problem.points() > 0 && problem.pixels() > 0) {

@@ -14,9 +14,9 @@ namespace dwell {
 /// found and the objective evaluated; the best is kept. Strokes are taken as halts at their dwell points, spread
 /// evenly.
 ///
-/// Not an optimum, whence the status Stalled. Needs DwellProblem.geometry: InputError without. Smoothness, reference,
-/// price and weights are not seen by the filter, only by the choice. Three operator applications a lambda, and three
-/// padded transforms once. Memory: four padded maps.
+/// Not an optimum, whence the status Stalled. Needs DwellPart.geometry and a problem of one part: InputError otherwise.
+/// Smoothness, reference, price and weights are not seen by the filter, only by the choice. Three operator applications
+/// a lambda, and three padded transforms once. Memory: four padded maps.
 class FourierDeconvolution final : public DwellSolver {
  public:
   explicit FourierDeconvolution(SolverOptions options) : DwellSolver(std::move(options)) {}

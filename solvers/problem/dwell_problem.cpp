@@ -30,9 +30,45 @@ void check_weight(const char* field, double value) {
 
 }  // namespace
 
+bool DwellProblem::has_geometry() const {
+  return !parts.empty() && std::all_of(parts.begin(), parts.end(), [](const DwellPart& p) { return p.geometry; });
+}
+
+int DwellProblem::threads() const {
+  const auto known = std::find_if(parts.begin(), parts.end(), [](const DwellPart& p) { return p.geometry; });
+  return known == parts.end() ? 1 : std::max(known->geometry->threads, 1);
+}
+
 double DwellProblem::upper_at(Index j) const {
   return upper.size() == 0 ? std::numeric_limits<double>::infinity() : upper[j];
 }
+
+namespace {
+
+bool same_pixels(const RemovalGeometry& a, const RemovalGeometry& b) { return a.map == b.map && a.pixels == b.pixels; }
+
+void validate_parts(const DwellProblem& p) {
+  if (p.parts.empty()) return;
+  Index points = 0;
+  for_parts(p, [&](const DwellPart& part, Index first, Index count) {
+    const auto name = [&](const char* field) { return fmt::format("parts[{}].{}", &part - p.parts.data(), field); };
+    if (count == 0 && p.parts.size() > 1) reject(name("geometry and smoothness are empty; one of them is required"));
+    if (part.geometry) {
+      const RemovalGeometry& g = *part.geometry;
+      check_size(name("geometry pixels").c_str(), static_cast<Index>(g.pixels.size()), p.removal->rows());
+      check_size(name("geometry strokes").c_str(), static_cast<Index>(g.strokes.size()), count);
+      const auto& of_first = p.parts.front().geometry;
+      if (of_first && of_first != part.geometry && !same_pixels(*of_first, g))
+        reject(name("geometry has another map or other pixels than parts[0]"));
+    }
+    if (!part.smoothness.empty()) check_size(name("smoothness").c_str(), part.smoothness.size(), count);
+    if (part.alpha) check_weight(name("alpha").c_str(), *part.alpha);
+    points = first + count;
+  });
+  check_size("parts together", points, p.removal->cols());
+}
+
+}  // namespace
 
 void validate(const DwellProblem& p) {
   if (!p.removal) reject("removal is not set");
@@ -44,11 +80,7 @@ void validate(const DwellProblem& p) {
   if (p.form.cols() > kMaxFormTerms)
     reject(fmt::format("form has {} columns; at most {} accepted", p.form.cols(), kMaxFormTerms));
   if (p.form.cols() != 0) check_size("form rows", p.form.rows(), p.removal->rows());
-  if (!p.smoothness.empty()) check_size("smoothness", p.smoothness.size(), p.removal->cols());
-  if (p.geometry) {
-    check_size("geometry pixels", static_cast<Index>(p.geometry->pixels.size()), p.removal->rows());
-    check_size("geometry strokes", static_cast<Index>(p.geometry->strokes.size()), p.removal->cols());
-  }
+  validate_parts(p);
   check_finite("target", p.target);
   check_finite("lower", p.lower);
   check_finite("reference", p.reference);
@@ -66,16 +98,42 @@ void validate(const DwellProblem& p) {
   }
 }
 
+double smoothness_term(const DwellProblem& p, const Vector& t) {
+  double sum = 0.0;
+  for_parts(p, [&](const DwellPart& part, Index first, Index points) {
+    if (p.alpha_of(part) > 0.0 && !part.smoothness.empty())
+      sum += p.alpha_of(part) * part.smoothness.squared_norm(t.segment(first, points));
+  });
+  return sum;
+}
+
+void add_smoothness(const DwellProblem& p, const Vector& t, Vector& out) {
+  for_parts(p, [&](const DwellPart& part, Index first, Index points) {
+    if (p.alpha_of(part) > 0.0 && !part.smoothness.empty())
+      part.smoothness.add_normal(p.alpha_of(part), t.segment(first, points), out.segment(first, points));
+  });
+}
+
+double step_rms(const DwellProblem& p, const Vector& t) {
+  double squares = 0.0;
+  Index links = 0;
+  for_parts(p, [&](const DwellPart& part, Index first, Index points) {
+    if (part.smoothness.empty()) return;
+    squares += part.smoothness.squared_norm(t.segment(first, points));
+    links += part.smoothness.links();
+  });
+  return links == 0 ? 0.0 : std::sqrt(squares / static_cast<double>(links));
+}
+
 double penalty(const DwellProblem& p, const Vector& t) {
-  double f = 0.0;
-  if (p.alpha > 0.0 && !p.smoothness.empty()) f += 0.5 * p.alpha * p.smoothness.squared_norm(t);
+  double f = 0.5 * smoothness_term(p, t);
   if (p.beta > 0.0) f += 0.5 * p.beta * (p.reference.size() != 0 ? (t - p.reference).squaredNorm() : t.squaredNorm());
   if (p.gamma > 0.0) f += p.gamma * t.sum();
   return f;
 }
 
 void add_penalty_gradient(const DwellProblem& p, const Vector& t, Vector& g) {
-  if (p.alpha > 0.0 && !p.smoothness.empty()) p.smoothness.add_normal(p.alpha, t, g);
+  add_smoothness(p, t, g);
   if (p.beta > 0.0) {
     g += p.beta * t;
     if (p.reference.size() != 0) g -= p.beta * p.reference;
@@ -161,13 +219,12 @@ void DwellObjective::gradient(const Vector& r, const Vector& t, Vector& g) {
 
 void DwellObjective::hessian_times(const Vector& d, const Vector& image, Vector& h) {
   adjoint_of_weighted(image, h);
-  if (problem_.alpha > 0.0 && !problem_.smoothness.empty()) problem_.smoothness.add_normal(problem_.alpha, d, h);
+  add_smoothness(problem_, d, h);
   if (problem_.beta > 0.0) h += problem_.beta * d;
 }
 
 double DwellObjective::curvature(const Vector& d, const Vector& image) const {
-  double c = squared_norm(image);
-  if (problem_.alpha > 0.0 && !problem_.smoothness.empty()) c += problem_.alpha * problem_.smoothness.squared_norm(d);
+  double c = squared_norm(image) + smoothness_term(problem_, d);
   if (problem_.beta > 0.0) c += problem_.beta * d.squaredNorm();
   return c;
 }
@@ -186,7 +243,7 @@ double DwellObjective::squared_norm(const Vector& v) const {
                   [&](Index begin, Index length) { return v.segment(begin, length).squaredNorm(); });
 }
 
-int DwellObjective::threads() const { return problem_.geometry ? std::max(problem_.geometry->threads, 1) : 1; }
+int DwellObjective::threads() const { return problem_.threads(); }
 
 double DwellObjective::gradient_scale() {
   if (gradient_scale_ < 0.0) {

@@ -3,6 +3,8 @@
 #include <Eigen/Core>
 
 #include <memory>
+#include <optional>
+#include <vector>
 
 #include "core/removal/removal_geometry.h"
 #include "core/removal/removal_operator.h"
@@ -13,6 +15,18 @@ namespace dwell {
 /// Form terms that a specification may leave out: piston, tilt in x and y, power.
 inline constexpr Index kMaxFormTerms = 6;
 
+/// One tool, or one pass of it: a stretch of the dwell vector with a path of its own.
+struct DwellPart {
+  /// What its removal is made of, if it is made of a removal function and strokes: lets solvers work on coarser pixels.
+  /// Null = not known.
+  std::shared_ptr<const RemovalGeometry> geometry{};
+  PathSmoothness smoothness{};    // its D; empty = none
+  std::optional<double> alpha{};  // in place of the problem's, >= 0 [nm^2/s^2]
+
+  /// Its dwell points, as geometry or smoothness know them; 0 if neither does.
+  Index points() const { return geometry ? static_cast<Index>(geometry->strokes.size()) : smoothness.size(); }
+};
+
 /// The dwell problem (docs/math.md):
 ///
 ///   minimise  1/2 |W P (A t - z)|^2 + alpha/2 |D t|^2 + beta/2 |t - t0|^2 + gamma 1't   subject to  l <= t <= u
@@ -20,29 +34,56 @@ inline constexpr Index kMaxFormTerms = 6;
 /// P removes the form terms that the specification does not count, in the least-squares sense of the weights:
 /// W P = (I - Q Q') W with Q = `form`, orthonormal columns spanning W times the terms. A pixel of weight zero thus
 /// bends neither the fit nor the form.
+///
+/// Several tools or passes are one problem: A = [A_1 A_2 ...] (StackedRemoval), the dwell vectors one after the other,
+/// and for each a part that says its own smoothness and geometry; alpha |D t|^2 is then the sum over the parts.
 struct DwellProblem {
   RemovalOperator* removal = nullptr;  // A, not owned [nm/s]
   Vector target;                       // z, m [nm]
   Eigen::MatrixXd form;                // Q, m x 0..kMaxFormTerms
   Vector weights;                      // diagonal of W, m, >= 0; empty = all one
-  PathSmoothness smoothness;           // D; empty = none
+  std::vector<DwellPart> parts;        // stretches of t, in order; empty = one of which nothing is known
   double alpha = 0.0;                  // >= 0 [nm^2/s^2]
   double beta = 0.0;                   // >= 0 [nm^2/s^2]
   double gamma = 0.0;                  // >= 0, price of a second [nm^2/s]
   Vector reference;                    // t0, n [s]; empty = zero
   Vector lower;                        // l, n, finite [s]
   Vector upper;                        // u, n, > = l, may be infinite [s]; empty = infinite
-  /// What `removal` is made of, if it is made of a removal function and strokes: lets solvers work on coarser pixels.
-  std::shared_ptr<const RemovalGeometry> geometry;
 
   Index pixels() const { return target.size(); }
   Index points() const { return lower.size(); }
   double upper_at(Index j) const;
+  /// The weight of a part's smoothness.
+  double alpha_of(const DwellPart& part) const { return part.alpha.value_or(alpha); }
+  /// Whether it is known of every part what its removal is made of.
+  bool has_geometry() const;
+  /// Threads that the geometry asks for; 1 if it is not known.
+  int threads() const;
 };
+
+/// Calls visit(part, first dwell point, number of dwell points) for the parts in order.
+template <class Visit>
+void for_parts(const DwellProblem& problem, const Visit& visit) {
+  Index first = 0;
+  for (const DwellPart& part : problem.parts) {
+    const Index points = problem.parts.size() == 1 ? problem.points() : part.points();
+    visit(part, first, points);
+    first += points;
+  }
+}
 
 /// Throws std::invalid_argument naming the field, index and value of the first thing wrong: a size, NaN, infinity where
 /// none may be, a negative weight, l > u.
 void validate(const DwellProblem& problem);
+
+/// Sum over the parts of alpha |D t|^2 [nm^2].
+double smoothness_term(const DwellProblem& problem, const Vector& t);
+
+/// out += alpha D'D t, part by part.
+void add_smoothness(const DwellProblem& problem, const Vector& t, Vector& out);
+
+/// |D t| / sqrt(number of links) over all parts: how much the dwell changes from one stroke to the next [s].
+double step_rms(const DwellProblem& problem, const Vector& t);
 
 /// The objective's terms that do not see the surface: smoothness, distance from the reference, price of time [nm^2].
 double penalty(const DwellProblem& problem, const Vector& t);

@@ -32,24 +32,31 @@ PathSmoothness::PathSmoothness(const std::vector<double>& lengths, const std::ve
   }
 }
 
-double PathSmoothness::squared_norm(const Vector& t) const {
+Index PathSmoothness::links() const {
+  Index links = 0;
+  for (Index j = 1; j < scale_.size(); ++j) links += linked(j);
+  return links;
+}
+
+double PathSmoothness::squared_norm(const Eigen::Ref<const Vector>& t) const {
   return sum_over(size(), threads_, [&](Index begin, Index length) {
     double sum = 0.0;
     for (Index j = begin; j < begin + length; ++j) {
-      const double d = step(j, 1.0, t);
+      const double d = step(j, 1.0, t.data());
       sum += d * d;
     }
     return sum;
   });
 }
 
-double PathSmoothness::step_rms(const Vector& t) const {
-  Index links = 0;
-  for (Index j = 1; j < scale_.size(); ++j) links += linked(j);
-  return links == 0 ? 0.0 : std::sqrt(squared_norm(t) / static_cast<double>(links));
+double PathSmoothness::step_rms(const Eigen::Ref<const Vector>& t) const {
+  const Index count = links();
+  return count == 0 ? 0.0 : std::sqrt(squared_norm(t) / static_cast<double>(count));
 }
 
-void PathSmoothness::add_normal(double weight, const Vector& t, Vector& out) const {
+void PathSmoothness::add_normal(double weight, const Eigen::Ref<const Vector>& dwell, Eigen::Ref<Vector> result) const {
+  const double* t = dwell.data();
+  double* out = result.data();
   for_blocks(size(), threads_, [&](Index, Index begin, Index length) {
     double before = step(begin, weight, t);
     for (Index j = begin; j < begin + length; ++j) {

@@ -26,18 +26,20 @@ class PathSmoothness {
   bool linked(Index j) const { return j > 0 && joined_[static_cast<std::size_t>(j)] != 0; }
   double scale(Index j) const { return scale_[j]; }  // s_j
 
+  /// How many pairs of neighbours are linked: the size of D t.
+  Index links() const;
   /// |D t|^2 [s^2].
-  double squared_norm(const Vector& t) const;
+  double squared_norm(const Eigen::Ref<const Vector>& t) const;
   /// |D t| / sqrt(number of links): how much the dwell changes from one stroke to the next [s]. 0 without links.
-  double step_rms(const Vector& t) const;
+  double step_rms(const Eigen::Ref<const Vector>& t) const;
   /// out += weight * D' D t.
-  void add_normal(double weight, const Vector& t, Vector& out) const;
+  void add_normal(double weight, const Eigen::Ref<const Vector>& t, Eigen::Ref<Vector> out) const;
   /// Dense D' D, n x n, for oracles and small dense solvers.
   Eigen::MatrixXd dense_normal() const;
 
  private:
   /// weight * (D t) of the link of point j to j - 1; 0 without one, or beyond the last point.
-  double step(Index j, double weight, const Vector& t) const {
+  double step(Index j, double weight, const double* t) const {
     if (j >= size() || !linked(j)) return 0.0;
     return weight * (scale_[j] * t[j] - scale_[j - 1] * t[j - 1]);
   }

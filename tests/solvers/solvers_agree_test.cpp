@@ -4,8 +4,10 @@
 
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "core/base/errors.h"
+#include "core/removal/sparse_removal.h"
 #include "solvers/problem/certificate.h"
 #include "solvers/solver_catalogue.h"
 #include "tests/solvers/problem/random_problem.h"
@@ -151,20 +153,44 @@ TEST_P(NativeSolvers, RefusesWhatIsNotFinite) {
   EXPECT_THROW(solver->solve(random.problem, start), std::invalid_argument);
 }
 
-INSTANTIATE_TEST_SUITE_P(Native, NativeSolvers,
-                         testing::Values(SolverKind::Auto, SolverKind::SpectralProjectedGradient,
-                                         SolverKind::ProjectedCg, SolverKind::ProjectedLbfgs),
-                         [](const auto& instance) {
-                           std::string name = to_string(instance.param);
-                           std::erase(name, '-');
-                           return name;
-                         });
-
-TEST(SolverKinds, WordsReadBack) {
+std::vector<SolverKind> native_solvers() {
+  std::vector<SolverKind> kinds;
   for (const SolverRecord& record : solver_catalogue()) {
-    const SolverKind kind = record.kind;
-    EXPECT_EQ(parse_solver_kind(to_string(kind)), kind);
+    if (!record.peer) kinds.push_back(record.kind);
   }
+  return kinds;
+}
+
+INSTANTIATE_TEST_SUITE_P(Native, NativeSolvers, testing::ValuesIn(native_solvers()), [](const auto& instance) {
+  std::string name = to_string(instance.param);
+  std::erase(name, '-');
+  return name;
+});
+
+TEST(SolverCatalogue, RefusesMoreDwellPointsThanARecordSays) {
+  for (const SolverRecord& record : solver_catalogue()) {
+    if (!record.largest) continue;
+    SCOPED_TRACE(record.name);
+    const Index n = *record.largest + 1;
+    SparseRemoval removal(SparseRemoval::Matrix(1, n), 1);
+    DwellProblem p;
+    p.removal = &removal;
+    p.target = Vector::Ones(1);
+    p.lower = Vector::Zero(n);
+    Vector t;
+    EXPECT_THROW(make_solver(tight(record.kind))->solve(p, t), InputError);
+  }
+}
+
+TEST(SolverCatalogue, HasWordsThatReadBackAndAreUnique) {
+  std::set<std::string> names;
+  for (const SolverRecord& record : solver_catalogue()) {
+    EXPECT_EQ(parse_solver_kind(record.name), record.kind);
+    EXPECT_EQ(to_string(record.kind), record.name);
+    EXPECT_FALSE(record.about.empty()) << record.name;
+    names.insert(record.name);
+  }
+  EXPECT_EQ(names.size(), solver_catalogue().size());
   EXPECT_THROW(parse_solver_kind("simplex"), InputError);
 }
 

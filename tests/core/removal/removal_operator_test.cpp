@@ -8,12 +8,13 @@
 #include "core/removal/lattice_removal.h"
 #include "core/removal/scattered_removal.h"
 #include "core/removal/sparse_removal.h"
+#include "core/removal/stacked_removal.h"
 #include "tests/core/removal/direct_removal.h"
 
 namespace dwell {
 namespace {
 
-enum class Kind { Lattice, Scattered, Sparse };
+enum class Kind { Lattice, Scattered, Sparse, Stacked };
 
 /// A part with a hole and a ragged edge, unequal pitches, an origin off zero, and a removal function without any
 /// symmetry.
@@ -107,6 +108,13 @@ std::unique_ptr<RemovalOperator> make(Kind kind, const Fixture& f, const std::ve
       return std::make_unique<ScatteredRemoval>(f.map, f.pixels, f.kernel, strokes, threads);
     case Kind::Sparse:
       return std::make_unique<SparseRemoval>(f.map, f.pixels, f.kernel, strokes, threads);
+    case Kind::Stacked: {
+      const auto cut = strokes.begin() + static_cast<std::ptrdiff_t>(strokes.size() / 3);
+      std::vector<std::unique_ptr<RemovalOperator>> parts;
+      parts.push_back(make(Kind::Scattered, f, {strokes.begin(), cut}, threads));
+      parts.push_back(make(Kind::Sparse, f, {cut, strokes.end()}, threads));
+      return std::make_unique<StackedRemoval>(std::move(parts));
+    }
   }
   return nullptr;
 }
@@ -157,7 +165,7 @@ TEST_P(EveryOperator, PassesTheAdjointTest) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Removal, EveryOperator,
-                         testing::Combine(testing::Values(Kind::Lattice, Kind::Scattered, Kind::Sparse),
+                         testing::Combine(testing::Values(Kind::Lattice, Kind::Scattered, Kind::Sparse, Kind::Stacked),
                                           testing::Bool(), testing::Values(1, 2), testing::Values(0.0, 0.3)));
 
 TEST(RemovalOperator, ABumpOfDwellAtPlusXRemovesAtPlusX) {
@@ -204,6 +212,17 @@ TEST(RemovalOperator, RefusesWrongSizes) {
   Vector out;
   EXPECT_THROW(a->apply(Vector::Zero(a->cols() + 1), out), std::invalid_argument);
   EXPECT_THROW(a->apply_adjoint(Vector::Zero(a->rows() - 1), out), std::invalid_argument);
+}
+
+TEST(StackedRemoval, WantsPartsOnTheSamePixels) {
+  const Fixture f;
+  Fixture other;
+  other.pixels.pop_back();
+  EXPECT_THROW(StackedRemoval({}), std::invalid_argument);
+  std::vector<std::unique_ptr<RemovalOperator>> parts;
+  parts.push_back(make(Kind::Sparse, f, strokes_for(f, Kind::Sparse, false, 0.0), 1));
+  parts.push_back(make(Kind::Sparse, other, strokes_for(f, Kind::Sparse, false, 0.0), 1));
+  EXPECT_THROW(StackedRemoval(std::move(parts)), std::invalid_argument);
 }
 
 TEST(LatticeRemoval, RefusesPointsOffTheLattice) {

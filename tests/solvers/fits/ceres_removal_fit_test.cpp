@@ -123,6 +123,15 @@ TEST(FitRemovalFunction, RobustlyIgnoresSpikes) {
   EXPECT_TRUE(std::isnan(robust.residual.at(40, 40)));
 }
 
+TEST(FitRemovalFunction, StopsWhenTold) {
+  const HeightMap map = samples("gaussian", {3.1}, 12.0, {}, 0.2, 8);
+  Progress progress;
+  int asked = 0;
+  progress.stop = [&asked] { return ++asked >= 3; };
+  EXPECT_THROW(fit_removal(map, removal_model("gaussian"), {}, progress), Interrupted);
+  EXPECT_EQ(asked, 4);  // the fit asks until it is to stop, and once more to throw
+}
+
 TEST(FitRemovalFunction, SaysWhatIsNotDetermined) {
   const RemovalFit fit = fit_removal(samples("gaussian", {3.1}, 12.0, {}, 0.2, 8), removal_model("elliptic-gaussian"));
   EXPECT_TRUE(std::isnan(fit.at("angle").error) || fit.at("angle").error > 5.0);

@@ -190,6 +190,23 @@ TEST(RegisterMaps, WhatIsSubtractedAfterRegistrationIsGone) {
   EXPECT_LE(worst, 1.5);  // of 150 nm; at the edges of holes, where the spline continues linearly
 }
 
+TEST(RegisterMaps, StopsWhereverItIsTold) {
+  const HeightMap moving = moved(similarity(middle_of(kMoving), {0.9, 1.1}, -1.7, 1.0)), fixed = fixed_map();
+  RegistrationOptions options;
+  options.range = {2.0, 3.0};
+  int all = 0;
+  Progress counting;
+  counting.stop = [&all] { return ++all < 0; };
+  register_maps(moving, fixed, options, 1, counting);
+  ASSERT_GT(all, 8);
+  for (const int at : {1, all / 3, all / 2, all}) {
+    int asked = 0;
+    Progress progress;
+    progress.stop = [&asked, at] { return ++asked >= at; };
+    EXPECT_THROW(register_maps(moving, fixed, options, 1, progress), Interrupted) << at;
+  }
+}
+
 TEST(RegisterMaps, SaysWhatKeepsItFromRegistering) {
   const HeightMap fixed = fixed_map();
   RegistrationOptions options;

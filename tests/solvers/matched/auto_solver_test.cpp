@@ -51,7 +51,6 @@ struct Mirror {
     removal = make_removal_operator(g);
     DwellProblem& p = problem;
     p.removal = removal.get();
-    p.geometry = geometry;
     p.target.resize(removal->rows());
     p.weights.resize(removal->rows());
     const Vector uncorrectable = noise(p.target.size(), 9);
@@ -63,7 +62,7 @@ struct Mirror {
     }
     const std::vector<double> w(p.weights.data(), p.weights.data() + p.weights.size());
     p.form = form_basis(g.map, g.pixels, {true, true, false}, w);
-    p.smoothness = path_smoothness(path, g.strokes);
+    p.parts = {{geometry, path_smoothness(path, g.strokes)}};
     p.alpha = 0.01 * g.kernel.energy;
     p.gamma = 1.0;
     p.lower = Vector::Constant(removal->cols(), 0.001);
@@ -171,7 +170,7 @@ TEST(SmoothDwell, RestrictionIsTheTransposeAndRefinementKeepsTheDwell) {
   const Mirror mirror(1);
   SmoothDwell coarse(*mirror.geometry, {4, 4}), fine(*mirror.geometry, {2, 2});
   const Vector s = noise(coarse.size(), 1), g = noise(mirror.problem.points(), 2);
-  Vector t, down, again;
+  Vector t(mirror.problem.points()), down, again(mirror.problem.points());
   coarse.prolong(s, t);
   coarse.restrict_to(g, down);
   EXPECT_NEAR(t.dot(g), s.dot(down), 1e-11 * t.norm() * g.norm());
@@ -185,7 +184,7 @@ TEST(SmoothDwell, KeepsTheDwellBelowItsUpperBounds) {
   Mirror mirror(1);
   DwellProblem& p = mirror.problem;
   p.upper = p.lower + noise(p.points(), 3).cwiseAbs();
-  SmoothDwell dwell(*mirror.geometry, {4, 4});
+  StackedSmoothDwell dwell(p, {4, 4});
   Vector t;
   dwell.prolong(dwell.largest(p), t);
   EXPECT_TRUE(((p.lower + t).array() <= p.upper.array() * (1.0 + 1e-6)).all());
@@ -199,7 +198,7 @@ TEST(SmoothDwellHessian, IsTheProjectionOfTheMatchedHessian) {
   mirror.problem.alpha = 0.0;
   mirror.problem.beta = 0.02 * mirror.geometry->kernel.energy;
   const CoarseFactor factor{2, 2};
-  SmoothDwell dwell(*mirror.geometry, factor);
+  StackedSmoothDwell dwell(mirror.problem, factor);
   ResolutionMatchedHessian matched(mirror.problem, {4, 4});
   SmoothDwellHessian smooth(mirror.problem, dwell, factor);
   Vector t, product, expected, actual;
@@ -277,7 +276,7 @@ TEST(AutoSolver, SolvesWithUpperBoundsAReferenceAndMovingStrokes) {
   mirror.removal = make_removal_operator(g);
   DwellProblem& p = mirror.problem;
   p.removal = mirror.removal.get();
-  p.smoothness = path_smoothness(path, g.strokes);
+  p.parts[0].smoothness = path_smoothness(path, g.strokes);
   p.beta = 1e-3 * g.kernel.energy;
   p.reference = 0.02 * noise(p.points(), 11).cwiseAbs();
   p.upper = p.lower + 0.02 * Vector::Ones(p.points()) + 0.1 * noise(p.points(), 12).cwiseAbs();
@@ -350,7 +349,7 @@ TEST(AutoSolver, ReachesTheCertificateWhenAsked) {
 
 TEST(AutoSolver, SaysWhenItCannotCoarsen) {
   Mirror mirror(4);
-  mirror.problem.geometry.reset();
+  mirror.problem.parts[0].geometry.reset();
   Vector t;
   const SolverSummary summary = make_solver(options(3e-3, 1e-4, 300))->solve(mirror.problem, t);
   EXPECT_THAT(summary.message, testing::HasSubstr("no removal geometry"));

@@ -49,7 +49,7 @@ struct LineProblem {
     lengths[2] = 0.6;
     std::vector<char> joined(static_cast<std::size_t>(points), 1);
     joined[0] = joined[5] = 0;
-    problem.smoothness = PathSmoothness(lengths, joined);
+    problem.parts = {{nullptr, PathSmoothness(lengths, joined)}};
     problem.alpha = 0.3;
     problem.beta = 0.05;
     problem.gamma = 0.4;
@@ -238,7 +238,7 @@ struct DeconvolutionProblem {
     removal->apply(dwell, problem.target);
     problem.removal = removal.get();
     problem.lower = Vector::Zero(removal->cols());
-    problem.geometry = geometry;
+    problem.parts = {{geometry}};
   }
 };
 
@@ -275,7 +275,7 @@ TEST(Fourier, KeepsAStartThatIsBetter) {
 
 TEST(Fourier, WantsToKnowTheGeometry) {
   DeconvolutionProblem d;
-  d.problem.geometry = nullptr;
+  d.problem.parts.clear();
   SolverOptions options;
   options.kind = SolverKind::Fourier;
   Vector t;

@@ -49,7 +49,6 @@ struct RandomProblem {
   void fill(const Uniform& uniform, const ToolPath& path, Special special) {
     DwellProblem& p = problem;
     p.removal = removal.get();
-    p.geometry = geometry;
     const Index m = removal->rows(), n = removal->cols();
     p.target = Vector::NullaryExpr(m, [&] { return uniform(0.0, 20.0); });
     if (special == Special::ZeroTarget) p.target.setZero();
@@ -59,7 +58,7 @@ struct RandomProblem {
       const std::vector<double> w(p.weights.data(), p.weights.data() + p.weights.size());
       p.form = form_basis(geometry->map, geometry->pixels, {true, true, false}, w);
     }
-    p.smoothness = path_smoothness(path, geometry->strokes);
+    p.parts = {{geometry, path_smoothness(path, geometry->strokes)}};
     p.alpha = uniform(0.0, 1.0) < 0.5 ? 0.0 : uniform(0.0, 0.2) * geometry->kernel.energy;
     p.beta = uniform(0.0, 1.0) < 0.5 ? 0.0 : uniform(0.0, 0.05) * geometry->kernel.energy;
     p.gamma = uniform(0.0, 1.0) < 0.5 ? 0.0 : uniform(0.0, 5.0);

@@ -44,7 +44,7 @@ void SmallProblem::set_smoothness(double alpha, std::vector<double> stroke_lengt
   lengths = std::move(stroke_lengths);
   joined = std::move(stroke_joined);
   problem.alpha = alpha;
-  problem.smoothness = PathSmoothness(lengths, joined);
+  problem.parts = {{nullptr, PathSmoothness(lengths, joined)}};
 }
 
 Quadratic SmallProblem::quadratic() const {

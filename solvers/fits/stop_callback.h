@@ -1,0 +1,34 @@
+#pragma once
+
+#include <ceres/ceres.h>
+
+#include "core/base/progress.h"
+
+namespace dwell {
+
+/// Lets Ceres ask after every iteration whether to stop. Ceres then ends as if it had failed, so whoever runs it asks
+/// progress.check() afterwards, which throws Interrupted.
+class StopCallback final : public ceres::IterationCallback {
+ public:
+  explicit StopCallback(const Progress& progress) : progress_(progress) {}
+
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary&) override {
+    return progress_.stop_asked() ? ceres::SOLVER_ABORT : ceres::SOLVER_CONTINUE;
+  }
+
+ private:
+  const Progress& progress_;
+};
+
+/// Runs Ceres; throws Interrupted if it was to stop.
+inline ceres::Solver::Summary solve_with_stop(ceres::Solver::Options options, ceres::Problem& problem,
+                                              const Progress& progress) {
+  StopCallback stop(progress);
+  options.callbacks.push_back(&stop);
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+  progress.check();
+  return summary;
+}
+
+}  // namespace dwell
