@@ -25,10 +25,10 @@ void check_outputs(const TifArguments& a) {
   using Kind = OutputFile::Kind;
   check_output_files({{Kind::Map, "--write", a.write},
                       {Kind::Json, "--json", a.json},
-                      {Kind::Png, "--png", a.png},
-                      {Kind::Png, "--section-png", a.section_png},
-                      {Kind::Png, "--fit-png", a.fit_png},
-                      {Kind::Png, "--mtf-png", a.mtf_png}},
+                      {Kind::Figure, "--png", a.png},
+                      {Kind::Figure, "--section-png", a.section_png},
+                      {Kind::Figure, "--fit-png", a.fit_png},
+                      {Kind::Figure, "--mtf-png", a.mtf_png}},
                      {{"the removal function", a.tif},
                       {"the map of --spot", a.job.spot},
                       {"the map of --trench", a.job.trench},
@@ -46,10 +46,11 @@ int run_tif(const TifArguments& arguments) {
   PendingFiles files;
   files.add_map(arguments.write, result.rates);
   files.add(arguments.json, [&] { return tif_json(result); });
-  files.add(arguments.png, [&] { return tif_picture(result); });
-  files.add(arguments.section_png, [&] { return section_picture(result); });
-  files.add(arguments.fit_png, [&] { return fit_picture(result); });
-  files.add(arguments.mtf_png, [&] { return transfer_picture(result); });
+  files.add(arguments.png, [&] { return tif_picture(result, figure_format_of_file(arguments.png)); });
+  files.add(arguments.section_png,
+            [&] { return section_picture(result, figure_format_of_file(arguments.section_png)); });
+  files.add(arguments.fit_png, [&] { return fit_picture(result, figure_format_of_file(arguments.fit_png)); });
+  files.add(arguments.mtf_png, [&] { return transfer_picture(result, figure_format_of_file(arguments.mtf_png)); });
   files.write();
   fmt::print("{}", text);
   return unfinished_fits(result) > 0 ? kLimitReached : kDone;
@@ -112,7 +113,8 @@ void add_outputs(CLI::App& command, TifArguments& arguments) {
                   "write the rates in nm/s, the tool axis at (0, 0) mm: " + written_map_extensions())
       ->type_name("FILE");
   command.add_option("--json", arguments.json, "write all results")->type_name("FILE");
-  command.add_option("--png", arguments.png, "draw the removal function")->type_name("FILE");
+  command.add_option("--png", arguments.png, "draw the removal function: .png, .svg or .pdf, as the others")
+      ->type_name("FILE");
   command.add_option("--section-png", arguments.section_png, "draw cross sections along x and y, with the best fits")
       ->type_name("FILE");
   command.add_option("--fit-png", arguments.fit_png, "draw measured, best fit and residual")->type_name("FILE");

@@ -6,6 +6,7 @@
 #include "core/base/version.h"
 #include "runs/base/inputs_json.h"
 #include "runs/campaigns/pareto_picture.h"
+#include "runs/plan/figure_output.h"
 #include "runs/plan/options_json.h"
 
 namespace dwell {
@@ -53,7 +54,8 @@ std::string pareto_json_text(const ParetoSweep& sweep) {
 
 std::string write_pareto(const ParetoSweep& sweep, const OutputFolder& folder) {
   folder.write("pareto.csv", pareto_table_text(sweep));
-  folder.write("pareto.png", pareto_picture(sweep));
+  write_figure(folder, sweep.plan.options.figures, "pareto",
+               [&](FigureFormat format) { return pareto_picture(sweep, format); });
   std::string json = pareto_json_text(sweep);
   folder.write("pareto.json", json);
   return json;

@@ -37,6 +37,8 @@ struct JobOptions {
   int threads = 0;
   std::string gcode = "g94";
   double lift_height_mm = 10.0;
+  std::string figures = "png";
+  std::string figure_range = "shared";
   std::string out;
 };
 

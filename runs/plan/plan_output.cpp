@@ -11,6 +11,7 @@
 #include "core/removal/simulate.h"
 #include "runs/drawing/path_picture.h"
 #include "runs/drawing/picture.h"
+#include "runs/plan/figure_output.h"
 #include "runs/plan/plan_summary.h"
 #include "runs/programs/gcode.h"
 #include "runs/programs/program_reader.h"
@@ -34,30 +35,35 @@ void write_program(Plan& plan, const OutputFolder& folder) {
   folder.write("program.nc", gcode_text(program_of(plan.table), gcode));
 }
 
-void write_pictures(const Plan& plan, const HeightMap& after, const MapStatistics& left, const OutputFolder& folder) {
+void write_pictures(const Plan& plan, const HeightMap& after, const MapStatistics& left, const OutputFolder& folder,
+                    const Progress& progress) {
   const std::string removed = to_string(plan.terms);
-  folder.write("before.png", map_picture(plan.figure, {fmt::format("Before: RMS {:.4g} nm, PV {:.4g} nm ({} removed)",
-                                                                   plan.before.rms, plan.before.pv, removed),
-                                                       "nm",
-                                                       true,
-                                                       {},
-                                                       {}}));
-  folder.write("after.png",
-               map_picture(after, {fmt::format("After (simulated program): RMS {:.4g} nm, PV {:.4g} nm ({} removed)",
-                                               left.rms, left.pv, removed),
-                                   "nm",
-                                   true,
-                                   {},
-                                   {}}));
-  folder.write(
-      "dwell.png",
-      dwell_picture(
-          plan.path, plan.table.dwell_s,
-          {fmt::format("Dwell: {} points, total {:.4g} s", plan.path.size(), plan.dwell.sum()), "s", false, {}, {}}));
-  const std::string path = fmt::format("Path: {}, {} points, {:.4g} mm, {} lifts", plan.path.kind, plan.path.size(),
-                                       plan.metrics.length, plan.metrics.lifts);
-  folder.write("path.png", path_picture(plan.figure, plan.path, path));
-  folder.write("path_detail.png", path_detail_picture(plan.figure, plan.path, "Path, detail: " + plan.path.kind));
+  const auto write = [&](const char* name, const auto& draw) {
+    write_figure(folder, plan.options.figures, name, draw);
+    progress.check();
+  };
+  write("before", [&](FigureFormat format) {
+    const std::string title =
+        fmt::format("Before: RMS {:.4g} nm, PV {:.4g} nm ({} removed)", plan.before.rms, plan.before.pv, removed);
+    return map_picture(plan.figure, {title, "nm", true, {}, {}}, format, progress);
+  });
+  write("after", [&](FigureFormat format) {
+    const std::string title =
+        fmt::format("After (simulated program): RMS {:.4g} nm, PV {:.4g} nm ({} removed)", left.rms, left.pv, removed);
+    return after_picture(plan.figure, after, parse_figure_range(plan.options.figure_range), title, format, progress);
+  });
+  write("dwell", [&](FigureFormat format) {
+    const std::string title = fmt::format("Dwell: {} points, total {:.4g} s", plan.path.size(), plan.dwell.sum());
+    return dwell_picture(plan.path, plan.table.dwell_s, {title, "s", false, {}, {}}, format, progress);
+  });
+  write("path", [&](FigureFormat format) {
+    const std::string title = fmt::format("Path: {}, {} points, {:.4g} mm, {} lifts", plan.path.kind, plan.path.size(),
+                                          plan.metrics.length, plan.metrics.lifts);
+    return path_picture(plan.figure, plan.path, title, format, progress);
+  });
+  write("path_detail", [&](FigureFormat format) {
+    return path_detail_picture(plan.figure, plan.path, "Path, detail: " + plan.path.kind, format, progress);
+  });
 }
 
 bool differs(double a, double b, double tolerance) {
@@ -104,7 +110,7 @@ WrittenPlan write_plan(Plan& plan, const OutputFolder& folder, const Progress& p
   progress.check();
 
   progress.report("write: pictures and arrays");
-  write_pictures(plan, written.residual, written.simulated, folder);
+  write_pictures(plan, written.residual, written.simulated, folder, progress);
   write_map(folder.path("residual.npy"), written.residual);
   folder.write("dwell.npy", npy_bytes(std::span<const double>(plan.table.dwell_s)));
   if (plan.search) folder.write("search.csv", search_table_text(*plan.search));

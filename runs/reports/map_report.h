@@ -9,6 +9,7 @@
 #include "core/form/robust_pv.h"
 #include "core/map/surface_slope.h"
 #include "core/spectra/psd_line.h"
+#include "runs/drawing/figure_format.h"
 #include "runs/job/input_files.h"
 #include "runs/reports/wavelength_bands.h"
 
@@ -69,8 +70,8 @@ std::string map_report_text(const MapReport& report);
 /// All of it as JSON text (docs/statistics.md), units in the keys. `map` is the map as measured.
 std::string map_report_json(const MapReport& report, const HeightMap& map, const std::vector<InputFile>& inputs);
 
-/// The spectra as a PNG file: along x and y at the left, radial at the right, bands shaded, fit and limit. Throws
+/// The spectra as a figure: along x and y at the left, radial at the right, bands shaded, fit and limit. Throws
 /// std::invalid_argument without a spectrum.
-std::string psd_picture(const MapReport& report, const std::string& title);
+std::string psd_picture(const MapReport& report, const std::string& title, FigureFormat format = FigureFormat::Png);
 
 }  // namespace dwell

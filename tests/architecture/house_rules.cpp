@@ -81,10 +81,12 @@ std::optional<std::string> rank_fault(const std::string& folder, const Include& 
 }
 
 std::optional<std::string> third_party_fault(const std::string& path, const Include& include) {
-  if (include.target.starts_with("ceres/") && !path.starts_with("solvers/fits/") && !path.starts_with("solvers/peers/")) {
+  if (include.target.starts_with("ceres/") && !path.starts_with("solvers/fits/") &&
+      !path.starts_with("solvers/peers/")) {
     return fmt::format("only solvers/fits and solvers/peers may include Ceres: <{}>", include.target);
   }
-  if (include.target.starts_with("nlopt") && !path.starts_with("solvers/weights/") && !path.starts_with("solvers/peers/")) {
+  if (include.target.starts_with("nlopt") && !path.starts_with("solvers/weights/") &&
+      !path.starts_with("solvers/peers/")) {
     return fmt::format("only solvers/weights and solvers/peers may include NLopt: <{}>", include.target);
   }
   if (include.target.starts_with("hdf5") && !path.starts_with("core/formats/hdf5_")) {
@@ -92,6 +94,9 @@ std::optional<std::string> third_party_fault(const std::string& path, const Incl
   }
   if (include.target.starts_with("fitsio") && !path.starts_with("core/formats/fits_")) {
     return fmt::format("only core/formats/fits_* may include CFITSIO: <{}>", include.target);
+  }
+  if (include.target.starts_with("cairo") && !path.starts_with("runs/drawing/")) {
+    return fmt::format("only runs/drawing may include Cairo: <{}>", include.target);
   }
   if (is_fftw(include) && !path.starts_with("core/numerics/")) {
     return fmt::format("only core/numerics may include FFTW: <{}>", include.target);

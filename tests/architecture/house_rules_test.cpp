@@ -77,6 +77,7 @@ INSTANTIATE_TEST_SUITE_P(
         Break{"NLoptElsewhere", {"solvers/fits/registration.cpp", "#include <nlopt.hpp>\n"}, 1, "solvers/weights"},
         Break{"Hdf5Elsewhere", {"core/formats/zygo_datx.cpp", "#include <hdf5.h>\n"}, 1, "core/formats/hdf5_*"},
         Break{"FitsElsewhere", {"runs/fits_picture.cpp", "#include <fitsio.h>\n"}, 1, "core/formats/fits_*"},
+        Break{"CairoElsewhere", {"runs/reports/tif_picture.cpp", "#include <cairo-svg.h>\n"}, 1, "only runs/drawing"},
         Break{"FftwInSolvers", {"solvers/a.cpp", "#include <fftw3.h>\n"}, 1, "only core/numerics"},
         Break{"CmathInCli", {"cli/a.cpp", "#include <cmath>\n"}, 1, "no mathematics"},
         Break{"EigenInCli", {"cli/a.cpp", "#include <vector>\n#include <Eigen/Dense>\n"}, 2, "no mathematics"},

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+
+#include "runs/base/output_folder.h"
+#include "runs/drawing/figure_format.h"
+
+namespace dwell {
+
+/// Writes a figure into a folder of results, in each format of the list ("png,svg"): NAME.png, NAME.svg. `draw` makes
+/// the bytes of a format.
+template <class Draw>
+void write_figure(const OutputFolder& folder, const std::string& formats, const std::string& name, Draw draw) {
+  for (const FigureFormat format : parse_figure_formats(formats)) {
+    folder.write(name + "." + std::string(to_string(format)), draw(format));
+  }
+}
+
+}  // namespace dwell
