@@ -52,7 +52,9 @@ PanelLayout lay_out(const MapPanel& panel) {
   l.width = l.field.left + std::max(right, l.field.width + last_label);
   l.title = broken_into_lines(panel.title, kPanelTitle, l.width);
   const double above = title_height(l.title, kPanelTitle) + (l.bar_below || !panel.limits.any ? 0.0 : kLabel.size);
-  l.field.top = std::ceil(std::max(above + kGap, 0.6 * kLabel.size));
+  // The name of the y axis may stand out of a thin field.
+  const double name_above = 0.5 * (Sheet::text_width("y [mm]", kLabel) - l.field.height);
+  l.field.top = std::ceil(std::max({above + kGap, 0.6 * kLabel.size, name_above}));
   l.height = l.field.bottom() + kTickLength + 2.0 * kGap + 2.0 * kLineHeight * kLabel.size;
   if (l.bar_below && panel.limits.any) l.height += kColourBarBelowHeight;
   return l;
@@ -163,8 +165,8 @@ std::vector<Row> rows_of(std::vector<PanelLayout>& layouts) {
 }  // namespace
 
 FieldEdges field_edges(std::size_t panels) {
-  if (panels < 2) return {1040, 1360};
-  return {500, 1360};
+  if (panels < 2) return {1040, 1280};
+  return {500, 1280};
 }
 
 MapFigure draw_maps(const std::string& title, const std::vector<MapPanel>& panels, FigureFormat format) {

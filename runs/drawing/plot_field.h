@@ -25,7 +25,7 @@ struct PlotField {
 /// Longest edge of a field on the figure [pixels].
 struct FieldEdges {
   int square = 1040;   // of square-ish ones, so that the whole figure fits a page
-  int longest = 1360;  // at kLongAspect : 1 and beyond
+  int longest = 1280;  // at kLongAspect : 1 and beyond
 };
 inline constexpr double kLongAspect = 2.0;
 

@@ -106,7 +106,7 @@ TEST(Sheet, WritesTheSameBytesWithoutTimeWhateverWasDrawnBefore) {
 }
 
 TEST(Sheet, TakesAnyTextAndStillDrawsWhatFollows) {
-  EXPECT_EQ(printable_utf8("a\xff\xc3(b\n\xc2\xb2\xe2\x82"), "a??(b \xc2\xb2??");
+  EXPECT_EQ(printable_utf8("a\xff\xc3(b\n\xc2\xb2\xe2\x82"), "a\?\?(b \xc2\xb2??");
   EXPECT_EQ(printable_utf8("\xed\xa0\x80\xf4\x90\x80\x80\xc0\xaf"), "?????????");
   Sheet sheet(FigureFormat::Svg, 50.0, 50.0);
   sheet.text({5.0, 20.0}, "\xff", {});
