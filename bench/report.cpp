@@ -2,12 +2,15 @@
 
 #include <fmt/format.h>
 
-#include "bench/chart.h"
+#include <algorithm>
+#include <array>
+
 #include "bench/json_access.h"
 #include "bench/planner_run.h"
 #include "bench/results.h"
 #include "bench/solver_tables.h"
 #include "bench/targets.h"
+#include "runs/drawing/line_chart.h"
 
 namespace dwell::bench {
 namespace {
@@ -49,6 +52,51 @@ constexpr const char* kSolvers =
     "applications divided by two, plus work on coarser pixels by its count of operations; in brackets, seconds divided "
     "by those of a pair, which counts everything. Gradient: projected, relative to |A'z|. Memory: peak of the process "
     "while solving above what it held before, also as vectors of the larger of points and pixels.\n\n";
+
+constexpr double kLeastGap = 1e-4;
+
+bool is_drawn(const Json& run) { return run.at("threads").get<int>() == 2 && run.contains("trace"); }
+
+/// The solvers that have a line, in the order of the results: the place of a solver is that of its colour.
+std::vector<std::string> drawn_solvers(const Json& all) {
+  std::vector<std::string> solvers;
+  for (const Json& run : list_of(all, "results")) {
+    if (is_drawn(run) && std::find(solvers.begin(), solvers.end(), text_of(run, "solver")) == solvers.end()) {
+      solvers.push_back(text_of(run, "solver"));
+    }
+  }
+  return solvers;
+}
+
+Colour solver_colour(const std::vector<std::string>& solvers, const std::string& solver) {
+  constexpr std::array<Colour, 12> kColours{{{214, 39, 40},
+                                             {31, 119, 180},
+                                             {44, 160, 44},
+                                             {255, 127, 14},
+                                             {148, 103, 189},
+                                             {140, 86, 75},
+                                             {227, 119, 194},
+                                             {23, 190, 207},
+                                             {188, 189, 34},
+                                             {127, 127, 127},
+                                             {0, 0, 0},
+                                             {0, 90, 50}}};
+  const auto place = std::find(solvers.begin(), solvers.end(), solver) - solvers.begin();
+  return kColours[static_cast<std::size_t>(place) % kColours.size()];
+}
+
+/// Quality against time. In steps, since a solver stopped in between would return what it had; a gap below the least
+/// that is drawn, or none, lies on the lower edge.
+ChartLine gap_line(const Json& run, double reference, const std::vector<std::string>& solvers) {
+  const std::string solver = text_of(run, "solver");
+  ChartLine line{solver, solver_colour(solvers, solver), {}, false};
+  line.steps = true;
+  for (const Json& p : run.at("trace")) {
+    const double gap = p.at(2).get<double>() / reference - 1.0;
+    line.points.push_back({p.at(0).get<double>(), 100.0 * std::max(gap, kLeastGap)});
+  }
+  return line;
+}
 
 }  // namespace
 
@@ -95,22 +143,21 @@ std::string markdown_report(const Json& all, const std::string& picture) {
 }
 
 std::string chart_of(const Json& all) {
+  const std::vector<std::string> solvers = drawn_solvers(all);
   std::vector<ChartPanel> panels;
   for (const Json& scenario : list_of(all, "scenarios")) {
     if (scenario.at("reference").is_null()) continue;
     const double reference = number(scenario.at("reference"), "objective");
-    ChartPanel panel{text_of(scenario, "name"), {}};
+    ChartPanel panel{"time since the start of the solve [s]", "gap [%]", {}};
+    panel.title = text_of(scenario, "name");
+    panel.y_limits = ChartLimits{100.0 * kLeastGap, 1000.0};
     for (const Json& run : all.at("results")) {
-      if (text_of(run, "scenario") != panel.title || run.at("threads").get<int>() != 2 || !run.contains("trace"))
-        continue;
-      ChartLine line{text_of(run, "solver"), {}};
-      for (const Json& p : run.at("trace"))
-        line.points.push_back({p.at(0).get<double>(), p.at(2).get<double>() / reference - 1.0});
-      panel.lines.push_back(line);
+      if (text_of(run, "scenario") == panel.title && is_drawn(run))
+        panel.lines.push_back(gap_line(run, reference, solvers));
     }
     if (!panel.lines.empty()) panels.push_back(panel);
   }
-  return draw_chart(panels);
+  return draw_line_charts("Objective above the reference (gap), against time, 2 threads", "", panels);
 }
 
 }  // namespace dwell::bench

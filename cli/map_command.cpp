@@ -67,9 +67,9 @@ void check_outputs(const MapArguments& a, const JobOptions& options) {
   check_output_files({{Kind::Map, "--write", a.write},
                       {Kind::Png, "--write-image", a.write_image},
                       a.json.output(),
-                      {Kind::Png, "--png", a.png},
-                      {Kind::Png, "--psd-png", a.psd_png},
-                      {Kind::Png, "--profile-png", a.profile_png}},
+                      {Kind::Figure, "--png", a.png},
+                      {Kind::Figure, "--psd-png", a.psd_png},
+                      {Kind::Figure, "--profile-png", a.profile_png}},
                      a.job->files_read(options));
 }
 
@@ -110,11 +110,15 @@ PendingFiles files_of(const MapArguments& a, const HeightMap& map, const MapRepo
   PendingFiles files;
   files.add_map(a.write, map);
   files.add(a.write_image, [&] { return height_image_png(map); });
-  files.add(a.png, [&] { return map_picture(report.figure, {title, "nm", true, {}, {}}); });
-  files.add(a.psd_png, [&] { return psd_picture(report, title); });
+  files.add(a.png, [&] {
+    return map_picture(report.figure, {title, "nm", true, {}, {}}, figure_format_of_file(a.png));
+  });
+  files.add(a.psd_png, [&] { return psd_picture(report, title, figure_format_of_file(a.psd_png)); });
   files.add(a.profile_png, [&] {
-    return profile_picture(*profile, fmt::format("{}, {}: RMS {:.4g} nm, PV {:.4g} nm ({} removed)", name_of(a.file),
-                                                 profile->name, profile->rms(), profile->pv(), removed));
+    return profile_picture(*profile,
+                           fmt::format("{}, {}: RMS {:.4g} nm, PV {:.4g} nm ({} removed)", name_of(a.file),
+                                       profile->name, profile->rms(), profile->pv(), removed),
+                           figure_format_of_file(a.profile_png));
   });
   return files;
 }
@@ -161,8 +165,8 @@ void add_report_options(CLI::App& command, MapArguments& arguments) {
        "the radial one");
   text("--profile", arguments.profile, "LINE", "y=MM (along x), x=MM (along y) or X0,Y0,X1,Y1 in mm");
   arguments.json.add_to(command);
-  text("--psd-png", arguments.psd_png, "FILE.png", "draw the spectra");
-  text("--profile-png", arguments.profile_png, "FILE.png", "draw the profile, form removed");
+  text("--psd-png", arguments.psd_png, "FILE", "draw the spectra: .png, .svg or .pdf");
+  text("--profile-png", arguments.profile_png, "FILE", "draw the profile, form removed: .png, .svg or .pdf");
 }
 
 void add_step_options(CLI::App& command, MapArguments& arguments) {
@@ -197,7 +201,7 @@ void add_map_command(CLI::App& program, int& exit_code) {
   add_step_options(*command, *arguments);
   command->add_option("--write-image", arguments->write_image, "write the map as a 16-bit grey PNG, levels = heights")
       ->type_name("FILE.png");
-  command->add_option("--png", arguments->png, "draw the map, form removed")->type_name("FILE.png");
+  command->add_option("--png", arguments->png, "draw the map, form removed: .png, .svg or .pdf")->type_name("FILE");
   command->footer(
       "Example:\n  dwell map mirror.csv --map-pixel 0.0938 --remove piston,tilt --png mirror.png\n"
       "  dwell map mirror.csv --map-pixel 0.0938 --step crop:data --form zernike-noll:1-15 --psd-png spectra.png");

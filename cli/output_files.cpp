@@ -14,6 +14,7 @@
 #include "core/formats/map_io.h"
 #include "core/formats/map_name.h"
 #include "core/formats/npy_sidecar.h"
+#include "runs/drawing/figure_format.h"
 
 namespace dwell::cli {
 namespace {
@@ -40,6 +41,8 @@ void check_extension(const OutputFile& output) {
   switch (output.kind) {
     case OutputFile::Kind::Png:
       return require(extension == ".png", ".png");
+    case OutputFile::Kind::Figure:
+      return require(extension == ".png" || extension == ".svg" || extension == ".pdf", figure_extensions());
     case OutputFile::Kind::Json:
       return require(extension == ".json", ".json");
     case OutputFile::Kind::Map:

@@ -26,7 +26,7 @@ void check_outputs(const SimulateArguments& a, const JobOptions& options) {
   std::vector<ReadFile> read = a.job->files_read(options);
   read.push_back({"the program", a.program});
   check_output_files(
-      {{OutputFile::Kind::Map, "--residual", a.residual}, {OutputFile::Kind::Png, "--png", a.png}, a.json.output()},
+      {{OutputFile::Kind::Map, "--residual", a.residual}, {OutputFile::Kind::Figure, "--png", a.png}, a.json.output()},
       read);
 }
 
@@ -54,12 +54,9 @@ int run_simulate(const SimulateArguments& arguments) {
   PendingFiles files;
   files.add_map(arguments.residual, s.residual);
   files.add(arguments.png, [&] {
-    return map_picture(s.residual, {fmt::format("After {}: RMS {:.4g} nm, PV {:.4g} nm ({} removed)", s.program.file,
-                                                s.after.rms, s.after.pv, to_string(s.terms)),
-                                    "nm",
-                                    true,
-                                    {},
-                                    {}});
+    const std::string title = fmt::format("After {}: RMS {:.4g} nm, PV {:.4g} nm ({} removed)", s.program.file,
+                                          s.after.rms, s.after.pv, to_string(s.terms));
+    return map_picture(s.residual, {title, "nm", true, {}, {}}, figure_format_of_file(arguments.png));
   });
   files.write();
   arguments.json.deliver(simulation_json(s), told(s));
@@ -83,7 +80,7 @@ void add_simulate_command(CLI::App& program, int& exit_code) {
       ->type_name("DIALECT");
   command->add_option("--residual", arguments->residual, "write the residual map [nm]: " + written_map_extensions())
       ->type_name("FILE");
-  command->add_option("--png", arguments->png, "draw the residual map")->type_name("FILE");
+  command->add_option("--png", arguments->png, "draw the residual map: .png, .svg or .pdf")->type_name("FILE");
   command->add_flag("--exact", arguments->exact,
                     "integrate the removal function itself, not its spline on the map's pixels: slow; says how far the "
                     "two are apart");

@@ -31,10 +31,10 @@ void check_outputs(const TifArguments& a, const JobOptions& options) {
   using Kind = OutputFile::Kind;
   check_output_files({{Kind::Map, "--write", a.write},
                       a.json.output(),
-                      {Kind::Png, "--png", a.png},
-                      {Kind::Png, "--section-png", a.section_png},
-                      {Kind::Png, "--fit-png", a.fit_png},
-                      {Kind::Png, "--mtf-png", a.mtf_png}},
+                      {Kind::Figure, "--png", a.png},
+                      {Kind::Figure, "--section-png", a.section_png},
+                      {Kind::Figure, "--fit-png", a.fit_png},
+                      {Kind::Figure, "--mtf-png", a.mtf_png}},
                      read);
 }
 
@@ -47,10 +47,11 @@ int run_tif(const TifArguments& arguments) {
   const TifResult result = make_tif(job);
   PendingFiles files;
   files.add_map(arguments.write, result.rates);
-  files.add(arguments.png, [&] { return tif_picture(result); });
-  files.add(arguments.section_png, [&] { return section_picture(result); });
-  files.add(arguments.fit_png, [&] { return fit_picture(result); });
-  files.add(arguments.mtf_png, [&] { return transfer_picture(result); });
+  files.add(arguments.png, [&] { return tif_picture(result, figure_format_of_file(arguments.png)); });
+  files.add(arguments.section_png,
+            [&] { return section_picture(result, figure_format_of_file(arguments.section_png)); });
+  files.add(arguments.fit_png, [&] { return fit_picture(result, figure_format_of_file(arguments.fit_png)); });
+  files.add(arguments.mtf_png, [&] { return transfer_picture(result, figure_format_of_file(arguments.mtf_png)); });
   files.write();
   arguments.json.deliver(tif_json(result), tif_text(result));
   return say_limits(unfinished_fits(result));
@@ -113,7 +114,8 @@ void add_outputs(CLI::App& command, TifArguments& arguments) {
                   "write the rates in nm/s, the tool axis at (0, 0) mm: " + written_map_extensions())
       ->type_name("FILE");
   arguments.json.add_to(command);
-  command.add_option("--png", arguments.png, "draw the removal function")->type_name("FILE");
+  command.add_option("--png", arguments.png, "draw the removal function: .png, .svg or .pdf, as the others")
+      ->type_name("FILE");
   command.add_option("--section-png", arguments.section_png, "draw cross sections along x and y, with the best fits")
       ->type_name("FILE");
   command.add_option("--fit-png", arguments.fit_png, "draw measured, best fit and residual")->type_name("FILE");

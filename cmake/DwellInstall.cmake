@@ -23,5 +23,5 @@ configure_package_config_file(cmake/dwellConfig.cmake.in ${CMAKE_CURRENT_BINARY_
                               INSTALL_DESTINATION ${dwell_cmake_dir})
 write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/dwellConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/dwellConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/dwellConfigVersion.cmake
-              cmake/FindFFTW.cmake cmake/FindLBFGSB.cmake cmake/FindHDF5Serial.cmake cmake/FindCFITSIO.cmake
+              cmake/FindFFTW.cmake cmake/FindLBFGSB.cmake cmake/FindHDF5Serial.cmake cmake/FindCFITSIO.cmake cmake/FindCairo.cmake
               DESTINATION ${dwell_cmake_dir})

@@ -73,26 +73,30 @@ void check_target(const fs::path& target, const fs::path& shown, const ResultFil
 }  // namespace
 
 bool ResultFiles::has(std::string_view name) const {
-  return name == always || std::find(others.begin(), others.end(), name) != others.end();
+  if (name == always || std::find(others.begin(), others.end(), name) != others.end()) return true;
+  const std::size_t dot = std::min(name.rfind('.'), name.size());
+  const std::string_view extension = name.substr(dot);
+  return (extension == ".png" || extension == ".svg" || extension == ".pdf") &&
+         std::find(figures.begin(), figures.end(), name.substr(0, dot)) != figures.end();
 }
 
 const ResultFiles& plan_files() {
-  static const ResultFiles kFiles{"plan",
-                                  "summary.json",
-                                  {"feed.csv", "program.nc", "before.png", "after.png", "dwell.png", "residual.npy",
-                                   "residual.npy.json", "dwell.npy", "search.csv", "path.png", "path_detail.png"},
-                                  nullptr};
+  static const ResultFiles kFiles{
+      "plan",
+      "summary.json",
+      {"feed.csv", "program.nc", "residual.npy", "residual.npy.json", "dwell.npy", "search.csv"},
+      {"before", "after", "dwell", "path", "path_detail"},
+      nullptr};
   return kFiles;
 }
 
 const ResultFiles& pareto_files() {
-  static const ResultFiles kFiles{"pareto sweep", "pareto.json", {"pareto.csv", "pareto.png"}, nullptr};
+  static const ResultFiles kFiles{"pareto sweep", "pareto.json", {"pareto.csv"}, {"pareto"}, nullptr};
   return kFiles;
 }
 
 const ResultFiles& path_comparison_files() {
-  static const ResultFiles kFiles{
-      "path comparison", "paths.json", {"paths.csv", "paths.png", "psd.png"}, &plan_files()};
+  static const ResultFiles kFiles{"path comparison", "paths.json", {"paths.csv"}, {"paths", "psd"}, &plan_files()};
   return kFiles;
 }
 

@@ -13,6 +13,7 @@ struct ResultFiles {
   std::string_view kind;    // "plan"
   std::string_view always;  // in every result of the kind
   std::vector<std::string_view> others;
+  std::vector<std::string_view> figures;    // without their extensions, which are .png, .svg or .pdf
   const ResultFiles* in_folders = nullptr;  // what folders in it may hold, of any name: a result of this kind each
 
   bool has(std::string_view name) const;

@@ -7,6 +7,7 @@
 
 #include "runs/base/inputs_json.h"
 #include "runs/campaigns/pareto_picture.h"
+#include "runs/reports/figure_output.h"
 #include "runs/reports/options_json.h"
 #include "runs/reports/plan_blocks.h"
 
@@ -51,7 +52,8 @@ std::string pareto_json_text(const ParetoSweep& sweep) {
 
 std::string write_pareto(const ParetoSweep& sweep, const OutputFolder& folder) {
   folder.write("pareto.csv", pareto_table_text(sweep));
-  folder.write("pareto.png", pareto_picture(sweep));
+  write_figure(folder, sweep.job.options.figures, "pareto",
+               [&](FigureFormat format) { return pareto_picture(sweep, format); });
   std::string json = pareto_json_text(sweep);
   folder.write("pareto.json", json);
   return json;

@@ -27,14 +27,14 @@ ChartPanel panel_of(const ParetoSweep& sweep, double TradeOff::*x, const std::st
 
 }  // namespace
 
-std::string pareto_picture(const ParetoSweep& sweep) {
+std::string pareto_picture(const ParetoSweep& sweep, FigureFormat format) {
   const std::vector<double>& prices = sweep.ranges.time_prices;
-  const std::string title =
-      fmt::format("Residual against total and step, time price {:.3g} to {:.3g} nm^2/s along a line", prices.front(),
-                  prices.back());
+  const std::string title = fmt::format(
+      "Residual against total and step, time price {:.3g} to {:.3g} nm²/s along a line", prices.front(), prices.back());
   return draw_line_charts(
       title, "on the Pareto front",
-      {panel_of(sweep, &TradeOff::total, "total dwell [s]"), panel_of(sweep, &TradeOff::step_rms, "step RMS [s]")});
+      {panel_of(sweep, &TradeOff::total, "total dwell [s]"), panel_of(sweep, &TradeOff::step_rms, "step RMS [s]")},
+      format);
 }
 
 }  // namespace dwell

@@ -7,6 +7,7 @@
 
 #include "runs/base/inputs_json.h"
 #include "runs/drawing/line_chart.h"
+#include "runs/reports/figure_output.h"
 #include "runs/reports/options_json.h"
 #include "runs/reports/plan_blocks.h"
 
@@ -94,7 +95,7 @@ Colour colour_of(std::size_t k) {
   return kColours[k % std::size(kColours)];
 }
 
-std::string comparison_picture(const PathComparison& comparison) {
+std::string comparison_picture(const PathComparison& comparison, FigureFormat format) {
   ChartPanel residual{"total time [s]", "residual RMS [nm]", {}}, mid{"total time [s]", "mid-band RMS [nm]", {}};
   for (std::size_t k = 0; k < comparison.paths.size(); ++k) {
     const ComparedPath& p = comparison.paths[k];
@@ -104,7 +105,7 @@ std::string comparison_picture(const PathComparison& comparison) {
   }
   std::vector<ChartPanel> panels{residual};
   if (!mid.lines.empty()) panels.push_back(mid);
-  return draw_line_charts("Paths: what they leave against what they take", "on the Pareto front", panels);
+  return draw_line_charts("Paths: what they leave against what they take", "on the Pareto front", panels, format);
 }
 
 ChartLine spectrum_line(const std::string& label, Colour colour, const PsdCurve& curve) {
@@ -115,16 +116,15 @@ ChartLine spectrum_line(const std::string& label, Colour colour, const PsdCurve&
   return line;
 }
 
-std::string spectra_picture(const PathComparison& comparison) {
-  ChartPanel panel{"frequency [1/mm]", "radial PSD [nm^2 mm^2]", {}};
-  panel.width = 900;
+std::string spectra_picture(const PathComparison& comparison, FigureFormat format) {
+  ChartPanel panel{"frequency [1/mm]", "radial PSD [nm² mm²]", {}};
   panel.lines.push_back(spectrum_line("before", {24, 24, 24}, comparison.before));
   panel.lines.back().dashed = true;
   for (std::size_t k = 0; k < comparison.paths.size(); ++k) {
     const ComparedPath& p = comparison.paths[k];
     if (p.failure.empty()) panel.lines.push_back(spectrum_line(p.listed.name, colour_of(k), p.spectrum));
   }
-  return draw_line_charts("Spectra before, and of what the simulated programs leave", "", {panel});
+  return draw_line_charts("Spectra before, and of what the simulated programs leave", "", {panel}, format);
 }
 
 /// A field of a CSV file.
@@ -251,8 +251,9 @@ std::string path_comparison_text(const PathComparison& comparison) {
 
 std::string write_path_comparison(const PathComparison& comparison, const OutputFolder& folder) {
   folder.write("paths.csv", path_table_text(comparison));
-  folder.write("paths.png", comparison_picture(comparison));
-  folder.write("psd.png", spectra_picture(comparison));
+  const std::vector<FigureFormat>& figures = comparison.job.options.figures;
+  write_figure(folder, figures, "paths", [&](FigureFormat format) { return comparison_picture(comparison, format); });
+  write_figure(folder, figures, "psd", [&](FigureFormat format) { return spectra_picture(comparison, format); });
   std::string json = path_comparison_json(comparison);
   folder.write("paths.json", json);
   return json;

@@ -3,13 +3,15 @@
 #include <optional>
 #include <vector>
 
-#include "runs/drawing/canvas.h"
+#include "runs/drawing/colour.h"
 
 namespace dwell {
 
 /// How numbers become colours.
 ///   Sequential  viridis (S. van der Walt, N. Smith, matplotlib 2015, CC0), perceptually uniform: dwell, rates
-///   Diverging   blue - white - red, equally dark at both ends: heights about zero, red = high
+///   Diverging   blue - white - red, equally dark at equal distances from zero: heights about zero, red = high
+///               (P. Kovesi, "Good colour maps: how to design them", 2015, arXiv:1509.03700, map CET-D1A =
+///               diverging_bwr_20-95_c54: lightness 20 at both ends, in equal steps to the middle)
 enum class ColourMap { Sequential, Diverging };
 
 inline constexpr Colour kNoDataColour{208, 208, 208};
@@ -35,10 +37,14 @@ struct ColourLimits {
 /// range, +-max |v|, as an optician expects; but no more than 1.5 times the 99.5 % quantile of |v|, so that a few
 /// spikes (dust, edge pixels) do not bleach the rest. One limit given sets the other.
 /// Sequential: by default from the smallest to the largest, each no farther beyond the 0.5 % and 99.5 % quantiles
-/// than half of the distance between them.
+/// than half of the distance between them. Of more than a million values, quantiles are those of some million taken at
+/// equal distances.
 /// Throws InputError if a given limit is not finite, lower >= upper, or a diverging scale is not given zero inside.
 /// Cost O(values).
 ColourLimits colour_limits(const std::vector<double>& values, ColourMap map, std::optional<double> lower = {},
                            std::optional<double> upper = {});
+
+/// The limits that were chosen for other values, for these: what they cut off is told of these values.
+ColourLimits same_limits(const ColourLimits& chosen, const std::vector<double>& values);
 
 }  // namespace dwell

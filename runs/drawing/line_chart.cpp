@@ -1,45 +1,32 @@
 #include "runs/drawing/line_chart.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
+
+#include "runs/drawing/sheet.h"
 
 namespace dwell {
 namespace {
 
-constexpr Colour kChartInk{32, 32, 32}, kGrid{224, 224, 224}, kChartPaper{255, 255, 255};
-constexpr int kChartScale = 2;                                    // of the font
-constexpr int kHeight = 420;                                      // of the axes of a panel
-constexpr int kLeft = 120, kRight = 40, kTop = 60, kBottom = 76;  // around them
-constexpr int kKeyLine = 26, kKeyColumns = 4, kKeyWidth = 330;    // of the key
+constexpr double kRim = 14.0;          // around everything
+constexpr double kAxesHeight = 270.0;  // of a panel
+constexpr double kBelowAxes = 50.0, kRightOfAxes = 16.0, kAboveAxes = 12.0;
+constexpr double kKeyLine = 20.0, kKeyMark = 26.0, kKeyGap = 22.0;
+constexpr double kCurveWidth = 1.6;
 constexpr std::size_t kMostKeys = 12;
-constexpr int kMostTicks = 7;
-constexpr double kChartMargin = 0.06;  // of the range of the logarithm, on either side
+constexpr double kRoom = 0.06;  // of the range (of its logarithm), on either side
+const TextStyle kText{13.0};
+const TextStyle kStrong{13.0, true};
+const TextStyle kHeading{15.0, true};
 
-/// The range of one axis.
-struct Range {
-  AxisScale scale = AxisScale::Logarithmic;
-  double lower = 0.1, upper = 1.0;
+TextStyle anchored(TextStyle style, TextStyle::Anchor anchor) {
+  style.anchor = anchor;
+  return style;
+}
 
-  /// From 0 at the lower end to 1; whatever is outside, or no number of this scale, is on the edge.
-  double share(double value) const {
-    if (!(value > lower)) return 0.0;
-    const bool is_linear = scale == AxisScale::Linear;
-    const double share =
-        is_linear ? (value - lower) / (upper - lower) : std::log(value / lower) / std::log(upper / lower);
-    return std::min(share, 1.0);
-  }
-  bool holds(double value) const { return std::isfinite(value) && (scale == AxisScale::Linear || value > 0.0); }
-  Ticks ticks() const {
-    return scale == AxisScale::Linear ? round_ticks(lower, upper, kMostTicks) : log_ticks(lower, upper, kMostTicks);
-  }
-};
-
-Range range_of(const ChartPanel& panel, double ChartPoint::*coordinate, AxisScale scale) {
-  Range range{scale, std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+AxisRange range_of(const ChartPanel& panel, double ChartPoint::*coordinate, AxisScale scale) {
+  AxisRange range{scale, std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   for (const ChartLine& line : panel.lines) {
     for (const ChartPoint& p : line.points) {
       if (!range.holds(p.*coordinate)) continue;
@@ -47,22 +34,26 @@ Range range_of(const ChartPanel& panel, double ChartPoint::*coordinate, AxisScal
       range.upper = std::max(range.upper, p.*coordinate);
     }
   }
-  if (!(range.lower <= range.upper)) return {scale};
+  if (!(range.lower <= range.upper)) return {scale, 0.1, 1.0};
   if (scale == AxisScale::Linear) {
     const double size = std::max(std::abs(range.lower), std::abs(range.upper));
-    const double room = std::max({kChartMargin * (range.upper - range.lower), 1e-9 * size, 1e-300});
+    const double room = std::max({kRoom * (range.upper - range.lower), 1e-9 * size, 1e-300});
     return {scale, range.lower - room, range.upper + room};
   }
-  const double room = std::max(kChartMargin * std::log(range.upper / range.lower), 0.01);
+  const double room = std::max(kRoom * std::log(range.upper / range.lower), 0.01);
   return {scale, range.lower * std::exp(-room), range.upper * std::exp(room)};
 }
 
+/// The axes of a panel on the sheet.
 struct Axes {
-  int left, top, width;
-  Range x, y;
+  Box box;
+  AxisRange x, y;
+  AxisTicks x_ticks, y_ticks;
+  double widest_y = 0.0;  // label
 
-  int column(double value) const { return left + static_cast<int>(std::lround(width * x.share(value))); }
-  int row(double value) const { return top + kHeight - static_cast<int>(std::lround(kHeight * y.share(value))); }
+  double column(double value) const { return box.left + box.width * x.share(value); }
+  double row(double value) const { return box.bottom() - box.height * y.share(value); }
+  Point place(const ChartPoint& p) const { return {column(p.x), row(p.y)}; }
   /// Where linear axes have no such point, the line is cut.
   bool cut(const ChartPoint& p) const {
     return (x.scale == AxisScale::Linear && !std::isfinite(p.x)) ||
@@ -70,78 +61,95 @@ struct Axes {
   }
 };
 
-void shade_bands(Canvas& canvas, const Axes& axes, const std::vector<ChartBand>& bands) {
+/// The axes in a cell of the sheet, left and top of which are given.
+Axes axes_in(const ChartPanel& panel, double left, double top, double width) {
+  Axes axes;
+  axes.x = range_of(panel, &ChartPoint::x, panel.x_scale);
+  axes.y = range_of(panel, &ChartPoint::y, panel.y_scale);
+  if (panel.y_limits) axes.y.lower = panel.y_limits->lower, axes.y.upper = panel.y_limits->upper;
+  axes.y_ticks = axes.y.ticks(kAxesHeight, AxisDirection::Up, kText);
+  for (const std::string& label : axes.y_ticks.labels) {
+    axes.widest_y = std::max(axes.widest_y, Sheet::text_width(label, kText));
+  }
+  const double before = std::ceil(axes.widest_y + 2.4 * kText.size);
+  const double above = kAboveAxes + (panel.title.empty() ? 0.0 : 1.3 * kStrong.size);
+  axes.box = {left + before, std::ceil(top + above), width - before - kRightOfAxes, kAxesHeight};
+  axes.x_ticks = axes.x.ticks(axes.box.width, AxisDirection::Across, kText);
+  return axes;
+}
+
+void shade_bands(Sheet& sheet, const Axes& axes, const std::vector<ChartBand>& bands) {
   for (const ChartBand& band : bands) {
-    const int from = axes.column(band.from), to = axes.column(band.to), width = to - from;
-    canvas.fill_rectangle(from, axes.top, width, kHeight, band.colour);
+    const double from = axes.column(band.from);
+    sheet.fill({from, axes.box.top, axes.column(band.to) - from, axes.box.height}, band.colour);
   }
 }
 
-void label_bands(Canvas& canvas, const Axes& axes, const std::vector<ChartBand>& bands) {
+/// In two lines where the words do not fit in one; not at all where they do not fit in two.
+void label_bands(Sheet& sheet, const Axes& axes, const std::vector<ChartBand>& bands) {
+  const TextStyle style = anchored({11.0}, TextStyle::Anchor::Middle);
   for (const ChartBand& band : bands) {
-    const int from = axes.column(band.from), room = axes.column(band.to) - from;
-    const int width = Canvas::text_width(band.label, kChartScale);
-    if (width + 8 > room) continue;
-    canvas.text(from + (room - width) / 2, axes.top + 8, band.label, kChartScale, kChartInk);
+    const double from = axes.column(band.from), room = axes.column(band.to) - from - 6.0;
+    const std::vector<std::string> lines = broken_into_lines(band.label, style, std::max(room, 1.0));
+    if (lines.size() > 3 || std::any_of(lines.begin(), lines.end(), [&](const std::string& line) {
+          return Sheet::text_width(line, style) > room || line.size() < 2;
+        })) {
+      continue;
+    }
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      sheet.text({from + 3.0 + 0.5 * room, axes.box.top + (1.3 + 1.25 * static_cast<double>(i)) * style.size}, lines[i],
+                 style);
+    }
   }
 }
 
-void draw_frame(Canvas& canvas, const Axes& axes, const ChartPanel& panel) {
-  const int below = axes.top + kHeight;
-  const Ticks x = axes.x.ticks();
-  for (std::size_t i = 0; i < x.values.size(); ++i) {
-    const int at = axes.column(x.values[i]);
-    canvas.line(at, axes.top, at, below, kGrid);
-    canvas.text(at - Canvas::text_width(x.labels[i], kChartScale) / 2, below + 12, x.labels[i], kChartScale, kChartInk);
+void draw_frame(Sheet& sheet, const Axes& axes, const ChartPanel& panel) {
+  const Box& box = axes.box;
+  const TextStyle middle = anchored(kText, TextStyle::Anchor::Middle),
+                  right = anchored(kText, TextStyle::Anchor::Right);
+  for (std::size_t i = 0; i < axes.x_ticks.values.size(); ++i) {
+    const double at = axes.column(axes.x_ticks.values[i]);
+    sheet.line({at, box.top}, {at, box.bottom()}, {kGridLines, 1.0});
+    sheet.text({at, box.bottom() + 6.0 + 0.75 * kText.size}, axes.x_ticks.labels[i], middle);
   }
-  const Ticks y = axes.y.ticks();
-  for (std::size_t i = 0; i < y.values.size(); ++i) {
-    const int at = axes.row(y.values[i]);
-    canvas.line(axes.left, at, axes.left + axes.width, at, kGrid);
-    canvas.text(axes.left - 10 - Canvas::text_width(y.labels[i], kChartScale),
-                at - Canvas::text_height(kChartScale) / 2, y.labels[i], kChartScale, kChartInk);
+  for (std::size_t i = 0; i < axes.y_ticks.values.size(); ++i) {
+    const double at = axes.row(axes.y_ticks.values[i]);
+    sheet.line({box.left, at}, {box.right(), at}, {kGridLines, 1.0});
+    sheet.text({box.left - 6.0, at + kMiddleToBaseline * kText.size}, axes.y_ticks.labels[i], right);
   }
-  canvas.frame(axes.left, axes.top, axes.width, kHeight, 1, kChartInk);
-  canvas.text(axes.left + (axes.width - Canvas::text_width(panel.x_label, kChartScale)) / 2, below + 42, panel.x_label,
-              kChartScale, kChartInk);
-  canvas.text_upwards(axes.left - kLeft + 16, axes.top + (kHeight + Canvas::text_width(panel.y_label, kChartScale)) / 2,
-                      panel.y_label, kChartScale, kChartInk);
+  sheet.frame(box, 1.0, kInk);
+  sheet.text({box.centre().x, box.bottom() + 12.0 + 2.0 * kText.size}, panel.x_label, middle);
+  TextStyle upwards = middle;
+  upwards.upwards = true;
+  sheet.text({box.left - axes.widest_y - 1.1 * kText.size, box.centre().y}, panel.y_label, upwards);
+  sheet.text({box.left, box.top - 6.0}, panel.title, kStrong);
 }
 
-void draw_point(Canvas& canvas, int x, int y, bool marked, Colour colour) {
-  if (marked) canvas.fill_rectangle(x - 7, y - 7, 15, 15, kChartInk);
-  const int half = marked ? 5 : 3;
-  canvas.fill_rectangle(x - half, y - half, 2 * half + 1, 2 * half + 1, colour);
+void draw_point(Sheet& sheet, Point at, bool marked, Colour colour) {
+  if (marked) sheet.disc(at, 5.5, kInk);
+  sheet.disc(at, marked ? 4.0 : 3.0, colour);
 }
 
-/// Two pixels thick; dashed: ten pixels drawn, ten left out, counted from `along`.
-void draw_stroke(Canvas& canvas, int x0, int y0, int x1, int y1, const ChartLine& line, double& along) {
-  constexpr double kDash = 10.0;
-  const double length = std::hypot(x1 - x0, y1 - y0);
-  const int pieces = line.dashed ? std::max(static_cast<int>(std::ceil(length / 2.0)), 1) : 1;
-  for (int k = 0; k < pieces; ++k) {
-    const double begin = along + length * k / pieces;
-    if (line.dashed && std::fmod(begin, 2.0 * kDash) >= kDash) continue;
-    const auto at = [&](int from, int to, int step) {
-      return from + static_cast<int>(std::lround(static_cast<double>(to - from) * step / pieces));
-    };
-    const int bx = at(x0, x1, k), by = at(y0, y1, k), ex = at(x0, x1, k + 1), ey = at(y0, y1, k + 1);
-    canvas.line(bx, by, ex, ey, line.colour);
-    canvas.line(bx, by + 1, ex, ey + 1, line.colour);
-  }
-  along += length;
-}
-
-void draw_line(Canvas& canvas, const Axes& axes, const ChartLine& line) {
-  double along = 0.0;
-  for (std::size_t k = 1; k < line.points.size(); ++k) {
-    const ChartPoint &p = line.points[k - 1], &q = line.points[k];
-    if (axes.cut(p) || axes.cut(q)) continue;
-    draw_stroke(canvas, axes.column(p.x), axes.row(p.y), axes.column(q.x), axes.row(q.y), line, along);
-  }
+void draw_line(Sheet& sheet, const Axes& axes, const ChartLine& line) {
+  const LineStyle style{line.colour, kCurveWidth, line.dashed};
+  std::vector<Point> joined;
+  const auto finish = [&] {
+    sheet.polyline(joined, style);
+    joined.clear();
+  };
   for (const ChartPoint& p : line.points) {
-    if (axes.cut(p) || !(line.dots || p.marked)) continue;
-    draw_point(canvas, axes.column(p.x), axes.row(p.y), p.marked, line.colour);
+    if (axes.cut(p)) {
+      finish();
+      continue;
+    }
+    const Point at = axes.place(p);
+    if (line.steps && !joined.empty()) joined.push_back({at.x, joined.back().y});
+    joined.push_back(at);
+  }
+  finish();
+  for (const ChartPoint& p : line.points) {
+    if (axes.cut(p) || !(line.dots || p.marked || line.points.size() == 1)) continue;
+    draw_point(sheet, axes.place(p), p.marked, line.colour);
   }
 }
 
@@ -160,72 +168,79 @@ std::vector<const ChartLine*> keys_of(const std::vector<ChartPanel>& panels) {
   return keys;
 }
 
-void draw_key(Canvas& canvas, const std::vector<const ChartLine*>& keys, const std::string& mark, int top, int columns,
-              int column_width) {
-  const std::size_t entries = keys.size() + (mark.empty() ? 0 : 1);
-  for (std::size_t k = 0; k < entries; ++k) {
-    const int x = kLeft + static_cast<int>(k) % columns * column_width;
-    const int y = top + static_cast<int>(k) / columns * kKeyLine;
-    if (k == keys.size()) {
-      draw_point(canvas, x, y + 7, true, kChartPaper);
-    } else if (keys[k]->dashed) {
-      canvas.fill_rectangle(x - 12, y + 5, 10, 4, keys[k]->colour);
-      canvas.fill_rectangle(x + 2, y + 5, 10, 4, keys[k]->colour);
+/// One entry of the key: a line, or what a marked point is.
+struct KeyEntry {
+  const ChartLine* line = nullptr;
+  std::string label;
+  Point at;
+};
+
+/// Entries in columns of equal width from the top left corner on, as many as have room; returns their height.
+double place_key(std::vector<KeyEntry>& entries, Point corner, double room) {
+  double widest = 1.0;
+  for (const KeyEntry& e : entries) widest = std::max(widest, kKeyMark + Sheet::text_width(e.label, kText) + kKeyGap);
+  const auto columns = static_cast<std::size_t>(std::max(1.0, std::floor((room + kKeyGap) / widest)));
+  for (std::size_t k = 0; k < entries.size(); ++k) {
+    entries[k].at = {corner.x + static_cast<double>(k % columns) * widest,
+                     corner.y + static_cast<double>(k / columns) * kKeyLine};
+  }
+  return static_cast<double>((entries.size() + columns - 1) / columns) * kKeyLine;
+}
+
+void draw_key(Sheet& sheet, const std::vector<KeyEntry>& entries) {
+  for (const KeyEntry& e : entries) {
+    const double middle = e.at.y + 0.5 * kKeyLine;
+    if (e.line == nullptr) {
+      draw_point(sheet, {e.at.x + 9.0, middle}, true, kPaper);
     } else {
-      canvas.fill_rectangle(x - 12, y + 5, 24, 4, keys[k]->colour);
+      sheet.line({e.at.x, middle}, {e.at.x + 18.0, middle}, {e.line->colour, 2.5, e.line->dashed});
     }
-    canvas.text(x + 22, y, k == keys.size() ? mark : keys[k]->label, kChartScale, kChartInk);
+    sheet.text({e.at.x + kKeyMark, middle + kMiddleToBaseline * kText.size}, e.label, kText);
   }
 }
 
-bool is_decade_multiple(int mantissa) { return mantissa == 1 || mantissa == 2 || mantissa == 5; }
+std::vector<KeyEntry> entries_of(const std::vector<ChartPanel>& panels, const std::string& mark) {
+  std::vector<KeyEntry> entries;
+  for (const ChartLine* line : keys_of(panels)) entries.push_back({line, line->label, {}});
+  if (!mark.empty()) entries.push_back({nullptr, mark, {}});
+  return entries;
+}
 
 }  // namespace
 
-Ticks log_ticks(double lower, double upper, int most) {
-  if (!(0.0 < lower && lower < upper && std::isfinite(upper)) || most < 3) {
-    throw std::invalid_argument(fmt::format("logarithmic ticks of [{}, {}], at most {}", lower, upper, most));
-  }
-  Ticks fine, decades;
-  const int first = static_cast<int>(std::floor(std::log10(lower))), last = static_cast<int>(std::log10(upper)) + 1;
-  for (int exponent = first; exponent <= last; ++exponent) {
-    for (int mantissa = 1; mantissa < 10; ++mantissa) {
-      const double value = mantissa * std::pow(10.0, exponent);
-      if (!is_decade_multiple(mantissa) || value < lower || value > upper) continue;
-      for (Ticks* ticks : {&fine, &decades}) {
-        if (ticks == &decades && mantissa != 1) continue;
-        ticks->values.push_back(value);
-        ticks->labels.push_back(fmt::format("{:.6g}", value));
-      }
+std::string draw_line_charts(const std::string& title, const std::string& mark, const std::vector<ChartPanel>& panels,
+                             FigureFormat format) {
+  const double inner = kWidestSheet - 2.0 * kRim;
+  const std::vector<std::string> heading = broken_into_lines(title, kHeading, inner);
+  double top = kRim + 1.35 * kHeading.size * static_cast<double>(heading.size());
+  const std::size_t columns = panels.size() > 1 ? 2 : 1;
+  const double cell = inner / static_cast<double>(columns);
+  std::vector<Axes> axes;
+  for (std::size_t first = 0; first < panels.size(); first += columns) {
+    double bottom = top;
+    for (std::size_t k = first; k < std::min(first + columns, panels.size()); ++k) {
+      axes.push_back(axes_in(panels[k], kRim + static_cast<double>(k - first) * cell, top, cell));
+      bottom = std::max(bottom, axes.back().box.bottom() + kBelowAxes);
     }
+    top = bottom;
   }
-  if (fine.values.size() < 3) return round_ticks(lower, upper, most);
-  return fine.values.size() <= static_cast<std::size_t>(most) ? fine : decades;
-}
-
-std::string draw_line_charts(const std::string& title, const std::string& mark, const std::vector<ChartPanel>& panels) {
-  const std::vector<const ChartLine*> keys = keys_of(panels);
-  int panels_width = 0, key_width = kKeyWidth;
-  for (const ChartPanel& panel : panels) panels_width += kLeft + panel.width + kRight;
-  for (const ChartLine* key : keys) key_width = std::max(key_width, 60 + Canvas::text_width(key->label, kChartScale));
-  const int width = std::max({panels_width, kLeft + (panels_width > 0 ? 1 : kKeyColumns) * key_width,
-                              2 * kRight + Canvas::text_width(title, kChartScale)});
-  const int columns = std::max((width - kLeft) / key_width, 1);
-  const int entries = static_cast<int>(keys.size()) + (mark.empty() ? 0 : 1), key_top = kTop + kHeight + kBottom + 10;
-  Canvas canvas(width, key_top + (entries + columns - 1) / columns * kKeyLine + 16, kChartPaper);
-  canvas.text(kRight, 20, title, kChartScale, kChartInk);
-  int left = 0;
-  for (const ChartPanel& panel : panels) {
-    const Axes axes{left + kLeft, kTop, panel.width, range_of(panel, &ChartPoint::x, panel.x_scale),
-                    range_of(panel, &ChartPoint::y, panel.y_scale)};
-    shade_bands(canvas, axes, panel.bands);
-    draw_frame(canvas, axes, panel);
-    for (const ChartLine& line : panel.lines) draw_line(canvas, axes, line);
-    label_bands(canvas, axes, panel.bands);
-    left += kLeft + panel.width + kRight;
+  std::vector<KeyEntry> key = entries_of(panels, mark);
+  const double key_left = axes.empty() ? kRim : axes.front().box.left;
+  const double key_height = place_key(key, {key_left, top}, kWidestSheet - kRim - key_left);
+  Sheet sheet(format, kWidestSheet, std::ceil(top + key_height + kRim));
+  for (std::size_t i = 0; i < heading.size(); ++i) {
+    sheet.text({kRim, kRim + (1.0 + 1.35 * static_cast<double>(i)) * kHeading.size}, heading[i], kHeading);
   }
-  draw_key(canvas, keys, mark, key_top, columns, key_width);
-  return canvas.png();
+  for (std::size_t k = 0; k < panels.size(); ++k) {
+    shade_bands(sheet, axes[k], panels[k].bands);
+    draw_frame(sheet, axes[k], panels[k]);
+    sheet.clip({axes[k].box.left - 6.0, axes[k].box.top - 6.0, axes[k].box.width + 12.0, axes[k].box.height + 12.0});
+    for (const ChartLine& line : panels[k].lines) draw_line(sheet, axes[k], line);
+    sheet.unclip();
+    label_bands(sheet, axes[k], panels[k].bands);
+  }
+  draw_key(sheet, key);
+  return sheet.bytes();
 }
 
 }  // namespace dwell

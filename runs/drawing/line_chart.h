@@ -1,14 +1,14 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "runs/drawing/canvas.h"
-#include "runs/drawing/ticks.h"
+#include "runs/drawing/axis.h"
+#include "runs/drawing/colour.h"
+#include "runs/drawing/figure_format.h"
 
 namespace dwell {
-
-enum class AxisScale { Logarithmic, Linear };
 
 struct ChartPoint {
   double x = 0.0;
@@ -20,8 +20,9 @@ struct ChartLine {
   std::string label;
   Colour colour;
   std::vector<ChartPoint> points;  // joined in this order
-  bool dots = true;                // a square at every point
+  bool dots = true;                // a disc at every point
   bool dashed = false;
+  bool steps = false;  // from point to point first to the right, then up or down
 };
 
 /// A shaded range of x, labelled at the top.
@@ -31,23 +32,25 @@ struct ChartBand {
   Colour colour;
 };
 
+/// What an axis is to show instead of what its lines need.
+struct ChartLimits {
+  double lower = 0.0, upper = 1.0;
+};
+
 struct ChartPanel {
   std::string x_label, y_label;  // with units
   std::vector<ChartLine> lines;
   AxisScale x_scale = AxisScale::Logarithmic, y_scale = AxisScale::Logarithmic;
   std::vector<ChartBand> bands{};
-  int width = 560;  // of the axes [pixels]
+  std::string title{};  // above the panel
+  std::optional<ChartLimits> y_limits{};
 };
 
-/// Curves side by side as a PNG file, a panel each. The key below holds the different labels of all lines, where not
+/// Curves as a figure, a panel each, two side by side. The key below holds the different labels of all lines, where not
 /// empty (of many, a dozen, first and last among them); `mark` says what a marked point is (empty: not in the key). On
 /// a logarithmic axis, values that are not positive lie on the edge of the panel; on a linear one, a line is cut where
-/// a value is not finite. ASCII.
-std::string draw_line_charts(const std::string& title, const std::string& mark, const std::vector<ChartPanel>& panels);
-
-/// Ticks of a logarithmic axis: 1, 2, 5 times powers of ten, powers of ten alone where these are more than `most`, or
-/// round_ticks where the range is too narrow for three of them. Throws std::invalid_argument unless 0 < lower < upper,
-/// both finite, and most >= 3.
-Ticks log_ticks(double lower, double upper, int most);
+/// a value is not finite.
+std::string draw_line_charts(const std::string& title, const std::string& mark, const std::vector<ChartPanel>& panels,
+                             FigureFormat format = FigureFormat::Png);
 
 }  // namespace dwell

@@ -5,49 +5,65 @@
 #include <limits>
 #include <vector>
 
+#include "runs/drawing/map_figure.h"
 #include "runs/drawing/picture.h"
-#include "runs/drawing/plot.h"
 
 namespace dwell {
 namespace {
 
 constexpr Colour kTrack{24, 24, 24}, kLifted{220, 30, 30}, kStart{20, 150, 60}, kEnd{220, 30, 30};
 constexpr double kTracksInDetail = 40.0;
+constexpr double kLineWidth = 1.0;     // [units]
+constexpr std::size_t kChunk = 65536;  // points between two looks at the progress handle
 
 struct Window {
   double left, right, bottom, top;  // [mm]
 
   double width() const { return right - left; }
   double height() const { return top - bottom; }
+  /// Whether the segment may cross the window: false only if it lies wholly on one side of it.
+  bool may_see(Point a, Point b) const {
+    return std::max(a.x, b.x) >= left && std::min(a.x, b.x) <= right && std::max(a.y, b.y) >= bottom &&
+           std::min(a.y, b.y) <= top;
+  }
+  bool holds(Point p) const { return may_see(p, p); }
 };
 
-Window window_of(const HeightMap& map, const ToolPath& path) {
+Window window_of(const HeightMap& map, const ToolPath& path, const Progress& progress) {
   const Grid& g = map.grid;
   Window w{g.origin.x - 0.5 * g.pitch_x, 0.0, g.origin.y - 0.5 * g.pitch_y, 0.0};
   w.right = w.left + g.width();
   w.top = w.bottom + g.height();
-  for (const Point p : path.points) {
+  for (std::size_t j = 0; j < path.size(); ++j) {
+    if (j % kChunk == 0) progress.check();
+    const Point p = path.points[j];
     w = {std::min(w.left, p.x), std::max(w.right, p.x), std::min(w.bottom, p.y), std::max(w.top, p.y)};
   }
-  return w;
+  const double rim = 0.01 * std::max(w.width(), w.height());  // for the squares at both ends
+  return {w.left - rim, w.right + rim, w.bottom - rim, w.top + rim};
 }
 
 /// Distance between neighbouring tracks of a path that covers its area evenly [mm].
-double track_distance(const HeightMap& map, const std::vector<Stroke>& strokes) {
+double track_distance(const HeightMap& map, const ToolPath& path, const Progress& progress) {
   double length = 0.0;
-  for (const Stroke& s : strokes) length += s.length();
+  for (std::size_t j = 1; j < path.size(); ++j) {
+    if (j % kChunk == 0) progress.check();
+    if (!path.lifted[j]) length += distance(path.points[j - 1], path.points[j]);
+  }
   const double area = static_cast<double>(map.valid_pixels()) * map.grid.pitch_x * map.grid.pitch_y;
-  return length > 0.0 ? area / length : std::sqrt(area / static_cast<double>(strokes.size()));
+  return length > 0.0 ? area / length : std::sqrt(area / static_cast<double>(path.size()));
 }
 
-PlotField field_in(const HeightMap& map, const Window& w) {
-  const double scale = kPlotEdge / std::max(w.width(), w.height());
+PlotField field_in(const HeightMap& map, const Window& w, const Progress& progress) {
+  const double edge = field_edges(1).square;
+  const double scale = edge / std::max(w.width(), w.height());
   PlotField field;
   field.cols = std::max(8, static_cast<int>(std::lround(w.width() * scale)));
   field.rows = std::max(8, static_cast<int>(std::lround(w.height() * scale)));
   field.left = w.left, field.right = w.right, field.bottom = w.bottom, field.top = w.top;
   const Grid& g = map.grid;
   for (int r = 0; r < field.rows; ++r) {
+    progress.check();
     const double row = std::round((w.bottom + w.height() * (r + 0.5) / field.rows - g.origin.y) / g.pitch_y);
     for (int c = 0; c < field.cols; ++c) {
       const double col = std::round((w.left + w.width() * (c + 0.5) / field.cols - g.origin.x) / g.pitch_x);
@@ -60,95 +76,134 @@ PlotField field_in(const HeightMap& map, const Window& w) {
   return field;
 }
 
-/// Draws what of the lines of a path lies in the window.
+/// What of a path crosses a window, with some points on either side, so that strokes are those of the whole path.
+struct VisiblePath {
+  ToolPath path;                // cut where points were left out
+  std::vector<char> by_lifted;  // whether the move that arrives at a point is a lifted one of the whole path
+};
+
+VisiblePath visible_path(const ToolPath& path, const Window& window, const Progress& progress) {
+  constexpr std::size_t kBeyond = 3;
+  std::vector<char> kept(path.size(), 0);
+  for (std::size_t j = 0; j < path.size(); ++j) {
+    if (j % kChunk == 0) progress.check();
+    if (!window.may_see(path.points[j > 0 ? j - 1 : 0], path.points[j])) continue;
+    const std::size_t first = j > kBeyond ? j - kBeyond : 0, last = std::min(j + kBeyond, path.size() - 1);
+    std::fill(kept.begin() + static_cast<std::ptrdiff_t>(first), kept.begin() + static_cast<std::ptrdiff_t>(last + 1),
+              char{1});
+  }
+  VisiblePath visible;
+  for (std::size_t j = 0; j < path.size(); ++j) {
+    if (!kept[j]) continue;
+    const bool joined = j > 0 && kept[j - 1] != 0;
+    visible.path.points.push_back(path.points[j]);
+    visible.path.lifted.push_back(!joined || path.lifted[j] ? 1 : 0);
+    visible.by_lifted.push_back(joined && path.lifted[j] ? 1 : 0);
+  }
+  return visible;
+}
+
+/// Draws lines of the part on the field that shows a window of it.
 class Pen {
  public:
-  Pen(Plot& plot, const Window& window) : plot_(plot), window_(window) {}
+  Pen(Sheet& sheet, const Box& place, const Window& window) : sheet_(sheet), place_(place), window_(window) {}
 
-  void line(Point a, Point b, Colour colour) {
-    // Liang and Barsky: the part of the segment between the four sides.
-    double from = 0.0, to = 1.0;
-    const Point d = b - a;
-    clip(d.x, window_.right - a.x, from, to);
-    clip(-d.x, a.x - window_.left, from, to);
-    clip(d.y, window_.top - a.y, from, to);
-    clip(-d.y, a.y - window_.bottom, from, to);
-    if (!(from <= to)) return;
-    const Point p = a + from * d, q = a + to * d;
-    plot_.canvas.line(column(p), row(p), column(q), row(q), colour);
+  void move_to(Point p) {
+    finish();
+    line_ = {on_sheet(p)};
   }
-
+  /// Ends closer than a quarter of a pixel to the last one are passed over: nobody sees them.
+  void line_to(Point p) {
+    constexpr double kUnseen = 0.25 / kPixelsPerUnit;
+    const Point q = on_sheet(p);
+    if (distance(q, line_.back()) >= kUnseen) line_.push_back(q);
+    // Long lines are drawn in parts: joined in one, each crossing would be searched for.
+    if (line_.size() < 512) return;
+    finish();
+    line_ = {q};
+  }
+  void finish() {
+    sheet_.polyline(line_, {kTrack, kLineWidth});
+    line_.clear();
+  }
+  void lifted(Point a, Point b) { sheet_.line(on_sheet(a), on_sheet(b), {kLifted, kLineWidth}); }
   void square(Point p, Colour colour) {
-    if (p.x < window_.left || p.x > window_.right || p.y < window_.bottom || p.y > window_.top) return;
-    plot_.canvas.fill_rectangle(column(p) - 5, row(p) - 5, 11, 11, {255, 255, 255});
-    plot_.canvas.fill_rectangle(column(p) - 4, row(p) - 4, 9, 9, colour);
+    if (!window_.holds(p)) return;
+    const Point at = on_sheet(p);
+    sheet_.fill({at.x - 4.0, at.y - 4.0, 8.0, 8.0}, kPaper);
+    sheet_.fill({at.x - 3.0, at.y - 3.0, 6.0, 6.0}, colour);
   }
 
  private:
-  /// Keeps the parameters for which along * s <= room.
-  static void clip(double along, double room, double& from, double& to) {
-    if (along > 0.0) {
-      to = std::min(to, room / along);
-    } else if (along < 0.0) {
-      from = std::max(from, room / along);
-    } else if (room < 0.0) {
-      to = -1.0;
-    }
-  }
-  int column(Point p) const {
-    const double share = (p.x - window_.left) / window_.width();
-    return plot_.place.left + std::min(static_cast<int>(share * plot_.place.width), plot_.place.width - 1);
-  }
-  int row(Point p) const {
-    const double share = (window_.top - p.y) / window_.height();
-    return plot_.place.top + std::min(static_cast<int>(share * plot_.place.height), plot_.place.height - 1);
+  /// Far outside of the window, coordinates are cut: Cairo computes with 24 bits before the point.
+  Point on_sheet(Point p) const {
+    const double x = std::clamp((p.x - window_.left) / window_.width(), -50.0, 50.0);
+    const double y = std::clamp((window_.top - p.y) / window_.height(), -50.0, 50.0);
+    return {place_.left + x * place_.width, place_.top + y * place_.height};
   }
 
-  Plot& plot_;
+  Sheet& sheet_;
+  const Box& place_;
   const Window& window_;
+  std::vector<Point> line_;
 };
 
-std::string drawn(const HeightMap& map, const ToolPath& path, const std::vector<Stroke>& strokes, const Window& window,
-                  const std::string& title) {
-  Plot plot = draw_plot(field_in(map, window), ColourMap::Diverging, colour_limits(map.values, ColourMap::Diverging),
-                        title, "nm");
-  Pen pen(plot, window);
+void draw_path(Pen& pen, const VisiblePath& visible, const Progress& progress) {
+  const std::vector<Stroke> strokes = moving_strokes(visible.path);
   for (std::size_t j = 0; j < strokes.size(); ++j) {
+    if (j % kChunk == 0) progress.check();
     const Stroke& s = strokes[j];
-    pen.line(s.start, s.via, kTrack);
-    pen.line(s.via, s.finish, kTrack);
-    if (j > 0 && path.lifted[j]) pen.line(strokes[j - 1].finish, s.start, kLifted);
+    if (visible.path.lifted[j] || j == 0) pen.move_to(s.start);
+    pen.line_to(s.via);
+    pen.line_to(s.finish);
   }
-  pen.square(path.points.front(), kStart);
-  pen.square(path.points.back(), kEnd);
-  return plot.canvas.png();
+  pen.finish();
+  for (std::size_t j = 1; j < strokes.size(); ++j) {
+    if (visible.by_lifted[j]) pen.lifted(strokes[j - 1].finish, strokes[j].start);
+  }
+}
+
+std::string drawn(const HeightMap& map, const ToolPath& path, const Window& window, const std::string& title,
+                  FigureFormat format, const Progress& progress) {
+  const VisiblePath visible = visible_path(path, window, progress);
+  MapPanel panel{field_in(map, window, progress), ColourMap::Diverging, colour_limits(map.values, ColourMap::Diverging),
+                 "", "nm"};
+  panel.over = [&](Sheet& sheet, const Box& place) {
+    Pen pen(sheet, place, window);
+    draw_path(pen, visible, progress);
+    pen.square(path.points.front(), kStart);
+    pen.square(path.points.back(), kEnd);
+  };
+  return draw_maps(title, {std::move(panel)}, format).bytes;
 }
 
 }  // namespace
 
-std::string path_picture(const HeightMap& map, const ToolPath& path, const std::string& title) {
+std::string path_picture(const HeightMap& map, const ToolPath& path, const std::string& title, FigureFormat format,
+                         const Progress& progress) {
   validate(path);
-  const Window window = window_of(map, path);
-  const std::vector<Stroke> strokes = moving_strokes(path);
-  const double pixels = track_distance(map, strokes) * kPlotEdge / std::max(window.width(), window.height());
-  if (pixels >= kClearTrack) return drawn(map, path, strokes, window, title);
+  const Window window = window_of(map, path, progress);
+  const double pixels =
+      track_distance(map, path, progress) * field_edges(1).square / std::max(window.width(), window.height());
+  if (pixels >= kClearTrack) return drawn(map, path, window, title, format, progress);
   std::vector<double> order(path.size());
   for (std::size_t j = 0; j < order.size(); ++j) {
+    if (j % kChunk == 0) progress.check();
     order[j] = 100.0 * static_cast<double>(j + 1) / static_cast<double>(order.size());
   }
-  return dwell_picture(path, order, {title + ", colour: place in the order", "%", false, {}, {}});
+  return dwell_picture(path, order, {title + ", colour: place in the order", "%", false, {}, {}}, format, progress);
 }
 
-std::string path_detail_picture(const HeightMap& map, const ToolPath& path, const std::string& title) {
+std::string path_detail_picture(const HeightMap& map, const ToolPath& path, const std::string& title,
+                                FigureFormat format, const Progress& progress) {
   validate(path);
-  const Window whole = window_of(map, path);
-  const std::vector<Stroke> strokes = moving_strokes(path);
+  const Window whole = window_of(map, path, progress);
   const double half =
-      0.5 * std::min(kTracksInDetail * track_distance(map, strokes), std::max(whole.width(), whole.height()));
+      0.5 * std::min(kTracksInDetail * track_distance(map, path, progress), std::max(whole.width(), whole.height()));
   const Point middle{0.5 * (whole.left + whole.right), 0.5 * (whole.bottom + whole.top)};
   const Window window{std::max(whole.left, middle.x - half), std::min(whole.right, middle.x + half),
                       std::max(whole.bottom, middle.y - half), std::min(whole.top, middle.y + half)};
-  return drawn(map, path, strokes, window, title);
+  return drawn(map, path, window, title, format, progress);
 }
 
 }  // namespace dwell

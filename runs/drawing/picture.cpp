@@ -1,27 +1,46 @@
 #include "runs/drawing/picture.h"
 
 #include "runs/drawing/colour_map.h"
-#include "runs/drawing/plot.h"
+#include "runs/drawing/map_figure.h"
 #include "runs/drawing/plot_field.h"
 
 namespace dwell {
 namespace {
 
-std::string picture(const PlotField& field, const std::vector<double>& values, const PictureOptions& options,
-                    const std::string& unit) {
+std::string picture(PlotField field, const std::vector<double>& values, const PictureOptions& options,
+                    const std::string& unit, FigureFormat format, const Progress& progress) {
+  progress.check();
   const ColourMap map = options.diverging ? ColourMap::Diverging : ColourMap::Sequential;
   const ColourLimits limits = colour_limits(values, map, options.lower, options.upper);
-  return draw_plot(field, map, limits, options.title, unit).canvas.png();
+  progress.check();
+  return draw_maps(options.title, {{std::move(field), map, limits, "", unit}}, format).bytes;
 }
 
 }  // namespace
 
-std::string map_picture(const HeightMap& map, const PictureOptions& options) {
-  return picture(field_of_map(map), map.values, options, options.unit);
+std::string map_picture(const HeightMap& map, const PictureOptions& options, FigureFormat format,
+                        const Progress& progress) {
+  return picture(field_of_map(map, field_edges(1), progress), map.values, options, options.unit, format, progress);
 }
 
-std::string dwell_picture(const ToolPath& path, const std::vector<double>& dwell, const PictureOptions& options) {
-  return picture(field_of_dwell(path, dwell), dwell, options, options.unit.empty() ? "s" : options.unit);
+std::string after_picture(const HeightMap& before, const HeightMap& after, FigureRange range, const std::string& title,
+                          FigureFormat format, const Progress& progress) {
+  if (range == FigureRange::Own) return map_picture(after, {title, "nm", true, {}, {}}, format, progress);
+  const PlotField field = field_of_map(after, field_edges(2), progress);
+  const ColourLimits shared = same_limits(colour_limits(before.values, ColourMap::Diverging), after.values);
+  progress.check();
+  const ColourLimits own = colour_limits(after.values, ColourMap::Diverging);
+  return draw_maps(title,
+                   {{field, ColourMap::Diverging, shared, "on the range of before", "nm"},
+                    {field, ColourMap::Diverging, own, "on its own range", "nm"}},
+                   format)
+      .bytes;
+}
+
+std::string dwell_picture(const ToolPath& path, const std::vector<double>& dwell, const PictureOptions& options,
+                          FigureFormat format, const Progress& progress) {
+  return picture(field_of_dwell(path, dwell, field_edges(1), progress), dwell, options,
+                 options.unit.empty() ? "s" : options.unit, format, progress);
 }
 
 }  // namespace dwell

@@ -32,36 +32,76 @@ std::vector<Span> share(Index count, int size) {
   return spans;
 }
 
-double finite_mean(const HeightMap& map, Span rows, Span cols) {
+// What of the blocks of one row of the figure is needed.
+struct Block {
   double sum = 0.0;
+  double least = std::numeric_limits<double>::infinity();
+  double most = -std::numeric_limits<double>::infinity();
   Index count = 0;
+
+  void take(double v) {
+    if (!std::isfinite(v)) return;
+    sum += v;
+    least = std::min(least, v);
+    most = std::max(most, v);
+    ++count;
+  }
+  double mean() const { return count > 0 ? sum / static_cast<double>(count) : kNothing; }
+  double farthest() const { return most - mean() >= mean() - least ? most : least; }
+
+  static constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+};
+
+// Rows of the map are read in their order, each once for every row of the figure that shows it.
+std::vector<Block> blocks_of(const HeightMap& map, Span rows, const std::vector<Span>& across) {
+  std::vector<Block> blocks(across.size());
   for (Index r = rows.first; r < rows.last; ++r) {
-    for (Index c = cols.first; c < cols.last; ++c) {
-      const double v = map.at(r, c);
-      if (!std::isfinite(v)) continue;
-      sum += v;
-      ++count;
+    for (std::size_t c = 0; c < across.size(); ++c) {
+      for (Index k = across[c].first; k < across[c].last; ++k) blocks[c].take(map.at(r, k));
     }
   }
-  return count > 0 ? sum / static_cast<double>(count) : std::numeric_limits<double>::quiet_NaN();
+  return blocks;
 }
 
-// Picture pixels per mm.
-double picture_scale(const Grid& grid) {
+double median(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// Shows the farthest height of a block instead of its mean, where that stands out.
+void keep_peaks(PlotField& field, const std::vector<double>& farthest) {
+  std::vector<double> distances;
+  double lower = std::numeric_limits<double>::infinity(), upper = -lower;
+  for (std::size_t i = 0; i < farthest.size(); ++i) {
+    const double mean = field.values[i];
+    if (std::isnan(mean)) continue;
+    lower = std::min(lower, mean);
+    upper = std::max(upper, mean);
+    distances.push_back(std::abs(farthest[i] - mean));
+  }
+  const double least = std::max(kPeakOverTypical * median(std::move(distances)), kPeakOverSpan * (upper - lower));
+  for (std::size_t i = 0; i < farthest.size(); ++i) {
+    if (std::abs(farthest[i] - field.values[i]) > least) field.values[i] = farthest[i];
+  }
+}
+
+// Pixels of the figure per mm.
+double figure_scale(const Grid& grid, const FieldEdges& edges) {
   const double fine = std::min(grid.pitch_x, grid.pitch_y);
   const double longer = std::max(grid.width(), grid.height());
   const double shorter = std::min(grid.width(), grid.height());
-  const double edge = longer / fine;
-  const double target = longer >= kLongAspect * shorter ? kLongPlotEdge : kPlotEdge;
-  if (edge <= kLongPlotEdge) return std::max(1.0, std::floor(target / edge)) / fine;
-  return 1.0 / (std::ceil(edge / kLongPlotEdge) * fine);
+  const double target = longer >= kLongAspect * shorter ? edges.longest : edges.square;
+  const double enlarged = target * fine / longer;
+  return (enlarged >= 1.0 ? std::floor(enlarged) : enlarged) / fine;
 }
 
 }  // namespace
 
-PlotField field_of_map(const HeightMap& map) {
+PlotField field_of_map(const HeightMap& map, const FieldEdges& edges, const Progress& progress) {
   const Grid& g = map.grid;
-  const double scale = picture_scale(g);
+  const double scale = figure_scale(g, edges);
   PlotField field;
   field.cols = std::max(kThinnestEdge, static_cast<int>(std::lround(g.width() * scale)));
   field.rows = std::max(kThinnestEdge, static_cast<int>(std::lround(g.height() * scale)));
@@ -69,15 +109,20 @@ PlotField field_of_map(const HeightMap& map) {
   field.right = field.left + g.width();
   field.bottom = g.origin.y - 0.5 * g.pitch_y;
   field.top = field.bottom + g.height();
-  field.values.resize(static_cast<std::size_t>(field.cols) * static_cast<std::size_t>(field.rows));
+  const std::size_t pixels = static_cast<std::size_t>(field.cols) * static_cast<std::size_t>(field.rows);
+  field.values.reserve(pixels);
+  std::vector<double> farthest;
+  farthest.reserve(pixels);
 
-  const std::vector<Span> across = share(g.cols, field.cols);
-  const std::vector<Span> up = share(g.rows, field.rows);
-  for (int r = 0; r < field.rows; ++r) {
-    for (int c = 0; c < field.cols; ++c) {
-      field.at(r, c) = finite_mean(map, up[static_cast<std::size_t>(r)], across[static_cast<std::size_t>(c)]);
+  const std::vector<Span> across = share(g.cols, field.cols), up = share(g.rows, field.rows);
+  for (const Span& rows : up) {
+    progress.check();
+    for (const Block& block : blocks_of(map, rows, across)) {
+      field.values.push_back(block.mean());
+      farthest.push_back(block.farthest());
     }
   }
+  keep_peaks(field, farthest);
   return field;
 }
 

@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "core/base/errors.h"
-#include "core/base/numbers.h"
 #include "runs/drawing/plot_field.h"
 
 namespace dwell {
@@ -15,6 +14,8 @@ namespace {
 
 constexpr double kWidestSquare = 400.0;  // pixels; also the square of a point alone, which is drawn 1 mm wide
 constexpr double kOverlap = 1.75;        // side of a square over its spacing: closes the gaps of uneven paths
+constexpr std::size_t kPointsBetweenChecks = 1000000;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // The dwell points that fall on one pixel.
 struct Seed {
@@ -24,13 +25,13 @@ struct Seed {
   double spacing = 0.0;  // to the neighbours [pixels]
 };
 
-struct Box {
+struct Extent {
   Point low{kInfinity, kInfinity};
   Point high{-kInfinity, -kInfinity};
 };
 
-Box bounding_box(const ToolPath& path) {
-  Box box;
+Extent bounding_box(const ToolPath& path) {
+  Extent box;
   for (const Point p : path.points) {
     box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
     box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
@@ -38,22 +39,23 @@ Box bounding_box(const ToolPath& path) {
   return box;
 }
 
-// Pixels per mm such that the box and half a spacing around it have about the edge of a plot.
-double picture_scale(const Box& box, std::size_t points) {
+// Pixels of the figure per mm such that the box and half a spacing around it have about the edge of a plot.
+double dwell_scale(const Extent& box, std::size_t points, const FieldEdges& edges) {
   const Point size = box.high - box.low;
   const double longer = std::max(size.x, size.y);
   const double shorter = std::min(size.x, size.y);
   if (!(longer > 0.0)) return kWidestSquare;
-  const double target = longer >= kLongAspect * shorter ? kLongPlotEdge : kPlotEdge;
+  const double target = longer >= kLongAspect * shorter ? edges.longest : edges.square;
   const double intervals = std::max(1.0, std::sqrt(static_cast<double>(points)) - 1.0);
   return target / (longer * (1.0 + 1.0 / intervals));
 }
 
-std::vector<Seed> seeds_of(const ToolPath& path, const std::vector<double>& dwell, const Box& box, double scale,
-                           int cols, int rows) {
+std::vector<Seed> seeds_of(const ToolPath& path, const std::vector<double>& dwell, const Extent& box, double scale,
+                           int cols, int rows, const Progress& progress) {
   std::vector<double> sum(static_cast<std::size_t>(cols) * static_cast<std::size_t>(rows), 0.0);
   std::vector<int> count(sum.size(), 0);
   for (std::size_t j = 0; j < path.size(); ++j) {
+    if (j % kPointsBetweenChecks == 0) progress.check();
     if (!std::isfinite(dwell[j])) continue;
     const auto col = std::lround((path.points[j].x - box.low.x) * scale);
     const auto row = std::lround((path.points[j].y - box.low.y) * scale);
@@ -189,20 +191,23 @@ void paint(const std::vector<Seed>& seeds, int margin, PlotField& field) {
 
 }  // namespace
 
-PlotField field_of_dwell(const ToolPath& path, const std::vector<double>& dwell) {
+PlotField field_of_dwell(const ToolPath& path, const std::vector<double>& dwell, const FieldEdges& edges,
+                         const Progress& progress) {
   validate(path);
   if (dwell.size() != path.size()) {
     throw InputError(
         fmt::format("{} dwell times for a path of {} points; one each required", dwell.size(), path.size()));
   }
-  const Box box = bounding_box(path);
-  const double scale = picture_scale(box, path.size());
+  const Extent box = bounding_box(path);
+  const double scale = dwell_scale(box, path.size(), edges);
   const int cols = static_cast<int>(std::lround((box.high.x - box.low.x) * scale)) + 1;
   const int rows = static_cast<int>(std::lround((box.high.y - box.low.y) * scale)) + 1;
-  std::vector<Seed> seeds = seeds_of(path, dwell, box, scale, cols, rows);
+  std::vector<Seed> seeds = seeds_of(path, dwell, box, scale, cols, rows, progress);
+  progress.check();
   const double spacing = seeds.empty() ? kWidestSquare : set_spacings(seeds, cols, rows);
   const int margin = static_cast<int>(0.5 * spacing) + 1;
 
+  progress.check();
   PlotField field;
   field.cols = cols + 2 * margin;
   field.rows = rows + 2 * margin;

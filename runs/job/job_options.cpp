@@ -12,6 +12,7 @@
 #include "core/motion/motion.h"
 #include "core/tif/removal_orientation.h"
 #include "paths/path_spec.h"
+#include "runs/drawing/figure_format.h"
 #include "runs/job/place_option.h"
 #include "runs/map_steps/map_steps.h"
 #include "runs/programs/gcode_dialect.h"
@@ -164,6 +165,14 @@ std::vector<JobOptionRecord> make_table() {
       {"lift-height", "lift_height_mm", "MM", "Z of lifted moves in program.nc in mm", false, true,
        [](Options& o, const std::string& t) { o.lift_height_mm = positive(t); },
        [](const Options& o) { return shown(o.lift_height_mm); }},
+      {"figures", "figures", "FORMATS", "formats of the figures, separated by commas: png, svg, pdf", false, false,
+       [](Options& o, const std::string& t) { o.figures = parse_figure_formats(t); },
+       [](const Options& o) { return to_string(o.figures); }},
+      {"figure-range", "figure_range", "HOW",
+       "colours of the map after: shared, over the range of the map before, and once more over its own; or own, over "
+       "its own alone",
+       false, false, [](Options& o, const std::string& t) { o.figure_range = parse_figure_range(t); },
+       [](const Options& o) { return std::string(to_string(o.figure_range)); }},
       {"out", "out", "FOLDER", "where the plan is written; replaced whole if it holds an earlier plan", true, false,
        [](Options& o, const std::string& t) { o.out = t; }, [](const Options& o) { return o.out; }},
   };

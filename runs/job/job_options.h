@@ -10,6 +10,7 @@
 #include "core/motion/motion.h"
 #include "core/tif/removal_function.h"
 #include "core/tif/removal_orientation.h"
+#include "runs/drawing/figure_format.h"
 #include "runs/programs/gcode_dialect.h"
 #include "solvers/problem/dwell_solver.h"
 #include "solvers/weights/weight_search.h"
@@ -44,6 +45,8 @@ struct JobOptions {
   int threads = 0;
   GcodeDialect gcode = GcodeDialect::G94;
   double lift_height_mm = 10.0;
+  std::vector<FigureFormat> figures{FigureFormat::Png};
+  FigureRange figure_range = FigureRange::Shared;
   std::string out;
 };
 

@@ -145,13 +145,13 @@ MapProfile map_profile(const HeightMap& map, const ProfileSpec& spec) {
   return profile;
 }
 
-std::string profile_picture(const MapProfile& profile, const std::string& title) {
-  ChartPanel panel{profile.position + " [mm]", "height [nm]", {}, AxisScale::Linear, AxisScale::Linear, {}, 1000};
+std::string profile_picture(const MapProfile& profile, const std::string& title, FigureFormat format) {
+  ChartPanel panel{profile.position + " [mm]", "height [nm]", {}, AxisScale::Linear, AxisScale::Linear};
   ChartLine line{"", {33, 102, 172}, {}, false, false};
   for (std::size_t k = 0; k < profile.places.size(); ++k)
     line.points.push_back({profile.places[k], profile.heights[k], false});
   panel.lines.push_back(std::move(line));
-  return draw_line_charts(title, "", {panel});
+  return draw_line_charts(title, "", {panel}, format);
 }
 
 }  // namespace dwell

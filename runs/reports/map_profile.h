@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/map/height_map.h"
+#include "runs/drawing/figure_format.h"
 
 namespace dwell {
 
@@ -33,7 +34,8 @@ struct MapProfile {
 /// Throws InputError if the line does not lie on the map, saying where the map lies, or if it meets no finite pixel.
 MapProfile map_profile(const HeightMap& map, const ProfileSpec& spec);
 
-/// Heights against place as a PNG file, linear axes.
-std::string profile_picture(const MapProfile& profile, const std::string& title);
+/// Heights against place as a figure, linear axes.
+std::string profile_picture(const MapProfile& profile, const std::string& title,
+                            FigureFormat format = FigureFormat::Png);
 
 }  // namespace dwell

@@ -10,6 +10,7 @@
 #include "core/map/surface_slope.h"
 #include "core/spectra/psd_line.h"
 #include "runs/base/json_blocks.h"
+#include "runs/drawing/figure_format.h"
 #include "runs/job/input_files.h"
 #include "runs/reports/map_profile.h"
 #include "runs/reports/wavelength_bands.h"
@@ -79,8 +80,8 @@ MapFigures map_figures(const MapReport& report, const std::string& file, const H
 std::string map_report_json(const MapReport& report, const MapFigures& map, const std::vector<InputFile>& inputs,
                             const MapProfile* profile = nullptr);
 
-/// The spectra as a PNG file: along x and y at the left, radial at the right, bands shaded, fit and limit. Throws
+/// The spectra as a figure: along x and y at the left, radial at the right, bands shaded, fit and limit. Throws
 /// std::invalid_argument without a spectrum.
-std::string psd_picture(const MapReport& report, const std::string& title);
+std::string psd_picture(const MapReport& report, const std::string& title, FigureFormat format = FigureFormat::Png);
 
 }  // namespace dwell

@@ -54,15 +54,12 @@ void add_bands(ChartPanel& panel, const std::vector<BandRms>& bands) {
 
 }  // namespace
 
-std::string psd_picture(const MapReport& report, const std::string& title) {
+std::string psd_picture(const MapReport& report, const std::string& title, FigureFormat format) {
   if (!report.spectrum) throw std::invalid_argument("psd_picture: no spectrum in the report");
-  ChartPanel lines{"frequency [1/mm]", "PSD along a line [nm^2 mm]", {}};
-  ChartPanel radial{"frequency [1/mm]", "radial PSD [nm^2 mm^2]", {}};
+  ChartPanel lines{"frequency [1/mm]", "PSD along a line [nm² mm]", {}};
+  ChartPanel radial{"frequency [1/mm]", "radial PSD [nm² mm²]", {}};
   for (const CurveReport& c : report.spectrum->curves) add_curve(c.curve.name == "radial" ? radial : lines, c);
-  for (ChartPanel* panel : {&lines, &radial}) {
-    panel->width = 680;
-    add_bands(*panel, report.spectrum->split.bands);
-  }
+  for (ChartPanel* panel : {&lines, &radial}) add_bands(*panel, report.spectrum->split.bands);
   if (const auto& limit = report.spectrum->limit) {
     // The two line spectra share one limit: it is drawn once, over the longer of their ranges.
     const CurveReport* widest = nullptr;
@@ -71,7 +68,7 @@ std::string psd_picture(const MapReport& report, const std::string& title) {
     }
     if (widest) add_limit(limit->radial ? radial : lines, *widest->limit, *limit);
   }
-  return draw_line_charts(title, "", {lines, radial});
+  return draw_line_charts(title, "", {lines, radial}, format);
 }
 
 }  // namespace dwell

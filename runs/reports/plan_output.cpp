@@ -13,6 +13,7 @@
 #include "runs/drawing/picture.h"
 #include "runs/programs/gcode.h"
 #include "runs/programs/program_reader.h"
+#include "runs/reports/figure_output.h"
 #include "runs/reports/plan_summary.h"
 
 namespace dwell {
@@ -35,36 +36,38 @@ void write_program(const PlannedJob& plan, const OutputFolder& folder) {
   folder.write("program.nc", gcode_text(program_of(table), gcode));
 }
 
-void write_pictures(const PlannedJob& plan, const HeightMap& after, const MapStatistics& left,
-                    const OutputFolder& folder) {
-  const std::string removed = to_string(plan.part().form);
-  folder.write("before.png",
-               map_picture(plan.part().figure, {fmt::format("Before: RMS {:.4g} nm, PV {:.4g} nm ({} removed)",
-                                                            plan.part().before.rms, plan.part().before.pv, removed),
-                                                "nm",
-                                                true,
-                                                {},
-                                                {}}));
-  folder.write("after.png",
-               map_picture(after, {fmt::format("After (simulated program): RMS {:.4g} nm, PV {:.4g} nm ({} removed)",
-                                               left.rms, left.pv, removed),
-                                   "nm",
-                                   true,
-                                   {},
-                                   {}}));
-  folder.write(
-      "dwell.png",
-      dwell_picture(plan.laid.path, plan.program.table.dwell_s,
-                    {fmt::format("Dwell: {} points, total {:.4g} s", plan.laid.path.size(), plan.dwell.seconds.sum()),
-                     "s",
-                     false,
-                     {},
-                     {}}));
-  const std::string path = fmt::format("Path: {}, {} points, {:.4g} mm, {} lifts", plan.laid.path.kind,
-                                       plan.laid.path.size(), plan.laid.metrics.length, plan.laid.metrics.lifts);
-  folder.write("path.png", path_picture(plan.part().figure, plan.laid.path, path));
-  folder.write("path_detail.png",
-               path_detail_picture(plan.part().figure, plan.laid.path, "Path, detail: " + plan.laid.path.kind));
+void write_pictures(const PlannedJob& plan, const WrittenPlan& written, const OutputFolder& folder,
+                    const Progress& progress) {
+  const Part& part = plan.part();
+  const ToolPath& path = plan.laid.path;
+  const JobOptions& options = plan.job.options;
+  const std::string removed = to_string(part.form);
+  const auto write = [&](const char* name, const auto& draw) {
+    write_figure(folder, options.figures, name, draw);
+    progress.check();
+  };
+  write("before", [&](FigureFormat format) {
+    const std::string title =
+        fmt::format("Before: RMS {:.4g} nm, PV {:.4g} nm ({} removed)", part.before.rms, part.before.pv, removed);
+    return map_picture(part.figure, {title, "nm", true, {}, {}}, format, progress);
+  });
+  write("after", [&](FigureFormat format) {
+    const std::string title = fmt::format("After (simulated program): RMS {:.4g} nm, PV {:.4g} nm ({} removed)",
+                                          written.simulated.rms, written.simulated.pv, removed);
+    return after_picture(part.figure, written.residual, options.figure_range, title, format, progress);
+  });
+  write("dwell", [&](FigureFormat format) {
+    const std::string title = fmt::format("Dwell: {} points, total {:.4g} s", path.size(), plan.dwell.seconds.sum());
+    return dwell_picture(path, plan.program.table.dwell_s, {title, "s", false, {}, {}}, format, progress);
+  });
+  write("path", [&](FigureFormat format) {
+    const std::string title = fmt::format("Path: {}, {} points, {:.4g} mm, {} lifts", path.kind, path.size(),
+                                          plan.laid.metrics.length, plan.laid.metrics.lifts);
+    return path_picture(part.figure, path, title, format, progress);
+  });
+  write("path_detail", [&](FigureFormat format) {
+    return path_detail_picture(part.figure, path, "Path, detail: " + path.kind, format, progress);
+  });
 }
 
 bool differs(double a, double b, double tolerance) {
@@ -116,7 +119,7 @@ WrittenPlan write_plan(const PlannedJob& plan, const OutputFolder& folder, const
   progress.check();
 
   progress.report("write: pictures and arrays");
-  write_pictures(plan, written.residual, written.simulated, folder);
+  write_pictures(plan, written, folder, progress);
   write_map(folder.path("residual.npy"), written.residual);
   folder.write("dwell.npy", npy_bytes(std::span<const double>(plan.program.table.dwell_s)));
   if (plan.dwell.search) folder.write("search.csv", write_trials(*plan.dwell.search));

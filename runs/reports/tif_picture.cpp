@@ -6,27 +6,18 @@
 #include <array>
 #include <cmath>
 
-#include "runs/drawing/canvas.h"
 #include "runs/drawing/colour_map.h"
 #include "runs/drawing/line_chart.h"
+#include "runs/drawing/map_figure.h"
 #include "runs/drawing/picture.h"
-#include "runs/drawing/plot.h"
 #include "runs/drawing/plot_field.h"
 
 namespace dwell {
 namespace {
 
-constexpr Colour kPaper{255, 255, 255};
-
-Plot plot_of(const HeightMap& map, ColourMap colours, std::optional<double> lower, std::optional<double> upper,
-             const std::string& title) {
-  return draw_plot(field_of_map(map), colours, colour_limits(map.values, colours, lower, upper), title, "nm/s");
-}
-
-void paste(Canvas& canvas, const Canvas& part, int left, int top) {
-  for (int y = 0; y < part.height(); ++y) {
-    for (int x = 0; x < part.width(); ++x) canvas.set(left + x, top + y, part.pixel(x, y));
-  }
+MapPanel panel_of(const HeightMap& map, ColourMap colours, std::optional<double> lower, std::optional<double> upper,
+                  const std::string& title) {
+  return {field_of_map(map, field_edges(3)), colours, colour_limits(map.values, colours, lower, upper), title, "nm/s"};
 }
 
 /// The response from long waves down to where it is last 1 %, at 120 wavelengths in equal ratios.
@@ -85,40 +76,34 @@ ChartPanel section_panel(const TifResult& result, Section section) {
 
 }  // namespace
 
-std::string section_picture(const TifResult& result) {
+std::string section_picture(const TifResult& result, FigureFormat format) {
   return draw_line_charts("Sections of the removal function", "",
-                          {section_panel(result, Section::AlongX), section_panel(result, Section::AlongY)});
+                          {section_panel(result, Section::AlongX), section_panel(result, Section::AlongY)}, format);
 }
 
-std::string tif_picture(const TifResult& result) {
+std::string tif_picture(const TifResult& result, FigureFormat format) {
   const RemovalAnalysis& a = result.analysis;
   const std::string title =
       fmt::format("Removal function ({}): peak {:.4g} nm/s, FWHM {:.4g} mm, corrects down to {}", result.source, a.peak,
                   a.fwhm, a.at_tenth.radial ? fmt::format("{:.3g} mm", *a.at_tenth.radial) : "-");
-  return map_picture(result.rates, {title, "nm/s", false, {}, {}});
+  return map_picture(result.rates, {title, "nm/s", false, {}, {}}, format);
 }
 
-std::string fit_picture(const TifResult& result) {
+std::string fit_picture(const TifResult& result, FigureFormat format) {
   const RemovalFit& fit = result.fits.front();
   const auto [least, most] = std::minmax_element(result.rates.values.begin(), result.rates.values.end());
   const double lower = std::min(0.0, *least),
                upper = std::max(*most, *std::max_element(fit.fitted.values.begin(), fit.fitted.values.end()));
-  const std::array plots{
-      plot_of(result.rates, ColourMap::Sequential, lower, upper, "removal function"),
-      plot_of(fit.fitted, ColourMap::Sequential, lower, upper, "fit: " + fit.model),
-      plot_of(fit.residual, ColourMap::Diverging, {}, {}, fmt::format("residual: RMS {:.3g} nm/s", fit.rms))};
-  int width = 0, height = 0;
-  for (const Plot& plot : plots) width += plot.canvas.width(), height = std::max(height, plot.canvas.height());
-  Canvas canvas(width, height, kPaper);
-  int left = 0;
-  for (const Plot& plot : plots) {
-    paste(canvas, plot.canvas, left, height - plot.canvas.height());
-    left += plot.canvas.width();
-  }
-  return canvas.png();
+  return draw_maps(
+             fmt::format("Fit of the removal function ({})", result.source),
+             {panel_of(result.rates, ColourMap::Sequential, lower, upper, "as measured"),
+              panel_of(fit.fitted, ColourMap::Sequential, lower, upper, "fit: " + fit.model),
+              panel_of(fit.residual, ColourMap::Diverging, {}, {}, fmt::format("residual: RMS {:.3g} nm/s", fit.rms))},
+             format)
+      .bytes;
 }
 
-std::string transfer_picture(const TifResult& result) {
+std::string transfer_picture(const TifResult& result, FigureFormat format) {
   const RemovalAnalysis& a = result.analysis;
   const TransferFunction& t = a.transfer;
   const auto line = [&](const std::vector<double>& response, const char* label, Colour colour,
@@ -136,7 +121,8 @@ std::string transfer_picture(const TifResult& result) {
                              line(t.along_y, "along y", {214, 39, 40}, a.at_half.y, a.at_tenth.y, true)}},
                            {"wavelength [mm], mean over all directions",
                             "response",
-                            {line(t.radial, "mean", {32, 32, 32}, a.at_half.radial, a.at_tenth.radial, false)}}});
+                            {line(t.radial, "mean", {32, 32, 32}, a.at_half.radial, a.at_tenth.radial, false)}}},
+                          format);
 }
 
 }  // namespace dwell

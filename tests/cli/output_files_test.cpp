@@ -67,6 +67,14 @@ TEST(OutputFiles, NeverReplaceTheSidecarOrContainerOfAnInput) {
   expect_refused(inputs, {"map", "b.h5:/anything", "--write", "b.h5"}, {"--write 'b.h5'", "same file as the map"});
 }
 
+TEST(OutputFiles, FiguresTakeTheFormatThatTheirNameSays) {
+  const NamedInputs inputs;
+  ASSERT_EQ(inputs.run(with(inputs.map, {"--png", "a.svg", "--psd-png", "b.PDF"})).exit_code, 0);
+  EXPECT_EQ(read_whole_file(inputs / "a.svg").substr(0, 5), "<?xml");
+  EXPECT_EQ(read_whole_file(inputs / "b.PDF").substr(0, 5), "%PDF-");
+  expect_refused(inputs, with(inputs.map, {"--write-image", "a.svg"}), {"--write-image 'a.svg'", "accepted: .png"});
+}
+
 TEST(OutputFiles, AreCheckedBeforeAnyWork) {
   const NamedInputs inputs;
   const Words good = with(inputs.map, {"--json=good.json", "--write", "good.csv"});

@@ -33,6 +33,24 @@ TEST(PlanCommand, WritesEveryFileAndPrintsWhatItDid) {
   EXPECT_EQ(read_whole_file(inputs / "plan/before.png").substr(1, 3), "PNG");
 }
 
+TEST(PlanCommand, WritesFiguresInTheFormatsAskedForAndReplacesThem) {
+  const SmallInputs inputs;
+  std::vector<std::string> vectors = SmallInputs::plan();
+  for (const char* word : {"--figures", "svg,pdf", "--figure-range", "own"}) vectors.push_back(word);
+  const ProgramResult result = inputs.run(vectors);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const std::set<std::string> names = names_in(inputs / "plan");
+  for (const char* name : {"before", "after", "dwell", "path", "path_detail"}) {
+    EXPECT_TRUE(names.contains(std::string(name) + ".svg") && names.contains(std::string(name) + ".pdf")) << name;
+    EXPECT_FALSE(names.contains(std::string(name) + ".png")) << name;
+  }
+  const std::string svg = read_whole_file(inputs / "plan/before.svg");
+  for (const char* words : {"Before: RMS", "x [mm]", ">nm<"}) expect_has(svg, words);
+  EXPECT_EQ(read_whole_file(inputs / "plan/dwell.pdf").substr(0, 5), "%PDF-");
+  EXPECT_EQ(inputs.run(SmallInputs::plan()).exit_code, 0) << "an earlier plan with figures of another format";
+  EXPECT_FALSE(names_in(inputs / "plan").contains("before.svg"));
+}
+
 TEST(PlanCommand, SummaryHasEveryDocumentedKeyWithItsType) {
   const SmallInputs inputs;
   ASSERT_EQ(inputs.run(SmallInputs::plan()).exit_code, 0);

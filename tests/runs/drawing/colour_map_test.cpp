@@ -31,13 +31,30 @@ TEST(ColourMap, DivergingIsBlueBelowWhiteAtAndRedAboveTheMiddle) {
   const Colour high = colour_at(ColourMap::Diverging, 0.9);
   EXPECT_GT(low.blue, low.red + 50);
   EXPECT_GT(high.red, high.blue + 50);
-  EXPECT_EQ(middle.red, middle.blue);
-  EXPECT_GT(middle.green, 240);
+  EXPECT_NEAR(middle.red, middle.blue, 10);
+  EXPECT_GT(middle.green, 220);
   for (int i = 1; i <= 25; ++i) {
     EXPECT_GT(luminance(colour_at(ColourMap::Diverging, i / 50.0)),
               luminance(colour_at(ColourMap::Diverging, (i - 1) / 50.0)));
     EXPECT_GT(luminance(colour_at(ColourMap::Diverging, 1.0 - i / 50.0)),
               luminance(colour_at(ColourMap::Diverging, 1.0 - (i - 1) / 50.0)));
+  }
+}
+
+// Lightness of CIE L*a*b*, white = 100.
+double lightness(Colour c) {
+  const auto linear = [](std::uint8_t v) {
+    const double s = v / 255.0;
+    return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
+  };
+  return 116.0 * std::cbrt(0.2126 * linear(c.red) + 0.7152 * linear(c.green) + 0.0722 * linear(c.blue)) - 16.0;
+}
+
+TEST(ColourMap, DivergingIsEquallyLightAtEqualDistancesFromTheMiddleInEqualSteps) {
+  for (int i = 0; i <= 7; ++i) {
+    const double low = lightness(colour_at(ColourMap::Diverging, i / 16.0));
+    EXPECT_NEAR(low, lightness(colour_at(ColourMap::Diverging, 1.0 - i / 16.0)), 0.5) << i;
+    EXPECT_NEAR(low, 20.0 + 9.35 * i, 1.0) << i;
   }
 }
 
@@ -78,6 +95,26 @@ TEST(ColourLimits, OneValueNoneAndZeroStillMakeARange) {
       EXPECT_EQ(limits.any, !values.empty() && std::isfinite(values[0]));
     }
   }
+}
+
+TEST(ColourLimits, OfManyValuesAreNearlyThoseOfAllAndTheExtremesExact) {
+  std::vector<double> values(3000000);
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<double>(i % 1001) - 500.0;
+  values[1] = 1e6;
+  const ColourLimits limits = colour_limits(values, ColourMap::Diverging);
+  EXPECT_NEAR(limits.upper, 1.5 * 497.5, 10.0);
+  EXPECT_EQ(limits.largest, 1e6);
+  EXPECT_TRUE(limits.clips_above());
+}
+
+TEST(ColourLimits, ChosenForOneMapHoldForAnother) {
+  const ColourLimits before = colour_limits({-100.0, 50.0}, ColourMap::Diverging);
+  const ColourLimits after = same_limits(before, {-1.0, 200.0, kNan});
+  EXPECT_EQ(after.lower, -100.0);
+  EXPECT_EQ(after.upper, 100.0);
+  EXPECT_EQ(after.smallest, -1.0);
+  EXPECT_TRUE(after.clips_above());
+  EXPECT_FALSE(after.clips_below());
 }
 
 TEST(ColourLimits, TakesWhatIsGiven) {

@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "runs/drawing/canvas.h"
+#include "runs/drawing/colour.h"
 
 namespace dwell::testing {
 
-/// The pixels of a PNG file as libpng reads them, independent of the canvas that wrote it.
+/// The pixels of a PNG file as libpng reads them, independent of what wrote it.
 struct DecodedPng {
   int width = 0;
   int height = 0;

@@ -73,6 +73,19 @@ TEST(PathPicture, ShowsTheOrderOfADensePathAndItsDetail) {
   const DecodedPng detail = decode_png(path_detail_picture(map, path, "t"));
   EXPECT_GT(find(detail, kTrack).count, 10000);
   EXPECT_LT(find(detail, kTrack).count, detail.width * detail.height / 4);
+  EXPECT_LE(detail.width, 1600);
+}
+
+TEST(PathPicture, ALongPathCanBeInterrupted) {
+  ToolPath path{"file", {}, {}};
+  for (int k = 0; k < 300000; ++k) path.points.push_back({1e-4 * k - 3.0, 2.0 + 15.0 * (k % 2)});
+  path.lifted.assign(path.size(), 0);
+  int looks = 0;
+  Progress stop_later;
+  stop_later.stop = [&] { return ++looks > 3; };
+  EXPECT_THROW(path_picture(flat(1.0), path, "t", FigureFormat::Png, stop_later), Interrupted);
+  looks = 0;
+  EXPECT_THROW(path_detail_picture(flat(1.0), path, "t", FigureFormat::Png, stop_later), Interrupted);
 }
 
 TEST(PathPicture, TakesOnePointAndRefusesNone) {

@@ -2,12 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "core/base/errors.h"
 #include "runs/drawing/colour_map.h"
-#include "runs/drawing/plot.h"
+#include "runs/drawing/map_figure.h"
 #include "runs/drawing/plot_field.h"
 #include "tests/runs/drawing/decoded_png.h"
 
@@ -23,11 +24,26 @@ struct Middle {
   int count = 0;
 };
 
-// Mean position of the pixels of one colour [fraction of the picture, from the top left].
-Middle middle_of(const testing::DecodedPng& png, Colour colour, int left, int top, int width, int height) {
+// Where a field lies in a PNG file [pixels].
+struct PixelPlace {
+  int left = 0, top = 0, width = 0, height = 0;
+};
+
+PixelPlace pixels_of(const Box& box) {
+  const auto whole = [](double units) { return static_cast<int>(std::lround(kPixelsPerUnit * units)); };
+  return {whole(box.left), whole(box.top), whole(box.width), whole(box.height)};
+}
+
+MapFigure figure_of(const PlotField& field, ColourMap map, const ColourLimits& limits, const std::string& title,
+                    const std::string& unit, FigureFormat format = FigureFormat::Png) {
+  return draw_maps(title, {{field, map, limits, "", unit}}, format);
+}
+
+// Mean position of the pixels of one colour [pixels of the figure, from the top left].
+Middle middle_of(const testing::DecodedPng& png, Colour colour, const PixelPlace& place) {
   Middle m;
-  for (int y = top; y < top + height; ++y) {
-    for (int x = left; x < left + width; ++x) {
+  for (int y = place.top; y < place.top + place.height; ++y) {
+    for (int x = place.left; x < place.left + place.width; ++x) {
       if (!(png.at(x, y) == colour)) continue;
       m.x += x;
       m.y += y;
@@ -61,19 +77,68 @@ TEST(MapPicture, ABumpAtPlusXPlusYIsRightAndUp) {
   const HeightMap map = bumpy(20, 40, 17, 35);
   const PictureOptions options{"a bump", "nm", true, -1.0, 1.0};
   const testing::DecodedPng png = testing::decode_png(map_picture(map, options));
-  const PlotPlace p = draw_plot(field_of_map(map), ColourMap::Diverging,
-                                colour_limits(map.values, ColourMap::Diverging, -1.0, 1.0), "a bump", "nm")
-                          .place;
-  const Middle m = middle_of(png, colour_at(ColourMap::Diverging, 1.0), p.left, p.top, p.width, p.height);
+  const PixelPlace p = pixels_of(figure_of(field_of_map(map), ColourMap::Diverging,
+                                           colour_limits(map.values, ColourMap::Diverging, -1.0, 1.0), "a bump", "nm")
+                                     .places[0]);
+  const Middle m = middle_of(png, colour_at(ColourMap::Diverging, 1.0), p);
   ASSERT_EQ(m.count, (p.width / 40) * (p.width / 40)) << "one map pixel, enlarged by an integer";
   EXPECT_NEAR((m.x + 0.5 - p.left) / p.width, 35.5 / 40.0, 1e-9);
   EXPECT_NEAR((m.y + 0.5 - p.top) / p.height, 1.0 - 17.5 / 20.0, 1e-9);
 }
 
+TEST(MapPicture, VectorFormatsHoldTheWordsAndTheFieldAsAnImage) {
+  const HeightMap map = bumpy(20, 40, 17, 35);
+  const PictureOptions options{"Before: RMS 1 nm <b>", "nm", true, -1.0, 1.0};
+  const std::string svg = map_picture(map, options, FigureFormat::Svg);
+  EXPECT_EQ(svg.substr(0, 5), "<?xml");
+  for (const char* words :
+       {">Before: RMS 1 nm &lt;b&gt;<", ">x [mm]<", ">y [mm]<", ">nm<", "data:image/png;base64", ">30<"}) {
+    EXPECT_NE(svg.find(words), std::string::npos) << words;
+  }
+  const std::string pdf = map_picture(map, options, FigureFormat::Pdf);
+  EXPECT_EQ(pdf.substr(0, 5), "%PDF-");
+  EXPECT_NE(pdf.find("/Subtype /Image"), std::string::npos);
+  EXPECT_NE(pdf.find("DejaVuSans"), std::string::npos) << "text with its font";
+}
+
+TEST(MapPicture, IsAtMost1600PixelsWide) {
+  for (const auto& [rows, cols] :
+       {std::pair<Index, Index>{10, 3000}, {3000, 10}, {2000, 1500}, {900, 1000}, {600, 1300}}) {
+    HeightMap map(Grid{rows, cols, 0.1, 0.1, {-1e5, 1e5}},
+                  std::vector<double>(static_cast<std::size_t>(rows * cols), -1e5));
+    map.at(0, 0) = 1.0;
+    EXPECT_LE(testing::decode_png(map_picture(map, {"title", "nm", true, {}, {}})).width, 1600)
+        << rows << " x " << cols;
+    EXPECT_LE(testing::decode_png(after_picture(map, map, FigureRange::Shared, "title")).width, 1600)
+        << rows << " x " << cols;
+  }
+}
+
+TEST(AfterPicture, ShowsTheRangeOfBeforeAndItsOwn) {
+  HeightMap before = bumpy(20, 20, 10, 10), after = before;
+  for (double& v : before.values) v *= 100.0;
+  const auto strongest = [&](const std::string& file) {
+    return middle_of(testing::decode_png(file), colour_at(ColourMap::Diverging, 1.0),
+                     {0, 0, testing::decode_png(file).width, testing::decode_png(file).height});
+  };
+  const testing::DecodedPng shared = testing::decode_png(after_picture(before, after, FigureRange::Shared, "t"));
+  const testing::DecodedPng own = testing::decode_png(after_picture(before, after, FigureRange::Own, "t"));
+  EXPECT_GT(shared.width, 1200) << "two panels";
+  // The bump is dark red in the second panel only; one such pixel of the first would pull the mean to the middle.
+  EXPECT_GT(strongest(after_picture(before, after, FigureRange::Shared, "t")).x, 0.6 * shared.width);
+  EXPECT_EQ(after_picture(before, after, FigureRange::Own, "t"), map_picture(after, {"t", "nm", true, {}, {}}));
+  EXPECT_LT(own.width, shared.width + 1);
+  const std::string svg = after_picture(before, after, FigureRange::Shared, "t", FigureFormat::Svg);
+  EXPECT_NE(svg.find(">on the range of before<"), std::string::npos);
+  EXPECT_NE(svg.find(">on its own range<"), std::string::npos);
+}
+
 TEST(MapPicture, SameNumbersSameBytes) {
   const HeightMap map = bumpy(9, 7, 2, 3);
   const PictureOptions options{"t", "nm", true, {}, {}};
-  EXPECT_EQ(map_picture(map, options), map_picture(map, options));
+  for (const FigureFormat format : figure_formats()) {
+    EXPECT_EQ(map_picture(map, options, format), map_picture(map, options, format)) << to_string(format);
+  }
   EXPECT_NE(map_picture(map, options), map_picture(bumpy(9, 7, 3, 3), options));
 }
 
@@ -100,14 +165,13 @@ TEST(MapPicture, ShowsHolesInGreyAndSaysNoData) {
   const PlotField field = field_of_map(map);
   EXPECT_TRUE(std::isnan(field.at(0, 0)));
   HeightMap nothing(map.grid);
-  const Plot plot = draw_plot(field_of_map(nothing), ColourMap::Diverging,
-                              colour_limits(nothing.values, ColourMap::Diverging), "", "nm");
-  int grey = 0;
-  int ink = 0;
-  for (int y = 0; y < plot.place.height; ++y) {
-    for (int x = 0; x < plot.place.width; ++x) {
-      plot.canvas.pixel(plot.place.left + x, plot.place.top + y) == kNoDataColour ? ++grey : ++ink;
-    }
+  const MapFigure figure = figure_of(field_of_map(nothing), ColourMap::Diverging,
+                                     colour_limits(nothing.values, ColourMap::Diverging), "", "nm");
+  const testing::DecodedPng png = testing::decode_png(figure.bytes);
+  const PixelPlace place = pixels_of(figure.places[0]);
+  int grey = 0, ink = 0;
+  for (int y = place.top; y < place.top + place.height; ++y) {
+    for (int x = place.left; x < place.left + place.width; ++x) png.at(x, y) == kNoDataColour ? ++grey : ++ink;
   }
   EXPECT_GT(grey, 100 * 100);
   EXPECT_GT(ink, 200) << "the words on the plot";
@@ -127,17 +191,41 @@ TEST(FieldOfMap, KeepsTheAspectOfThePitches) {
 }
 
 TEST(FieldOfMap, AveragesLargeMapsOverFinitePixels) {
-  HeightMap map(Grid{2400, 1200, 0.1, 0.1, {}});
-  for (Index r = 0; r < 2400; ++r) {
-    for (Index c = 0; c < 1200; ++c) map.at(r, c) = static_cast<double>(c % 3) + 3.0 * static_cast<double>(r % 3);
+  HeightMap map(Grid{2040, 1020, 0.1, 0.1, {}});
+  for (Index r = 0; r < 2040; ++r) {
+    for (Index c = 0; c < 1020; ++c) map.at(r, c) = static_cast<double>(c % 3) + 3.0 * static_cast<double>(r % 3);
   }
   map.at(0, 0) = kNan;
-  const PlotField field = field_of_map(map);
-  ASSERT_EQ(field.rows, 800);
-  ASSERT_EQ(field.cols, 400);
+  const PlotField field = field_of_map(map, {500, 680});
+  ASSERT_EQ(field.rows, 680);
+  ASSERT_EQ(field.cols, 340);
   EXPECT_DOUBLE_EQ(field.at(0, 0), 36.0 / 8.0);
-  EXPECT_DOUBLE_EQ(field.at(799, 399), 4.0);
+  EXPECT_DOUBLE_EQ(field.at(679, 339), 4.0);
   EXPECT_DOUBLE_EQ(field.at(123, 321), 4.0);
+}
+
+TEST(FieldOfMap, KeepsASpeckOfDustThatAMeanWouldHide) {
+  HeightMap map(Grid{2000, 2000, 0.1, 0.1, {}});
+  for (Index r = 0; r < 2000; ++r) {
+    for (Index c = 0; c < 2000; ++c)
+      map.at(r, c) = 10.0 * std::sin(0.01 * static_cast<double>(r)) + 0.1 * static_cast<double>((r * 7 + c * 3) % 5);
+  }
+  map.at(1001, 1501) = 80.0;
+  map.at(401, 301) = -80.0;
+  const PlotField field = field_of_map(map, {500, 500});
+  EXPECT_EQ(*std::max_element(field.values.begin(), field.values.end()), 80.0);
+  EXPECT_EQ(*std::min_element(field.values.begin(), field.values.end()), -80.0);
+  EXPECT_EQ(field.at(250, 375), 80.0);
+  EXPECT_EQ(field.at(100, 75), -80.0);
+  std::size_t shown = 0;
+  for (const double v : field.values) shown += std::abs(v) > 11.0;
+  EXPECT_EQ(shown, 2u) << "noise and slopes stay means";
+}
+
+TEST(FieldOfMap, CanBeInterrupted) {
+  Progress stop;
+  stop.stop = [] { return true; };
+  EXPECT_THROW(field_of_map(bumpy(10, 10, 1, 1), {}, stop), Interrupted);
 }
 
 TEST(FieldOfDwell, CoversARasterWithoutHoles) {
@@ -213,10 +301,10 @@ TEST(DwellPicture, PaintsALongDwellWhereItIs) {
   }
   const testing::DecodedPng png =
       testing::decode_png(dwell_picture(path_of(points), dwell, {"dwell", "", false, {}, {}}));
-  const Plot plot = draw_plot(field_of_dwell(path_of(points), dwell), ColourMap::Sequential,
-                              colour_limits(dwell, ColourMap::Sequential), "dwell", "s");
-  const PlotPlace p = plot.place;
-  const Middle m = middle_of(png, colour_at(ColourMap::Sequential, 1.0), p.left, p.top, p.width, p.height);
+  const PixelPlace p = pixels_of(figure_of(field_of_dwell(path_of(points), dwell), ColourMap::Sequential,
+                                           colour_limits(dwell, ColourMap::Sequential), "dwell", "s")
+                                     .places[0]);
+  const Middle m = middle_of(png, colour_at(ColourMap::Sequential, 1.0), p);
   EXPECT_NEAR((m.x - p.left) / p.width, 0.9, 0.01);
   EXPECT_NEAR((m.y - p.top) / p.height, 0.1, 0.01);
 }

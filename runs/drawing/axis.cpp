@@ -1,10 +1,12 @@
-#include "runs/drawing/ticks.h"
+#include "runs/drawing/axis.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+
+#include "runs/drawing/sheet.h"
 
 namespace dwell {
 namespace {
@@ -44,9 +46,11 @@ std::string label(double value, double largest, const Step& step) {
   return fmt::format("{:.{}f}", value, std::max(0, -step.exponent));
 }
 
+bool is_decade_multiple(int mantissa) { return mantissa == 1 || mantissa == 2 || mantissa == 5; }
+
 }  // namespace
 
-Ticks round_ticks(double lower, double upper, int most) {
+AxisTicks round_ticks(double lower, double upper, int most) {
   if (!(std::isfinite(lower) && std::isfinite(upper) && lower < upper) || most < 1) {
     throw std::invalid_argument(fmt::format("ticks of [{}, {}], at most {}", lower, upper, most));
   }
@@ -71,13 +75,60 @@ Ticks round_ticks(double lower, double upper, int most) {
     step = coarser;
     found = fewer;
   }
-  Ticks ticks;
+  AxisTicks ticks;
   for (double k = found.first; k <= found.last; k += 1.0) {
     const double value = k == 0.0 ? 0.0 : step.multiple(k);
     ticks.values.push_back(value);
     ticks.labels.push_back(label(value, largest, step));
   }
   return ticks;
+}
+
+AxisTicks log_ticks(double lower, double upper, int most) {
+  if (!(0.0 < lower && lower < upper && std::isfinite(upper)) || most < 3) {
+    throw std::invalid_argument(fmt::format("logarithmic ticks of [{}, {}], at most {}", lower, upper, most));
+  }
+  AxisTicks fine, decades;
+  const int first = static_cast<int>(std::floor(std::log10(lower))), last = static_cast<int>(std::log10(upper)) + 1;
+  for (int exponent = first; exponent <= last; ++exponent) {
+    for (int mantissa = 1; mantissa < 10; ++mantissa) {
+      const double value = mantissa * std::pow(10.0, exponent);
+      if (!is_decade_multiple(mantissa) || value < lower || value > upper) continue;
+      for (AxisTicks* ticks : {&fine, &decades}) {
+        if (ticks == &decades && mantissa != 1) continue;
+        ticks->values.push_back(value);
+        ticks->labels.push_back(fmt::format("{:.6g}", value));
+      }
+    }
+  }
+  if (fine.values.size() < 3) return round_ticks(lower, upper, most);
+  return fine.values.size() <= static_cast<std::size_t>(most) ? fine : decades;
+}
+
+double AxisRange::share(double value) const {
+  if (!(value > lower)) return 0.0;
+  const double share = scale == AxisScale::Linear ? (value - lower) / (upper - lower)
+                                                  : std::log(value / lower) / std::log(upper / lower);
+  return std::min(share, 1.0);
+}
+
+bool AxisRange::holds(double value) const {
+  return std::isfinite(value) && (scale == AxisScale::Linear || value > 0.0);
+}
+
+AxisTicks AxisRange::ticks(double length, AxisDirection direction, const TextStyle& style) const {
+  const bool is_linear = scale == AxisScale::Linear;
+  const int least = is_linear ? 1 : 3;
+  for (int most = 10;; --most) {
+    AxisTicks ticks = is_linear ? round_ticks(lower, upper, most) : log_ticks(lower, upper, most);
+    double room = 1.6 * style.size, gap = length;
+    for (std::size_t i = 0; i < ticks.values.size(); ++i) {
+      if (direction == AxisDirection::Across)
+        room = std::max(room, Sheet::text_width(ticks.labels[i], style) + style.size);
+      if (i > 0) gap = std::min(gap, length * (share(ticks.values[i]) - share(ticks.values[i - 1])));
+    }
+    if (gap >= room || most == least) return ticks;
+  }
 }
 
 }  // namespace dwell
