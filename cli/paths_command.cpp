@@ -8,7 +8,7 @@
 #include "cli/job_arguments.h"
 #include "cli/terminal.h"
 #include "core/base/errors.h"
-#include "paths/path_spec.h"
+#include "paths/path_catalogue.h"
 #include "runs/campaigns/path_comparison_output.h"
 
 namespace dwell::cli {
@@ -22,7 +22,7 @@ struct PathsArguments {
 };
 
 void print_kinds() {
-  for (const PathKind& kind : path_kinds()) {
+  for (const PathRecord& kind : path_catalogue()) {
     fmt::print("{}:{}\n    {}\n", kind.name, kind.usage, kind.about);
   }
 }

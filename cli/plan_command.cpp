@@ -8,6 +8,7 @@
 #include "cli/terminal.h"
 #include "core/base/units.h"
 #include "runs/job/job_file.h"
+#include "runs/plan/plan_files.h"
 #include "runs/plan/plan_output.h"
 #include "solvers/solver_catalogue.h"
 
@@ -53,7 +54,7 @@ int run_plan(const PlanArguments& arguments) {
     fmt::print("{}", job_file_text(options));
     return kDone;
   }
-  OutputFolder folder(options.out);
+  OutputFolder folder(options.out, plan_files());
   const Progress progress = terminal_progress();
   Plan plan = make_plan(options, progress);
   const WrittenPlan written = write_plan(plan, folder, progress);

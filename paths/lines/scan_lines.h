@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/base/progress.h"
 #include "core/map/height_map.h"
 
 namespace dwell {
@@ -94,7 +95,8 @@ class ScanLines {
   };
 
   /// Cost O(pixels + points that are not wanted, less those a distance bound skips).
-  ScanLines(const HeightMap& map, const ScanFrame& frame, const Ticks& steps, LinePositions lines, double overrun);
+  ScanLines(const HeightMap& map, const ScanFrame& frame, const Ticks& steps, LinePositions lines, double overrun,
+            const Progress& progress = {});
 
   Index count() const { return lines_.count(); }
   const Run& run(Index line) const { return runs_[static_cast<std::size_t>(line)]; }
@@ -107,8 +109,8 @@ class ScanLines {
   std::size_t points() const;
 
  private:
-  void include_nearest(const HeightMap& map);
-  void include_within(const HeightMap& map, double overrun);
+  void include_nearest(const HeightMap& map, const Progress& progress);
+  void include_within(const HeightMap& map, double overrun, const Progress& progress);
 
   Point along_, across_;
   Ticks steps_;

@@ -76,23 +76,8 @@ bool ResultFiles::has(std::string_view name) const {
   return name == always || std::find(others.begin(), others.end(), name) != others.end();
 }
 
-const ResultFiles& plan_files() {
-  static const ResultFiles kFiles{"plan",
-                                  "summary.json",
-                                  {"feed.csv", "program.nc", "before.png", "after.png", "dwell.png", "residual.npy",
-                                   "residual.npy.json", "dwell.npy", "search.csv", "path.png", "path_detail.png"},
-                                  nullptr};
-  return kFiles;
-}
-
 const ResultFiles& pareto_files() {
   static const ResultFiles kFiles{"pareto sweep", "pareto.json", {"pareto.csv", "pareto.png"}, nullptr};
-  return kFiles;
-}
-
-const ResultFiles& path_comparison_files() {
-  static const ResultFiles kFiles{
-      "path comparison", "paths.json", {"paths.csv", "paths.png", "psd.png"}, &plan_files()};
   return kFiles;
 }
 

@@ -15,6 +15,7 @@
 #include "paths/metrics/path_coverage.h"
 #include "paths/tours/spanning_tree.h"
 #include "runs/job/option_flags.h"
+#include "runs/plan/plan_files.h"
 #include "runs/plan/plan_output.h"
 
 namespace dwell {
@@ -33,14 +34,14 @@ PsdCurve radial_spectrum(const HeightMap& map, int threads) {
 }
 
 /// On a square where the part is widest; a corner may lie beyond the disc by what the path overruns.
-void find_ripple(const Plan& plan, ComparedPath& path) {
-  const WidestPlace place = widest_place(plan.figure);
+void find_ripple(const Plan& plan, ComparedPath& path, const Progress& progress) {
+  const WidestPlace place = widest_place(plan.figure, progress);
   PathRippleOptions options;
   options.threads = plan.threads;
   options.centre = place.centre;
   options.side = std::min(8.0 * plan.tif.radius, std::numbers::sqrt2 * place.radius);
   try {
-    path.ripple = path_ripple(plan.path, plan.tif, options);
+    path.ripple = path_ripple(plan.path, plan.tif, options, progress);
     path.ripple->removal = {};
   } catch (const InputError& error) {
     path.no_ripple = error.what();
@@ -59,14 +60,14 @@ void measure(const Plan& plan, double pitch, ComparedPath& path, const Progress&
   progress.report("path: spacing, coverage, spanning tree");
   path.metrics = plan.metrics;
   path.notes = plan.path.notes;
-  path.spacing = path_spacing(plan.path, {.reach = 4.0 * plan.tif.radius});
+  path.spacing = path_spacing(plan.path, {.reach = 4.0 * plan.tif.radius}, progress);
   progress.check();
-  path.coverage = path_coverage(plan.path, plan.figure, pitch).share();
+  path.coverage = path_coverage(plan.path, plan.figure, pitch, progress).share();
   progress.check();
-  path.tree_length = spanning_tree_length(plan.path.points);
+  path.tree_length = spanning_tree_length(plan.path.points, progress);
   progress.check();
   progress.report("path: ripple at constant feed");
-  find_ripple(plan, path);
+  find_ripple(plan, path, progress);
   progress.check();
 }
 
@@ -76,7 +77,7 @@ void plan_one(const Plan& job, double pitch, ComparedPath& path, const OutputFol
   lay_path(plan, progress);
   measure(plan, pitch, path, progress);
   find_dwell(plan, progress);
-  OutputFolder own(folder.path(path.listed.name));
+  OutputFolder own(folder.path(path.listed.name), plan_files());
   const WrittenPlan written = write_plan(plan, own, progress);
   own.commit();
   path.limits = plan.limits;

@@ -9,6 +9,7 @@
 #include "runs/base/inputs_json.h"
 #include "runs/drawing/line_chart.h"
 #include "runs/plan/options_json.h"
+#include "runs/plan/plan_files.h"
 
 namespace dwell {
 namespace {
@@ -187,6 +188,12 @@ std::vector<Cell> cells_of(const ComparedPath& p) {
 }
 
 }  // namespace
+
+const ResultFiles& path_comparison_files() {
+  static const ResultFiles kFiles{
+      "path comparison", "paths.json", {"paths.csv", "paths.png", "psd.png"}, &plan_files()};
+  return kFiles;
+}
 
 std::string path_table_text(const PathComparison& comparison) {
   std::string text = "folder,path,";

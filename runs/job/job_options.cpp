@@ -11,7 +11,7 @@
 #include "core/map/value_units.h"
 #include "core/motion/motion.h"
 #include "core/tif/removal_orientation.h"
-#include "paths/path_spec.h"
+#include "paths/path_catalogue.h"
 #include "runs/job/input_files.h"
 #include "runs/job/weight_option.h"
 #include "runs/map_steps/map_steps.h"

@@ -12,7 +12,7 @@
 #include "core/map/aperture.h"
 #include "core/motion/motion.h"
 #include "paths/feed/plan_program.h"
-#include "paths/path_spec.h"
+#include "paths/path_catalogue.h"
 #include "runs/plan/plan_problem.h"
 
 namespace dwell {
@@ -94,12 +94,12 @@ void lay_path(Plan& plan, const Progress& progress) {
     throw InputError("--path: required; for instance raster:pitch=1, nearest:cell=2 or file:path.csv");
   plan.motion = parse_motion(o.motion);
   const PathSpec spec = parse_path_spec(o.path);
-  plan.path = rounded(plan_path(spec, {plan.figure, plan.tif, feed_limits(o).max_feed, true, progress.stop}));
+  plan.path = rounded(plan_path(spec, {plan.figure, plan.tif, feed_limits(o).max_feed, true, progress}));
   progress.check();
-  if (const auto* file = std::get_if<PathFromFile>(&spec)) {
+  if (const auto* file = spec.get_if<PathFromFile>()) {
     plan.inputs.push_back({"path", file->file.string(), sha256_of_file(file->file)});
   }
-  plan.metrics = path_metrics(plan.path);
+  plan.metrics = path_metrics(plan.path, progress);
   plan.strokes = strokes_of(plan.path, plan.motion);
   progress.report(fmt::format("path: {} dwell points, {:.4g} mm", plan.path.size(), plan.metrics.length));
 }

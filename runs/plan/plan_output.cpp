@@ -12,7 +12,7 @@
 #include "runs/drawing/path_picture.h"
 #include "runs/drawing/picture.h"
 #include "runs/plan/plan_summary.h"
-#include "runs/programs/gcode.h"
+#include "runs/programs/program_formats.h"
 #include "runs/programs/program_reader.h"
 
 namespace dwell {
@@ -25,13 +25,8 @@ void write_program(Plan& plan, const OutputFolder& folder) {
     plan.table.inputs.emplace_back(input.role + " " + input.file, input.sha256);
     header.push_back(fmt::format("input: {} {} sha256={}", input.role, input.file, input.sha256));
   }
-  folder.write("feed.csv", feed_table_text(plan.table));
-  GcodeOptions gcode;
-  gcode.dialect = parse_gcode_dialect(plan.options.gcode);
-  gcode.lift_height_mm = plan.options.lift_height_mm;
-  gcode.max_feed_mm_per_min = plan.options.max_feed_mm_per_min;
-  gcode.header = header;
-  folder.write("program.nc", gcode_text(program_of(plan.table), gcode));
+  const ProgramWriting writing{parse_gcode_dialect(plan.options.gcode), plan.options.lift_height_mm, header};
+  for (const WrittenProgram& program : written_programs(plan.table, writing)) folder.write(program.file, program.bytes);
 }
 
 void write_pictures(const Plan& plan, const HeightMap& after, const MapStatistics& left, const OutputFolder& folder) {

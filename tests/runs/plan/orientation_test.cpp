@@ -11,6 +11,7 @@
 
 #include "core/base/whole_file.h"
 #include "runs/plan/plan.h"
+#include "runs/plan/plan_files.h"
 #include "runs/plan/plan_output.h"
 #include "runs/reports/simulation.h"
 #include "tests/core/base/temporary_folder.h"
@@ -201,7 +202,7 @@ TEST_P(Orientation, BumpIsRemovedWhereItIsByTheToolAsMeasured) {
   std::array<Eigen::VectorXd, 4> by_formula;
   for (const char* dialect : {"g94", "g93-per-minute", "g93-seconds"}) {
     plan.options.gcode = dialect;
-    OutputFolder out(o.out);
+    OutputFolder out(o.out, plan_files());
     write_plan(plan, out, {});
     out.commit();
     const auto rows = table_rows(read_whole_file(std::filesystem::path(o.out) / "feed.csv"));

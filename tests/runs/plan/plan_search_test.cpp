@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runs/plan/plan_files.h"
 #include "runs/plan/plan_output.h"
 #include "runs/plan/plan_problem.h"
 #include "tests/core/base/expect_error.h"
@@ -186,7 +187,7 @@ TEST(WritePlan, SearchIsInTheSummaryAndInItsOwnTable) {
   SmallJob job;
   job.options.smoothness = {0.0, GoalKind::Corner};
   Plan plan = make_plan(job.options, {});
-  const OutputFolder folder(job.options.out);
+  const OutputFolder folder(job.options.out, plan_files());
   const auto summary = nlohmann::json::parse(write_plan(plan, folder, {}).summary);
   const auto& weights = summary.at("weights");
   EXPECT_EQ(weights.at("smoothness"), plan.weights.smoothness);

@@ -11,6 +11,7 @@
 #include "core/base/whole_file.h"
 #include "core/removal/simulate.h"
 #include "paths/feed/plan_program.h"
+#include "runs/plan/plan_files.h"
 #include "runs/plan/plan_output.h"
 #include "tests/core/base/expect_error.h"
 #include "tests/runs/plan/small_job.h"
@@ -46,7 +47,7 @@ TEST(MakePlan, PreparesItsMapAndSaysHow) {
   EXPECT_EQ(plan.map.valid_pixels(), plan.map.grid.size());
   EXPECT_EQ(plan.map_pixels, plan.map.grid.size());
   ASSERT_EQ(plan.map.history.size(), 2u);
-  OutputFolder folder(job.options.out);
+  OutputFolder folder(job.options.out, plan_files());
   Plan written = plan;
   const auto summary = nlohmann::json::parse(write_plan(written, folder, {}).summary);
   EXPECT_EQ(summary["map"]["history"], plan.map.history);
@@ -168,7 +169,7 @@ TEST(MakePlan, StopsWhenAskedAndReportsEveryStage) {
 
 std::map<std::string, std::string> written_files(const JobOptions& options) {
   Plan plan = make_plan(options, {});
-  OutputFolder folder(options.out);
+  OutputFolder folder(options.out, plan_files());
   write_plan(plan, folder, {});
   folder.commit();
   std::map<std::string, std::string> files;
@@ -206,7 +207,7 @@ TEST(WritePlan, ProgramOnDiskLeavesWhatTheSolverPredicts) {
     SmallJob job;
     job.options.motion = motion;
     Plan plan = make_plan(job.options, {});
-    const OutputFolder folder(job.options.out);
+    const OutputFolder folder(job.options.out, plan_files());
     const WrittenPlan written = write_plan(plan, folder, {});
     EXPECT_NEAR(written.simulated.rms, plan.residual.rms, 1e-3 * plan.residual.rms) << motion;
     EXPECT_TRUE(plan.limits.empty()) << motion;

@@ -1,0 +1,25 @@
+#include "runs/plan/plan_files.h"
+
+#include "runs/programs/program_formats.h"
+
+namespace dwell {
+namespace {
+
+ResultFiles make_plan_files() {
+  ResultFiles files{"plan",
+                    "summary.json",
+                    {"before.png", "after.png", "dwell.png", "residual.npy", "residual.npy.json", "dwell.npy",
+                     "search.csv", "path.png", "path_detail.png"},
+                    nullptr};
+  for (const ProgramFormat& format : program_formats()) files.others.emplace_back(format.file);
+  return files;
+}
+
+}  // namespace
+
+const ResultFiles& plan_files() {
+  static const ResultFiles kFiles = make_plan_files();
+  return kFiles;
+}
+
+}  // namespace dwell
