@@ -9,7 +9,7 @@
 
 #include "bench/json_access.h"
 #include "paths/metrics/path_metrics.h"
-#include "paths/path_spec.h"
+#include "paths/path_catalogue.h"
 #include "runs/example/random_numbers.h"
 
 namespace dwell::bench {

@@ -42,8 +42,7 @@ JobOptions JobArguments::options() const {
 
 std::vector<ReadFile> JobArguments::files_read(const JobOptions& options) const {
   std::vector<ReadFile> read{{"the job file", job_}, {"the map", options.map}, {"the removal function", options.tif}};
-  constexpr std::string_view kPathFile = "file:";
-  if (options.path.starts_with(kPathFile)) read.push_back({"the path", options.path.substr(kPathFile.size())});
+  if (const auto* path = options.path.get_if<PathFromFile>()) read.push_back({"the path", path->file.string()});
   for (const std::string& file : map_step_files(options.map_steps)) read.push_back({"a map of a step", file});
   return read;
 }

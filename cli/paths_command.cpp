@@ -9,7 +9,7 @@
 #include "cli/json_option.h"
 #include "cli/terminal.h"
 #include "core/base/errors.h"
-#include "paths/path_spec.h"
+#include "paths/path_catalogue.h"
 #include "runs/campaigns/path_comparison_output.h"
 
 namespace dwell::cli {
@@ -24,7 +24,7 @@ struct PathsArguments {
 };
 
 void print_kinds() {
-  for (const PathKind& kind : path_kinds()) {
+  for (const PathRecord& kind : path_catalogue()) {
     fmt::print("{}:{}\n    {}\n", kind.name, kind.usage, kind.about);
   }
 }

@@ -8,6 +8,7 @@
 #include "cli/terminal.h"
 #include "core/base/units.h"
 #include "runs/job/job_file.h"
+#include "runs/reports/plan_files.h"
 #include "runs/reports/plan_output.h"
 #include "solvers/solver_catalogue.h"
 
@@ -62,7 +63,7 @@ int run_plan(const PlanArguments& arguments) {
     return kDone;
   }
   arguments.json.check(arguments.job->files_read(options), options.out);
-  OutputFolder folder(options.out);
+  OutputFolder folder(options.out, plan_files());
   const Progress progress = terminal_progress();
   const PlannedJob plan = plan_job(options, progress);
   const WrittenPlan written = write_plan(plan, folder, progress);

@@ -10,6 +10,7 @@
 
 #include "core/base/errors.h"
 #include "core/base/number_text.h"
+#include "core/base/poll.h"
 #include "core/base/whole_file.h"
 
 namespace dwell {
@@ -39,10 +40,12 @@ class PathFileReader {
  public:
   explicit PathFileReader(std::string name) : name_(std::move(name)) {}
 
-  ToolPath read(std::string_view text) {
+  ToolPath read(std::string_view text, const Progress& progress) {
+    Poll poll(progress, 8192);
     constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
     if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
     while (!text.empty()) {
+      poll.step();
       const std::size_t end = text.find('\n');
       ++line_number_;
       take_line(trim(text.substr(0, end)));
@@ -127,10 +130,12 @@ class PathFileReader {
 
 }  // namespace
 
-ToolPath parse_path_text(std::string_view text, const std::string& name) { return PathFileReader(name).read(text); }
+ToolPath parse_path_text(std::string_view text, const std::string& name, const Progress& progress) {
+  return PathFileReader(name).read(text, progress);
+}
 
-ToolPath read_path_file(const std::filesystem::path& file) {
-  return parse_path_text(read_whole_file(file), file.string());
+ToolPath read_path_file(const std::filesystem::path& file, const Progress& progress) {
+  return parse_path_text(read_whole_file(file), file.string(), progress);
 }
 
 }  // namespace dwell

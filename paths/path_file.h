@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/base/progress.h"
 #include "core/motion/tool_path.h"
 
 namespace dwell {
@@ -15,9 +16,9 @@ namespace dwell {
 ///
 /// Points that repeat the one before are accepted: a stroke has no length where its neighbours on both sides coincide
 /// with it, and is then a halt. Throws InputError naming file, line, column, value and what is accepted. Cost O(bytes).
-ToolPath read_path_file(const std::filesystem::path& file);
+ToolPath read_path_file(const std::filesystem::path& file, const Progress& progress = {});
 
 /// The same from the text of such a file; `name` begins error messages.
-ToolPath parse_path_text(std::string_view text, const std::string& name);
+ToolPath parse_path_text(std::string_view text, const std::string& name, const Progress& progress = {});
 
 }  // namespace dwell

@@ -26,16 +26,17 @@ bool claims_fits(std::string_view bytes, std::string_view extension) {
 }
 
 constexpr std::array kFormats{
-    MapFormat{"an NPY array (.npy)", [](std::string_view bytes, std::string_view) { return is_npy(bytes); }, parse_npy},
-    MapFormat{"a Zygo MetroPro file (.dat)",
+    MapFormat{"an NPY array (.npy)", "npy", [](std::string_view bytes, std::string_view) { return is_npy(bytes); },
+              parse_npy},
+    MapFormat{"a Zygo MetroPro file (.dat)", "zygo_dat",
               [](std::string_view bytes, std::string_view) { return is_zygo_dat(bytes); }, parse_zygo_dat},
-    MapFormat{"a Zygo .datx or other HDF5 file (.h5, .hdf5)", claims_hdf5, parse_hdf5, parse_hdf5_at},
-    MapFormat{"a FITS image (.fits)", claims_fits, parse_fits},
-    MapFormat{"a surface data file as text (.sdf)",
+    MapFormat{"a Zygo .datx or other HDF5 file (.h5, .hdf5)", "hdf5", claims_hdf5, parse_hdf5, parse_hdf5_at},
+    MapFormat{"a FITS image (.fits)", "fits", claims_fits, parse_fits},
+    MapFormat{"a surface data file as text (.sdf)", "sdf_text",
               [](std::string_view bytes, std::string_view extension) { return is_sdf(bytes) || extension == ".sdf"; },
               parse_sdf_text},
     MapFormat{
-        "a Code V interferogram (.int)",
+        "a Code V interferogram (.int)", "codev_int",
         [](std::string_view bytes, std::string_view extension) { return is_codev_int(bytes) || extension == ".int"; },
         parse_codev_int},
 };
@@ -67,6 +68,8 @@ std::string listed(const Table& table, Name name, const char* last_word) {
 }
 
 }  // namespace
+
+std::span<const MapFormat> map_formats() { return kFormats; }
 
 const MapFormat* map_format_of(std::string_view bytes, std::string_view extension) {
   for (const MapFormat& format : kFormats) {

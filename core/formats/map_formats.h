@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -12,6 +13,7 @@ namespace dwell {
 /// A format that holds a regular array of heights. Formats are tried in the order of the table.
 struct MapFormat {
   const char* name;  // as messages list it: "an NPY array (.npy)"
+  const char* fuzz;  // its fuzz target: tests/fuzz/reader_FUZZ.cpp with seeds/FUZZ
   /// Whether a file of these first bytes and this extension (lower case, with its dot) is to be read as one.
   bool (*claims)(std::string_view bytes, std::string_view extension);
   /// Reads it. `where` begins error messages ("map part.dat"). Throws InputError naming byte, line or field.
@@ -20,6 +22,9 @@ struct MapFormat {
   /// one.
   MapSource (*read_inside)(std::string_view bytes, const std::string& path, const std::string& where) = nullptr;
 };
+
+/// Every format with a record, in the order in which a file is tried; text is what is left (map_format_of).
+std::span<const MapFormat> map_formats();
 
 /// The format that claims the file, or null: text, lines x y z (core/formats/xyz_text.h) or a matrix
 /// (core/formats/matrix_text.h).

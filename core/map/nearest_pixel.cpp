@@ -10,10 +10,11 @@ namespace dwell {
 namespace {
 
 /// The finite pixel of the same row that is nearest, or -1.
-std::vector<Index> nearest_in_row(const HeightMap& map) {
+std::vector<Index> nearest_in_row(const HeightMap& map, const Progress& progress) {
   const Grid& g = map.grid;
   std::vector<Index> nearest(map.values.size(), -1);
   for (Index row = 0; row < g.rows; ++row) {
+    progress.check();
     Index last = -1;
     for (Index col = 0; col < g.cols; ++col) {
       if (std::isfinite(map.at(row, col))) last = col;
@@ -31,14 +32,15 @@ std::vector<Index> nearest_in_row(const HeightMap& map) {
 
 }  // namespace
 
-std::vector<Index> nearest_pixels(const HeightMap& map) {
+std::vector<Index> nearest_pixels(const HeightMap& map, const Progress& progress) {
   if (map.valid_pixels() == 0) throw InputError("map without any finite pixel; at least one is required");
   const Grid& g = map.grid;
-  const std::vector<Index> in_row = nearest_in_row(map);
+  const std::vector<Index> in_row = nearest_in_row(map, progress);
   std::vector<Index> nearest(in_row.size());
   std::vector<double> squared(static_cast<std::size_t>(g.rows));
   LowerEnvelope envelope(g.rows, g.pitch_y);
   for (Index col = 0; col < g.cols; ++col) {
+    progress.check();
     const auto candidate = [&](std::size_t row) {
       return in_row[static_cast<std::size_t>(g.index(static_cast<Index>(row), col))];
     };

@@ -43,13 +43,13 @@ CentredCurveOptions parse_centred_curve(const SpecText& spec) {
 }
 
 CentredDomain::CentredDomain(const HeightMap& map, const CentredCurveOptions& options, double longest_step,
-                             const char* planner)
+                             const char* planner, const Progress& progress)
     : pitch(checked_length(options.pitch, planner, "pitch")),
       step(checked_length(options.step.value_or(options.pitch), planner, "step")),
       domain(map,
              std::max({checked_overrun(options.overrun.value_or(0.0), planner), 0.5 * (pitch + longest_step * step),
                        0.5 * std::hypot(map.grid.pitch_x, map.grid.pitch_y)}),
-             planner) {
+             planner, "overrun", progress) {
   centre = checked_centre(options.centre, domain, planner);
   radius = radial_range(map, centre, domain.reach());
 }

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "core/base/progress.h"
 #include "core/base/spec_text.h"
 #include "core/map/height_map.h"
 #include "core/motion/tool_path.h"
@@ -37,7 +38,8 @@ struct CentredDomain {
 
   /// g = longest_step * step. Throws InputError "PLANNER: OPTION = VALUE mm; required ...", and if the map has no
   /// finite pixel. Cost O(pixels).
-  CentredDomain(const HeightMap& map, const CentredCurveOptions& options, double longest_step, const char* planner);
+  CentredDomain(const HeightMap& map, const CentredCurveOptions& options, double longest_step, const char* planner,
+                const Progress& progress = {});
 
   /// Throws InputError if `points` dwell points, those outside included, are more than a path may have.
   void check_size(double points, const char* planner) const;

@@ -8,6 +8,8 @@
 #include <numbers>
 #include <vector>
 
+#include "core/base/poll.h"
+
 namespace dwell {
 namespace {
 
@@ -21,8 +23,8 @@ struct Arc {
 
 class CirclesPlanner {
  public:
-  CirclesPlanner(const HeightMap& map, const CirclesOptions& options)
-      : part_(map, options, kLongestArc, "circles"), side_(options.clockwise ? -1.0 : 1.0) {
+  CirclesPlanner(const HeightMap& map, const CirclesOptions& options, const Progress& progress)
+      : part_(map, options, kLongestArc, "circles", progress), poll_(progress), side_(options.clockwise ? -1.0 : 1.0) {
     path_.kind = "circles";
   }
 
@@ -70,6 +72,7 @@ class CirclesPlanner {
     const double turn = 2.0 * std::numbers::pi / static_cast<double>(count);
     double sure = 0.0;  // for so many points to come it is known that they are inside
     for (std::size_t k = 0; k < count; ++k) {
+      poll_.step();
       const double angle = turn * (static_cast<double>(k) + 0.5);
       const Point p{part_.centre.x + radius * std::cos(angle), part_.centre.y + side_ * radius * std::sin(angle)};
       if (--sure < 0.0) {
@@ -105,6 +108,7 @@ class CirclesPlanner {
 
   void append_arc(const Arc& piece, double arc) {
     for (std::size_t n = 0; n < piece.count; ++n) {
+      poll_.step();
       const Point p = ring_[(piece.begin + n) % ring_.size()];
       path_.lifted.push_back(n == 0 && !reaches(p, arc) ? 1 : 0);
       path_.points.push_back(p);
@@ -120,6 +124,7 @@ class CirclesPlanner {
   }
 
   CentredDomain part_;
+  Poll poll_;
   double side_;
   ToolPath path_;
   std::vector<Point> ring_;   // dwell points of the circle at hand
@@ -133,8 +138,12 @@ class CirclesPlanner {
 
 CirclesOptions parse_circles_options(const SpecText& spec) { return {parse_centred_curve(spec)}; }
 
-ToolPath circles_path(const HeightMap& map, const CirclesOptions& options) {
-  ToolPath path = CirclesPlanner(map, options).run();
+std::vector<PathDistance> circles_distances(const CirclesOptions& options) {
+  return {{"pitch", options.pitch}, {"step", options.step.value_or(0.0)}};
+}
+
+ToolPath circles_path(const HeightMap& map, const CirclesOptions& options, const Progress& progress) {
+  ToolPath path = CirclesPlanner(map, options, progress).run();
   if (options.from_edge) reverse(path);
   return path;
 }

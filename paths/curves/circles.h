@@ -1,9 +1,13 @@
 #pragma once
 
+#include <vector>
+
+#include "core/base/progress.h"
 #include "core/base/spec_text.h"
 #include "core/map/height_map.h"
 #include "core/motion/tool_path.h"
 #include "paths/curves/centred_curve.h"
+#include "paths/domain/path_distance.h"
 
 namespace dwell {
 
@@ -11,6 +15,9 @@ struct CirclesOptions : CentredCurveOptions {};
 
 /// From "circles:pitch=MM,..."; throws InputError as SpecText does.
 CirclesOptions parse_circles_options(const SpecText& spec);
+
+/// The distances of tracks and dwell points that these options ask for.
+std::vector<PathDistance> circles_distances(const CirclesOptions& options);
 
 /// Concentric circles of radii (i + 1/2) pitch, i = 0, 1, ..., from the inside out: so each has as much length as the
 /// ring of width pitch about it has area. Dwell points lie in the middles of equal arcs of a circle, as near to the
@@ -25,6 +32,6 @@ CirclesOptions parse_circles_options(const SpecText& spec);
 ///
 /// Throws InputError naming the option, its value and what is required; also if the circles between the nearest and the
 /// farthest place of the part have more than 50 million points, outside ones included. Cost O(pixels + points).
-ToolPath circles_path(const HeightMap& map, const CirclesOptions& options);
+ToolPath circles_path(const HeightMap& map, const CirclesOptions& options, const Progress& progress = {});
 
 }  // namespace dwell

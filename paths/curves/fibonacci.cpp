@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/base/errors.h"
+#include "core/base/poll.h"
 #include "paths/curves/centred_curve.h"
 #include "paths/domain/path_domain.h"
 #include "paths/domain/point_limit.h"
@@ -42,12 +43,14 @@ struct Piece {
 
 class FibonacciPlanner {
  public:
-  FibonacciPlanner(const HeightMap& map, const FibonacciOptions& options)
-      : pitch_(checked_pitch(options.pitch)),
+  FibonacciPlanner(const HeightMap& map, const FibonacciOptions& options, const Progress& progress)
+      : progress_(progress),
+        poll_(progress),
+        pitch_(checked_pitch(options.pitch)),
         domain_(map,
                 std::max({checked_overrun(options.overrun.value_or(0.0)), kFarthest * pitch_,
                           0.5 * std::hypot(map.grid.pitch_x, map.grid.pitch_y)}),
-                "fibonacci"),
+                "fibonacci", "overrun", progress),
         centre_(options.centre.value_or(domain_.middle())) {
     if (!std::isfinite(centre_.x) || !std::isfinite(centre_.y)) {
       throw InputError(fmt::format("fibonacci: centre = {}/{} mm; required finite", centre_.x, centre_.y));
@@ -103,6 +106,7 @@ class FibonacciPlanner {
     std::vector<char> inside(zone_.size());
     for (Index k = begin; k < end; ++k) {
       const auto i = static_cast<std::size_t>(k - begin);
+      poll_.step();
       zone_[i] = place(k);
       inside[i] = domain_.contains(zone_[i]) ? 1 : 0;
     }
@@ -130,10 +134,12 @@ class FibonacciPlanner {
     pieces_.assign(static_cast<std::size_t>(used), {});
     std::size_t arm = 0;
     for (Index i = 0, j = 0; i < arms; ++i, j = (j + before) % arms) {
+      poll_.step();
       if (zone_begin_ + j >= end) continue;
       std::vector<Piece>& pieces = pieces_[arm++];
       bool within = false;
       for (Index k = zone_begin_ + j; k < end; k += arms) {
+        poll_.step();
         const bool in = inside[static_cast<std::size_t>(k - zone_begin_)] != 0;
         if (in && !within) pieces.push_back({k});
         if (in) ++pieces.back().count;
@@ -166,6 +172,7 @@ class FibonacciPlanner {
   /// The piece of an arm that the tool can go on to without being lifted, or none.
   Piece* neighbour(std::size_t arm) {
     Piece* best = nullptr;
+    poll_.step();
     for (Piece& piece : pieces_[arm]) {
       if (!piece.done && away(piece) <= kLongestMove * pitch_ && (best == nullptr || away(piece) < away(*best))) {
         best = &piece;
@@ -179,6 +186,7 @@ class FibonacciPlanner {
     const bool backwards = !path_.points.empty() && distance(path_.points.back(), at(last(piece))) <
                                                         distance(path_.points.back(), at(piece.first));
     for (Index n = 0; n < piece.count; ++n) {
+      poll_.step();
       const Point p = at(piece.first + stride_ * (backwards ? piece.count - 1 - n : n));
       path_.lifted.push_back(n == 0 && !reaches(p) ? 1 : 0);
       path_.points.push_back(p);
@@ -193,7 +201,7 @@ class FibonacciPlanner {
 
   void describe() {
     if (path_.size() < 2) return;
-    const PathMetrics metrics = path_metrics(path_);
+    const PathMetrics metrics = path_metrics(path_, progress_);
     path_.notes.push_back(fmt::format(
         "the tour through {} points is {:.4g} times (points - 1) * pitch long, lifted moves included ({} of "
         "them, {:.4g} mm)",
@@ -201,6 +209,8 @@ class FibonacciPlanner {
         metrics.lifted_length));
   }
 
+  const Progress& progress_;
+  Poll poll_;
   double pitch_;
   PathDomain domain_;
   Point centre_;
@@ -224,8 +234,10 @@ FibonacciOptions parse_fibonacci_options(const SpecText& spec) {
   return options;
 }
 
-ToolPath fibonacci_path(const HeightMap& map, const FibonacciOptions& options) {
-  return FibonacciPlanner(map, options).run();
+std::vector<PathDistance> fibonacci_distances(const FibonacciOptions& options) { return {{"pitch", options.pitch}}; }
+
+ToolPath fibonacci_path(const HeightMap& map, const FibonacciOptions& options, const Progress& progress) {
+  return FibonacciPlanner(map, options, progress).run();
 }
 
 }  // namespace dwell

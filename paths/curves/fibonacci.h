@@ -1,10 +1,13 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
+#include "core/base/progress.h"
 #include "core/base/spec_text.h"
 #include "core/map/height_map.h"
 #include "core/motion/tool_path.h"
+#include "paths/domain/path_distance.h"
 
 namespace dwell {
 
@@ -17,6 +20,9 @@ struct FibonacciOptions {
 
 /// From "fibonacci:pitch=MM,..."; throws InputError as SpecText does.
 FibonacciOptions parse_fibonacci_options(const SpecText& spec);
+
+/// The distances of tracks and dwell points that these options ask for.
+std::vector<PathDistance> fibonacci_distances(const FibonacciOptions& options);
 
 /// Phyllotaxis lattice: point k = 0, 1, ... at distance pitch sqrt((k + 1/2) / pi) from the centre and angle k times
 /// the golden angle, 137.5 degrees counter-clockwise from +x (Vogel 1979, "A better way to construct the sunflower
@@ -35,6 +41,6 @@ FibonacciOptions parse_fibonacci_options(const SpecText& spec);
 ///
 /// Throws InputError naming the option, its value and what is required; also if there are more than 50 million points
 /// between the nearest and the farthest place of the part, outside ones included. Cost O(pixels + those points).
-ToolPath fibonacci_path(const HeightMap& map, const FibonacciOptions& options);
+ToolPath fibonacci_path(const HeightMap& map, const FibonacciOptions& options, const Progress& progress = {});
 
 }  // namespace dwell

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/poll.h"
+
 namespace dwell {
 namespace {
 
@@ -95,8 +97,12 @@ class TurningUnit {
 
 SpiralOptions parse_spiral_options(const SpecText& spec) { return {parse_centred_curve(spec)}; }
 
-ToolPath spiral_path(const HeightMap& map, const SpiralOptions& options) {
-  const CentredDomain part(map, options, 1.0, "spiral");
+std::vector<PathDistance> spiral_distances(const SpiralOptions& options) {
+  return {{"pitch", options.pitch}, {"step", options.step.value_or(0.0)}};
+}
+
+ToolPath spiral_path(const HeightMap& map, const SpiralOptions& options, const Progress& progress) {
+  const CentredDomain part(map, options, 1.0, "spiral", progress);
   const double scale = part.pitch / (2.0 * std::numbers::pi);  // rho = scale * theta
   const auto steps_to = [&](double radius) {
     const double theta = radius / scale;
@@ -116,7 +122,9 @@ ToolPath spiral_path(const HeightMap& map, const SpiralOptions& options) {
   bool outside = true;
   double sure = 0.0;  // for so many points to come it is known that they are inside
   std::size_t pieces = 0;
+  Poll poll(progress);
   for (double k = 0.0; k <= last - first; ++k) {
+    poll.step();
     const double theta = angle(k);
     const double rho = scale * theta;
     const Point out = unit(theta);

@@ -40,15 +40,17 @@ Index half_width(double side, double pitch, Index count) {
 }
 
 /// Sums over the box at every pixel.
-void sum_boxes(const Grid& g, std::vector<double>& values, Index half_cols, Index half_rows) {
+void sum_boxes(const Grid& g, std::vector<double>& values, Index half_cols, Index half_rows, const Progress& progress) {
   std::vector<double> line;
   for (Index row = 0; row < g.rows && half_cols > 0; ++row) {
+    progress.check();
     line.assign(values.begin() + g.index(row, 0), values.begin() + g.index(row, 0) + g.cols);
     sum_windows(line, half_cols);
     std::copy(line.begin(), line.end(), values.begin() + g.index(row, 0));
   }
   line.resize(static_cast<std::size_t>(g.rows));
   for (Index col = 0; col < g.cols && half_rows > 0; ++col) {
+    progress.check();
     for (Index row = 0; row < g.rows; ++row) {
       line[static_cast<std::size_t>(row)] = values[static_cast<std::size_t>(g.index(row, col))];
     }
@@ -61,7 +63,7 @@ void sum_boxes(const Grid& g, std::vector<double>& values, Index half_cols, Inde
 
 }  // namespace
 
-HeightMap box_mean(const HeightMap& map, double side) {
+HeightMap box_mean(const HeightMap& map, double side, const Progress& progress) {
   if (!(std::isfinite(side) && side >= 0.0)) {
     throw InputError(fmt::format("box mean: side = {} mm; required finite and >= 0", side));
   }
@@ -74,8 +76,8 @@ HeightMap box_mean(const HeightMap& map, double side) {
     sums[i] = valid ? map.values[i] : 0.0;
     counts[i] = valid ? 1.0 : 0.0;
   }
-  sum_boxes(map.grid, sums, half_cols, half_rows);
-  sum_boxes(map.grid, counts, half_cols, half_rows);
+  sum_boxes(map.grid, sums, half_cols, half_rows, progress);
+  sum_boxes(map.grid, counts, half_cols, half_rows, progress);
   HeightMap mean = map;
   for (std::size_t i = 0; i < sums.size(); ++i) {
     if (std::isfinite(mean.values[i])) mean.values[i] = sums[i] / counts[i];

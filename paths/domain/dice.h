@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/poll.h"
+
 namespace dwell {
 
 /// Random numbers that are the same with every standard library (whose distributions and shuffles differ).
@@ -21,8 +23,10 @@ class Dice {
 
   /// Fisher and Yates; at most 2^32 - 1 values.
   template <class T>
-  void shuffle(std::vector<T>& values) {
+  void shuffle(std::vector<T>& values, const Progress& progress = {}) {
+    Poll poll(progress);
     for (std::size_t i = values.size(); i > 1; --i) {
+      poll.step();
       std::swap(values[i - 1], values[below(static_cast<std::uint32_t>(i))]);
     }
   }

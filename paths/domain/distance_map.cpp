@@ -22,25 +22,27 @@ Index nearest_index(double offset, double pitch, Index count) {
 
 }  // namespace
 
-DistanceMap::DistanceMap(const HeightMap& map, double margin) : pixels_(map.grid), nodes_(map.grid) {
+DistanceMap::DistanceMap(const HeightMap& map, double margin, const Progress& progress)
+    : pixels_(map.grid), nodes_(map.grid) {
   if (!(std::isfinite(margin) && margin >= 0.0)) {
     throw InputError(fmt::format("distance map: margin = {} mm; required finite and >= 0", margin));
   }
-  index_rows(map);
+  index_rows(map, progress);
   const Index margin_cols = margin_nodes(margin, pixels_.width(), pixels_.pitch_x);
   const Index margin_rows = margin_nodes(margin, pixels_.height(), pixels_.pitch_y);
   nodes_.cols += 2 * margin_cols;
   nodes_.rows += 2 * margin_rows;
   nodes_.origin = {pixels_.x(-margin_cols), pixels_.y(-margin_rows)};
-  transform_columns(margin_rows, margin_cols);
+  transform_columns(margin_rows, margin_cols, progress);
 }
 
-void DistanceMap::index_rows(const HeightMap& map) {
+void DistanceMap::index_rows(const HeightMap& map, const Progress& progress) {
   const auto size = static_cast<std::size_t>(pixels_.size());
   valid_left_.resize(size);
   valid_right_.resize(size);
   bool any = false;
   for (Index row = 0; row < pixels_.rows; ++row) {
+    progress.check();
     Index last = -1;
     for (Index col = 0; col < pixels_.cols; ++col) {
       if (std::isfinite(map.at(row, col))) last = col;
@@ -59,12 +61,13 @@ void DistanceMap::index_rows(const HeightMap& map) {
   }
 }
 
-void DistanceMap::transform_columns(Index margin_rows, Index margin_cols) {
+void DistanceMap::transform_columns(Index margin_rows, Index margin_cols, const Progress& progress) {
   node_distance_.resize(static_cast<std::size_t>(nodes_.size()));
   const auto n = static_cast<std::size_t>(nodes_.rows);
   std::vector<double> along_row(n, kInfinity);
   LowerEnvelope envelope(nodes_.rows, pixels_.pitch_y);
   for (Index col = 0; col < nodes_.cols; ++col) {
+    progress.check();
     for (Index row = 0; row < pixels_.rows; ++row) {
       along_row[static_cast<std::size_t>(row + margin_rows)] = squared_in_row(row, pixels_.x(col - margin_cols));
     }

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/base/progress.h"
 #include "core/map/height_map.h"
 
 namespace dwell {
@@ -18,7 +19,7 @@ class DistanceMap {
  public:
   /// margin [mm], finite and >= 0; it is an accelerator only and capped at the map's own extent, so that there are at
   /// most about nine nodes a pixel. Throws InputError if the map has no valid pixel.
-  DistanceMap(const HeightMap& map, double margin);
+  DistanceMap(const HeightMap& map, double margin, const Progress& progress = {});
 
   /// Distance from `p`. Cost O(distance / pitch_y + 1).
   double operator()(Point p) const;
@@ -45,8 +46,8 @@ class DistanceMap {
   };
   Bound bound(Point p) const;
   double distance_to_grid(Point p) const;  // to the rectangle of all pixel centres: a lower bound
-  void index_rows(const HeightMap& map);
-  void transform_columns(Index margin_rows, Index margin_cols);
+  void index_rows(const HeightMap& map, const Progress& progress);
+  void transform_columns(Index margin_rows, Index margin_cols, const Progress& progress);
   double squared_in_row(Index row, double x) const;
 
   Grid pixels_;

@@ -26,11 +26,12 @@ Box box_of_pixels(const HeightMap& map, const char* planner) {
 
 }  // namespace
 
-PathDomain::PathDomain(const HeightMap& map, double reach, const char* planner, const char* option)
+PathDomain::PathDomain(const HeightMap& map, double reach, const char* planner, const char* option,
+                       const Progress& progress)
     : reach_(checked(reach, planner, option)),
       padded_(reach + 1e-9 * std::min(map.grid.pitch_x, map.grid.pitch_y)),
       box_(box_of_pixels(map, planner)),
-      distance_(map, padded_) {}
+      distance_(map, padded_, progress) {}
 
 DomainView PathDomain::look(Point p) const {
   const DistanceMap::Bounds b = distance_.bounds(p);

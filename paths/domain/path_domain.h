@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/base/progress.h"
 #include "core/map/height_map.h"
 #include "paths/domain/distance_map.h"
 
@@ -22,7 +23,8 @@ class PathDomain {
  public:
   /// reach [mm], finite and >= 0. `planner` and `option` begin the messages of InputError, thrown if the reach is out
   /// of range or the map has no finite pixel. Cost O(pixels).
-  PathDomain(const HeightMap& map, double reach, const char* planner, const char* option = "overrun");
+  PathDomain(const HeightMap& map, double reach, const char* planner, const char* option = "overrun",
+             const Progress& progress = {});
 
   /// Cost O(1) but for points about as far as the reach.
   bool contains(Point p) const { return distance_.within(p, padded_); }

@@ -11,10 +11,12 @@ namespace dwell {
 namespace {
 
 constexpr std::int32_t kLeaf = 8;
+constexpr std::int32_t kAskedAbove = 4096;  // points of a box: smaller ones take no time
 
 }  // namespace
 
-PointTree::PointTree(const std::vector<Point>& points) : points_(points), members_(points.size()) {
+PointTree::PointTree(const std::vector<Point>& points, const Progress& progress)
+    : points_(points), members_(points.size()) {
   std::iota(members_.begin(), members_.end(), 0);
   const auto count = static_cast<std::int32_t>(points.size());
   if (count == 0) {
@@ -22,7 +24,10 @@ PointTree::PointTree(const std::vector<Point>& points) : points_(points), member
     return;
   }
   nodes_.push_back({box_of(0, count), 0, count, -1});
-  for (std::size_t node = 0; node < nodes_.size(); ++node) build(node);
+  for (std::size_t node = 0; node < nodes_.size(); ++node) {
+    if (nodes_[node].last - nodes_[node].first > kAskedAbove) progress.check();
+    build(node);
+  }
 }
 
 Box PointTree::box_of(std::int32_t first, std::int32_t last) const {

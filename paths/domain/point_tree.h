@@ -5,6 +5,7 @@
 
 #include "core/base/grid.h"
 #include "core/base/point.h"
+#include "core/base/progress.h"
 #include "paths/domain/path_domain.h"
 
 namespace dwell {
@@ -27,7 +28,7 @@ class PointTree {
   };
 
   /// Finite points, at most 50 million: for the caller to check.
-  explicit PointTree(const std::vector<Point>& points);
+  explicit PointTree(const std::vector<Point>& points, const Progress& progress = {});
 
   /// Calls take(index) for the points in boxes whose squared distance from p is <= reach2, nearer boxes first, unless
   /// skip(node) says that nothing beneath is wanted. reach2 may shrink while the search runs; a box is opened only if

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/base/errors.h"
+#include "core/base/poll.h"
 #include "core/map/nearest_pixel.h"
 #include "paths/domain/rounding.h"
 
@@ -32,7 +33,7 @@ Grid widened(const Grid& grid, double reach, const char* planner) {
 }  // namespace
 
 RegionLabels::RegionLabels(const HeightMap& map, const std::vector<std::int32_t>& regions,
-                           const std::vector<double>& reaches, const char* planner)
+                           const std::vector<double>& reaches, const char* planner, const Progress& progress)
     : grid_(widened(map.grid, longest(reaches), planner)),
       origin_{grid_.origin.x - 0.5 * grid_.pitch_x, grid_.origin.y - 0.5 * grid_.pitch_y},
       per_pitch_{1.0 / grid_.pitch_x, 1.0 / grid_.pitch_y},
@@ -40,7 +41,7 @@ RegionLabels::RegionLabels(const HeightMap& map, const std::vector<std::int32_t>
       cols_(static_cast<double>(grid_.cols)),
       padded_{0.0},
       labels_(static_cast<std::size_t>(grid_.size()), 0),
-      distance_(map, longest(reaches)) {
+      distance_(map, longest(reaches), progress) {
   for (const double reach : reaches) {
     padded_.push_back(reach + kRounding * std::min(grid_.pitch_x, grid_.pitch_y));
   }
@@ -50,9 +51,11 @@ RegionLabels::RegionLabels(const HeightMap& map, const std::vector<std::int32_t>
     wide.at(i / map.grid.cols + margin_rows, i % map.grid.cols + margin_cols) =
         static_cast<double>(regions[static_cast<std::size_t>(i)]);
   }
-  const std::vector<Index> nearest = nearest_pixels(wide);
+  const std::vector<Index> nearest = nearest_pixels(wide, progress);
   const double half_diagonal = 0.5 * std::hypot(grid_.pitch_x, grid_.pitch_y);
+  Poll poll(progress);
   for (Index i = 0; i < grid_.size(); ++i) {
+    poll.step();
     const Index from = nearest[static_cast<std::size_t>(i)];
     const auto region = static_cast<std::int32_t>(wide.values[static_cast<std::size_t>(from)]);
     const double reach = padded_[static_cast<std::size_t>(region)];

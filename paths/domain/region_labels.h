@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/base/progress.h"
 #include "core/map/height_map.h"
 #include "paths/domain/path_domain.h"
 
@@ -19,7 +20,7 @@ class RegionLabels {
   /// 0, one a region. Throws InputError if the map has no finite pixel or would have more than 1e8 pixels with a margin
   /// of the longest reach. `planner` begins the messages. Cost and memory O(pixels with the margin).
   RegionLabels(const HeightMap& map, const std::vector<std::int32_t>& regions, const std::vector<double>& reaches,
-               const char* planner);
+               const char* planner, const Progress& progress = {});
 
   /// The region of a point, 0 outside. Cost O(1) but for points about as far from the part as the reach.
   std::int32_t at(Point p) const {

@@ -7,7 +7,7 @@
 
 namespace dwell {
 
-WidestPlace widest_place(const HeightMap& map) {
+WidestPlace widest_place(const HeightMap& map, const Progress& progress) {
   Grid framed = map.grid;
   framed.rows += 2;
   framed.cols += 2;
@@ -19,7 +19,7 @@ WidestPlace widest_place(const HeightMap& map) {
     any = true;
   }
   if (!any) throw InputError("widest place: the map has no finite pixel; at least one is required");
-  const DistanceMap distance(missing, 0.0);
+  const DistanceMap distance(missing, 0.0, progress);
   WidestPlace place;
   for (const Index i : finite_pixels(map)) {
     const double room = distance.at_node(i / map.grid.cols + 1, i % map.grid.cols + 1);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/base/progress.h"
 #include "core/map/height_map.h"
 
 namespace dwell {
@@ -12,6 +13,6 @@ struct WidestPlace {
 
 /// The centre of the valid pixel farthest from all missing ones and from the map's rim (a frame of one more pixel
 /// counts as missing); of several, equal to 1e-9, the first. Throws InputError if no pixel is finite. Cost O(pixels).
-WidestPlace widest_place(const HeightMap& map);
+WidestPlace widest_place(const HeightMap& map, const Progress& progress = {});
 
 }  // namespace dwell

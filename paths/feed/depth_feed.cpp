@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/base/errors.h"
+#include "core/base/poll.h"
 #include "core/map/nearest_pixel.h"
 
 namespace dwell {
@@ -34,8 +35,8 @@ void check(const ToolPath& path, const std::vector<double>& pitch, const DepthFe
 }
 
 /// A map whose pixels all have the height of the nearest one with data.
-HeightMap filled(const HeightMap& map) {
-  const std::vector<Index> nearest = nearest_pixels(map);
+HeightMap filled(const HeightMap& map, const Progress& progress) {
+  const std::vector<Index> nearest = nearest_pixels(map, progress);
   HeightMap filled = map;
   for (std::size_t i = 0; i < nearest.size(); ++i) filled.values[i] = map.values[static_cast<std::size_t>(nearest[i])];
   return filled;
@@ -60,14 +61,16 @@ double bilinear(const HeightMap& map, Point p) {
 }  // namespace
 
 DepthFeed depth_feed(const HeightMap& target, const ToolPath& path, const std::vector<double>& pitch,
-                     const DepthFeedJob& job) {
+                     const DepthFeedJob& job, const Progress& progress) {
   check(path, pitch, job);
-  const HeightMap heights = filled(target);
+  const HeightMap heights = filled(target, progress);
   const std::vector<Stroke> strokes = moving_strokes(path);
   DepthFeed feed;
   feed.speed.resize(strokes.size(), 0.0);
   feed.dwell = Eigen::VectorXd::Zero(static_cast<Index>(strokes.size()));
+  Poll poll(progress);
   for (std::size_t j = 0; j < strokes.size(); ++j) {
+    poll.step();
     const double length = strokes[j].length();
     const double stands_for = std::isfinite(job.step) ? job.step : length;
     const double depth = std::max(0.0, bilinear(heights, path.points[j]) - job.lowest);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "core/base/progress.h"
 #include "core/map/height_map.h"
 #include "core/motion/tool_path.h"
 
@@ -37,6 +38,6 @@ struct DepthFeed {
 /// a moving tool. Throws InputError naming what is out of range, or the two sizes if they differ. Cost O(pixels +
 /// points).
 DepthFeed depth_feed(const HeightMap& target, const ToolPath& path, const std::vector<double>& pitch,
-                     const DepthFeedJob& job);
+                     const DepthFeedJob& job, const Progress& progress = {});
 
 }  // namespace dwell

@@ -9,6 +9,7 @@
 #include "core/base/errors.h"
 #include "core/base/numbers.h"
 #include "core/base/point.h"
+#include "core/base/poll.h"
 #include "paths/domain/feed_direction.h"
 #include "paths/domain/rounding.h"
 
@@ -29,9 +30,10 @@ void check(const LatticeOptions& o, double overrun, const char* planner) {
 }
 
 /// Bounding box of the valid pixel centres in the frame (along, across).
-Box turned_box(const HeightMap& map, const CellLattice& lattice, const char* planner) {
+Box turned_box(const HeightMap& map, const CellLattice& lattice, const char* planner, const Progress& progress) {
   Box box{{kInfinity, kInfinity}, {-kInfinity, -kInfinity}};
   for (Index row = 0; row < map.grid.rows; ++row) {
+    progress.check();
     for (Index col = 0; col < map.grid.cols; ++col) {
       if (!std::isfinite(map.at(row, col))) continue;
       const Point p = map.grid.centre(row, col);
@@ -81,15 +83,17 @@ class PixelUnder {
 
 /// The reach is at least half a pixel's diagonal, so that points on valid pixels need no distances; these are made when
 /// the first other point comes.
-void keep_within_reach(CellLattice& lattice, const HeightMap& map, const char* planner) {
+void keep_within_reach(CellLattice& lattice, const HeightMap& map, const char* planner, const Progress& progress) {
+  Poll poll(progress);
   lattice.kept.resize(static_cast<std::size_t>(lattice.rows * lattice.cols));
   const PixelUnder pixel_under(map);
   std::size_t cell = 0;
   for (Index row = 0; row < lattice.rows; ++row) {
     for (Index col = 0; col < lattice.cols; ++col, ++cell) {
+      poll.step();
       const Point p = lattice.at(row, col);
       if (!pixel_under.valid(p)) {
-        if (!lattice.domain) lattice.domain.emplace(map, lattice.reach, planner);
+        if (!lattice.domain) lattice.domain.emplace(map, lattice.reach, planner, "overrun", progress);
         if (!lattice.domain->contains(p)) continue;
       }
       lattice.kept[cell] = 1;
@@ -114,17 +118,20 @@ LatticeOptions parse_lattice_options(const SpecText& spec) {
   return options;
 }
 
-CellLattice cell_lattice(const HeightMap& map, const LatticeOptions& options, const char* planner) {
+std::vector<PathDistance> lattice_distances(const LatticeOptions& options) { return {{"pitch", options.pitch}}; }
+
+CellLattice cell_lattice(const HeightMap& map, const LatticeOptions& options, const char* planner,
+                         const Progress& progress) {
   const double overrun = options.overrun.value_or(0.0);
   check(options, overrun, planner);
   CellLattice lattice;
   lattice.pitch = options.pitch;
   lattice.along = feed_direction(options.angle_deg);
   lattice.across = {-lattice.along.y, lattice.along.x};
-  lay_out(lattice, turned_box(map, lattice, planner), overrun, planner);
+  lay_out(lattice, turned_box(map, lattice, planner, progress), overrun, planner);
   const double between_pixels = 0.5 * std::hypot(map.grid.pitch_x, map.grid.pitch_y);
   lattice.reach = std::max({overrun, options.pitch / std::numbers::sqrt2, between_pixels});
-  keep_within_reach(lattice, map, planner);
+  keep_within_reach(lattice, map, planner, progress);
   return lattice;
 }
 

@@ -4,8 +4,10 @@
 #include <optional>
 #include <vector>
 
+#include "core/base/progress.h"
 #include "core/base/spec_text.h"
 #include "core/map/height_map.h"
+#include "paths/domain/path_distance.h"
 #include "paths/domain/path_domain.h"
 
 namespace dwell {
@@ -21,6 +23,9 @@ struct LatticeOptions {
 /// The keys that parse_lattice_options reads, for SpecText::accept_only, followed by others.
 std::vector<std::string> lattice_keys(std::initializer_list<std::string_view> others);
 LatticeOptions parse_lattice_options(const SpecText& spec);
+
+/// The distances of tracks and dwell points that these options ask for.
+std::vector<PathDistance> lattice_distances(const LatticeOptions& options);
 
 /// A square lattice over a part, and which of its points a path visits.
 struct CellLattice {
@@ -52,6 +57,7 @@ struct CellLattice {
 ///
 /// `planner` begins the messages of InputError, thrown if an option is out of range, the map has no finite pixel, or
 /// the box holds more than 50 million lattice points. Cost and memory O(pixels + lattice points of the box).
-CellLattice cell_lattice(const HeightMap& map, const LatticeOptions& options, const char* planner);
+CellLattice cell_lattice(const HeightMap& map, const LatticeOptions& options, const char* planner,
+                         const Progress& progress = {});
 
 }  // namespace dwell

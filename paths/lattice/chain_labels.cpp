@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "core/base/poll.h"
+
 namespace dwell {
 namespace {
 
@@ -51,8 +53,11 @@ class Walker {
 
 }  // namespace
 
-ChainLabels::ChainLabels(const CellLinks& links) : links_(links), label_(static_cast<std::size_t>(links.size()), -1) {
+ChainLabels::ChainLabels(const CellLinks& links, const Progress& progress)
+    : links_(links), label_(static_cast<std::size_t>(links.size()), -1) {
+  Poll poll(progress);
   for (Cell c = links.first(); c < links.end(); ++c) {
+    poll.step();
     if (!links.kept(c) || label_[static_cast<std::size_t>(c)] >= 0) continue;
     const std::int32_t name = names();
     chains_.push_back({name, 0, false});

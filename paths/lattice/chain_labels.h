@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/base/progress.h"
 #include "paths/lattice/cell_links.h"
 
 namespace dwell {
@@ -14,7 +15,7 @@ class ChainLabels {
   using Cell = CellLinks::Cell;
 
   /// Refers to the links, which are changed by the caller. Cost O(cells).
-  explicit ChainLabels(const CellLinks& links);
+  explicit ChainLabels(const CellLinks& links, const Progress& progress = {});
 
   /// Name of the chain of a kept cell, below names(); changes with every join.
   std::int32_t name(Cell c) const { return root(label_[static_cast<std::size_t>(c)]); }

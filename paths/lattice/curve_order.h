@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/base/progress.h"
 #include "core/base/spec_text.h"
 #include "core/motion/tool_path.h"
 #include "paths/lattice/cell_lattice.h"
@@ -22,7 +23,7 @@ struct FillingCurve {
 /// Kept cells of a lattice in the order in which the curve over the smallest square of side^k cells that covers the
 /// lattice meets them; the curve begins at cell (0, 0). Blocks without a kept cell cost nothing but the look at them,
 /// so the cost is O(cells of the lattice) for that, with little to do, and O(kept cells) for the walk.
-std::vector<Index> curve_order(const CellLattice& lattice, const FillingCurve& curve);
+std::vector<Index> curve_order(const CellLattice& lattice, const FillingCurve& curve, const Progress& progress = {});
 
 /// What a curve does where cells that were left out break it.
 enum class GapMove {
@@ -38,6 +39,6 @@ GapMove parse_gap_move(const SpecText& spec);
 /// of the curve; every other is a gap. Whether a link stays in the domain is seen at every eighth of a pitch. `kind`
 /// begins messages and the note that says how many gaps were linked and lifted. Cost O(pixels + points of the box).
 ToolPath curve_path(const HeightMap& map, const LatticeOptions& options, const FillingCurve& curve, GapMove move,
-                    const char* kind);
+                    const char* kind, const Progress& progress = {});
 
 }  // namespace dwell

@@ -28,8 +28,8 @@ HilbertOptions parse_hilbert_options(const SpecText& spec) {
   return {parse_lattice_options(spec), parse_gap_move(spec)};
 }
 
-ToolPath hilbert_path(const HeightMap& map, const HilbertOptions& options) {
-  return curve_path(map, options.lattice, hilbert_curve(), options.gaps, "hilbert");
+ToolPath hilbert_path(const HeightMap& map, const HilbertOptions& options, const Progress& progress) {
+  return curve_path(map, options.lattice, hilbert_curve(), options.gaps, "hilbert", progress);
 }
 
 }  // namespace dwell

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/base/progress.h"
 #include "core/motion/tool_path.h"
 #include "paths/lattice/cell_lattice.h"
 #include "paths/lattice/curve_order.h"
@@ -20,6 +21,6 @@ HilbertOptions parse_hilbert_options(const SpecText& spec);
 /// section 2.3, for its use in polishing; Hilbert 1891.
 ///
 /// Throws InputError as cell_lattice does. Cost O(pixels + points of the box).
-ToolPath hilbert_path(const HeightMap& map, const HilbertOptions& options);
+ToolPath hilbert_path(const HeightMap& map, const HilbertOptions& options, const Progress& progress = {});
 
 }  // namespace dwell

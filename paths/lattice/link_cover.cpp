@@ -6,6 +6,8 @@
 #include <iterator>
 #include <utility>
 
+#include "core/base/poll.h"
+
 namespace dwell {
 namespace {
 
@@ -19,13 +21,15 @@ std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 /// moves a missing link from one end to the other, or closes two.
 class Alternating {
  public:
-  explicit Alternating(CellLinks& links) : links_(links), stamp_(at(links.size()), 0), by_(at(links.size()), 0) {}
+  Alternating(CellLinks& links, const Progress& progress)
+      : links_(links), poll_(progress), stamp_(at(links.size()), 0), by_(at(links.size()), 0) {}
 
   /// From a cell that lacks a link to one of the other colour that lacks one: one more link. If there is none, all
   /// cells seen are out of play for good (they lead nowhere now, and no later path can lead through them).
   bool augment(Cell start) {
     begin(start);
     for (std::size_t k = 0; k < queue_.size(); ++k) {
+      poll_.step();
       const Cell x = queue_[k];
       for (int d = 0; d < CellLinks::kDirections; ++d) {
         const Cell y = links_.neighbour(x, d);
@@ -46,6 +50,7 @@ class Alternating {
   bool gather(Cell start, std::int64_t& budget) {
     begin(start);
     for (std::size_t k = 0; k < queue_.size() && budget > 0; ++k, --budget) {
+      poll_.step();
       const Cell x = queue_[k];
       if (k > 0 && links_.degree(x) == 1) {
         toggle_back(x, start);
@@ -98,16 +103,18 @@ class Alternating {
   }
 
   CellLinks& links_;
+  Poll poll_;
   std::vector<std::int32_t> stamp_;
   std::vector<std::uint8_t> by_;  // direction of the step that reached a cell
   std::vector<Cell> queue_;
   std::int32_t now_ = 0;
 };
 
-void make_blocks(CellLinks& links, Dice& dice) {
+void make_blocks(CellLinks& links, Dice& dice, const Progress& progress) {
   const Cell step = links.row_step();
   const auto offset = static_cast<Cell>(dice.below(4));
   for (Cell row = links.first() + (offset >> 1) * step; row < links.end(); row += 2 * step) {
+    progress.check();
     for (Cell c = row + (offset & 1); c < row + step - 2; c += 2) {
       if (!links.kept(c) || !links.kept(c + 1) || !links.kept(c + step) || !links.kept(c + step + 1)) continue;
       links.toggle(c, 0);
@@ -119,12 +126,14 @@ void make_blocks(CellLinks& links, Dice& dice) {
 }
 
 /// Kept cells with fewer than two links, in random order.
-std::vector<Cell> open_cells(const CellLinks& links, Dice& dice) {
+std::vector<Cell> open_cells(const CellLinks& links, Dice& dice, const Progress& progress) {
+  Poll poll(progress);
   std::vector<Cell> open;
   for (Cell c = links.first(); c < links.end(); ++c) {
+    poll.step();
     if (links.kept(c) && links.degree(c) < 2) open.push_back(c);
   }
-  dice.shuffle(open);
+  dice.shuffle(open, progress);
   return open;
 }
 
@@ -143,8 +152,8 @@ void walk_end(CellLinks& links, Cell& end, Dice& dice) {
   end = z;
 }
 
-void augment_all(CellLinks& links, const std::vector<Cell>& open) {
-  Alternating search(links);
+void augment_all(CellLinks& links, const std::vector<Cell>& open, const Progress& progress) {
+  Alternating search(links, progress);
   for (const Cell c : open) {
     if (CellLinks::colour(c) != 0) continue;  // the number of links is the largest once one colour finds no more
     while (links.degree(c) < 2 && search.augment(c)) {
@@ -155,12 +164,13 @@ void augment_all(CellLinks& links, const std::vector<Cell>& open) {
 /// Moves the ends of the chains of each piece together until it has two.
 class EndGathering {
  public:
-  EndGathering(CellLinks& links, const LatticePieces& pieces, Dice& dice)
+  EndGathering(CellLinks& links, const LatticePieces& pieces, Dice& dice, const Progress& progress)
       : links_(links),
         pieces_(pieces),
         dice_(dice),
-        search_(links),
-        open_(open_cells(links, dice)),
+        poll_(progress, 4096),
+        search_(links, progress),
+        open_(open_cells(links, dice, progress)),
         ends_(pieces.pieces.size(), 0),
         budget_(50 * std::int64_t{links.size()}) {
     for (const Cell c : open_) ends_beside(c) += links.degree(c) == 1 ? 1 : 0;
@@ -184,6 +194,7 @@ class EndGathering {
   void gather(bool peel) {
     constexpr int kSteps = 16;
     for (Cell& c : open_) {
+      poll_.step();
       if (ends_beside(c) <= 2 || links_.degree(c) != 1) continue;
       if (search_.gather(c, budget_)) {
         ends_beside(c) -= 2;
@@ -201,17 +212,20 @@ class EndGathering {
   CellLinks& links_;
   const LatticePieces& pieces_;
   Dice& dice_;
+  Poll poll_;
   Alternating search_;
   std::vector<Cell> open_;
   std::vector<Index> ends_;  // by piece
   std::int64_t budget_;
 };
 
-void stir(CellLinks& links, std::vector<Cell> ends, Dice& dice) {
+void stir(CellLinks& links, std::vector<Cell> ends, Dice& dice, const Progress& progress) {
+  Poll poll(progress);
   for (int pass = 0; pass < kStirs; ++pass) {
     std::uint64_t bits = 0;
     int left = 0;
     for (Cell c = links.first(); c < links.end(); ++c) {
+      poll.step();
       if (links.flippable(c) == 0) continue;
       if (left == 0) {
         bits = dice.bits();
@@ -233,16 +247,19 @@ Index LatticePiece::must_leave_out() const {
   return least;
 }
 
-LatticePieces find_pieces(const CellLinks& links) {
+LatticePieces find_pieces(const CellLinks& links, const Progress& progress) {
+  Poll poll(progress);
   LatticePieces found{std::vector<std::int32_t>(at(links.size()), -1), {}};
   std::vector<Cell> queue;
   for (Cell c = links.first(); c < links.end(); ++c) {
+    poll.step();
     if (!links.kept(c) || found.of_cell[at(c)] >= 0) continue;
     const auto name = static_cast<std::int32_t>(found.pieces.size());
     LatticePiece piece;
     queue.assign(1, c);
     found.of_cell[at(c)] = name;
     for (std::size_t k = 0; k < queue.size(); ++k) {
+      poll.step();
       const Cell x = queue[k];
       ++piece.cells;
       piece.black += CellLinks::colour(x) == 0 ? 1 : 0;
@@ -259,15 +276,17 @@ LatticePieces find_pieces(const CellLinks& links) {
   return found;
 }
 
-void trim_dead_ends(CellLinks& links, LatticePieces& pieces, Dice& dice) {
+void trim_dead_ends(CellLinks& links, LatticePieces& pieces, Dice& dice, const Progress& progress) {
+  Poll poll(progress);
   std::vector<Cell> tips;
   std::vector<std::array<Index, 2>> of_colour(pieces.pieces.size(), {0, 0});
   for (Cell c = links.first(); c < links.end(); ++c) {
+    poll.step();
     if (!links.kept(c) || links.kept_neighbours(c) != 1 || pieces.of(c).dead_ends <= 2) continue;
     tips.push_back(c);
     ++of_colour[at(pieces.of_cell[at(c)])][at(CellLinks::colour(c))];
   }
-  dice.shuffle(tips);
+  dice.shuffle(tips, progress);
   const auto in_surplus = [&](Cell c) {  // its colour, even without any tip
     const std::array<Index, 2>& tips_of = of_colour[at(pieces.of_cell[at(c)])];
     const Index surplus = pieces.of(c).surplus() - tips_of[0] + tips_of[1];
@@ -288,8 +307,10 @@ void trim_dead_ends(CellLinks& links, LatticePieces& pieces, Dice& dice) {
 }
 
 void thin_corners(CellLinks& links, const LatticePieces& pieces, const std::vector<char>& thinned, unsigned share,
-                  Dice& dice) {
+                  Dice& dice, const Progress& progress) {
+  Poll poll(progress);
   for (Cell c = links.first(); c < links.end(); ++c) {
+    poll.step();
     if (!links.kept(c) || links.kept_neighbours(c) != 2 || thinned[at(pieces.of_cell[at(c)])] == 0) continue;
     for (int d = 0; d < CellLinks::kDirections; ++d) {
       const Cell a = links.neighbour(c, d), b = links.neighbour(c, (d + 1) & 3);
@@ -300,14 +321,14 @@ void thin_corners(CellLinks& links, const LatticePieces& pieces, const std::vect
   }
 }
 
-void cover_with_loops(CellLinks& links, LatticePieces& pieces, bool peel, Dice& dice) {
-  make_blocks(links, dice);
-  augment_all(links, open_cells(links, dice));
-  for (const Cell c : open_cells(links, dice)) pieces.of(c).open_ends += 2 - links.degree(c);
-  EndGathering(links, pieces, dice).run(peel);
-  std::vector<Cell> ends = open_cells(links, dice);
+void cover_with_loops(CellLinks& links, LatticePieces& pieces, bool peel, Dice& dice, const Progress& progress) {
+  make_blocks(links, dice, progress);
+  augment_all(links, open_cells(links, dice, progress), progress);
+  for (const Cell c : open_cells(links, dice, progress)) pieces.of(c).open_ends += 2 - links.degree(c);
+  EndGathering(links, pieces, dice, progress).run(peel);
+  std::vector<Cell> ends = open_cells(links, dice, progress);
   std::erase_if(ends, [&](Cell c) { return links.degree(c) == 0; });
-  stir(links, std::move(ends), dice);
+  stir(links, std::move(ends), dice, progress);
 }
 
 }  // namespace dwell

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/base/progress.h"
 #include "paths/domain/dice.h"
 #include "paths/lattice/cell_links.h"
 
@@ -32,18 +33,18 @@ struct LatticePieces {
 };
 
 /// Cost O(cells).
-LatticePieces find_pieces(const CellLinks& links);
+LatticePieces find_pieces(const CellLinks& links, const Progress& progress = {});
 
 /// Leaves out dead ends beyond the two that a path can have, as far as they stand on a cell that has two other
 /// neighbours, so that a path passes beside them (corridors one cell wide are not eaten up). Chooses them by the colour
 /// of which there are too many. Counts them in the pieces.
-void trim_dead_ends(CellLinks& links, LatticePieces& pieces, Dice& dice);
+void trim_dead_ends(CellLinks& links, LatticePieces& pieces, Dice& dice, const Progress& progress = {});
 
 /// Leaves out a share of the cells at convex corners of some pieces (by piece: 0 = none of its cells), in numbers of 1
 /// / 256 and at random, as far as both neighbours keep two others. A staircase rim has its cells at such corners all of
 /// one colour, which forces every path along it into the same zigzag, rank behind rank, and leaves no way to join them.
 void thin_corners(CellLinks& links, const LatticePieces& pieces, const std::vector<char>& thinned, unsigned share,
-                  Dice& dice);
+                  Dice& dice, const Progress& progress = {});
 
 /// Links as many neighbours as possible, at most two a cell, so that every piece falls into loops and as few open
 /// chains as can be; then moves the missing links together, so that of the chains of a piece all but one are lone
@@ -55,6 +56,6 @@ void thin_corners(CellLinks& links, const LatticePieces& pieces, const std::vect
 /// leads to all sets of loops over a simply connected lattice with equal probability (the square ice model); the
 /// directions are then as even as the shape of the part allows. Cost O(cells) but for augmenting, which searches as
 /// far as the next missing link.
-void cover_with_loops(CellLinks& links, LatticePieces& pieces, bool peel, Dice& dice);
+void cover_with_loops(CellLinks& links, LatticePieces& pieces, bool peel, Dice& dice, const Progress& progress = {});
 
 }  // namespace dwell

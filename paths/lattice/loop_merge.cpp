@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/poll.h"
 #include "paths/lattice/chain_labels.h"
 
 namespace dwell {
@@ -14,8 +15,14 @@ using Cell = CellLinks::Cell;
 
 class Merger {
  public:
-  Merger(CellLinks& links, const LatticePieces& pieces, Dice& dice)
-      : links_(links), pieces_(pieces), dice_(dice), chains_(links), budget_(30 * std::int64_t{links.size()}) {}
+  Merger(CellLinks& links, const LatticePieces& pieces, Dice& dice, const Progress& progress)
+      : progress_(progress),
+        poll_(progress),
+        links_(links),
+        pieces_(pieces),
+        dice_(dice),
+        chains_(links, progress),
+        budget_(30 * std::int64_t{links.size()}) {}
 
   void run() {
     merge_everywhere();
@@ -42,6 +49,7 @@ class Merger {
   /// Flips what joins, from the squares given on; they are used up.
   void merge_from(std::vector<Cell>& squares) {
     while (!squares.empty()) {
+      poll_.step();
       const Cell square = squares.back();
       squares.pop_back();
       if (!merge(square)) continue;
@@ -52,9 +60,10 @@ class Merger {
   void merge_everywhere() {
     std::vector<Cell> order;
     for (Cell c = links_.first(); c < links_.end(); ++c) {
+      poll_.step();
       if (links_.kept(c)) order.push_back(c);
     }
-    dice_.shuffle(order);
+    dice_.shuffle(order, progress_);
     for (const Cell square : order) {
       squares_.assign(1, square);
       merge_from(squares_);
@@ -88,6 +97,7 @@ class Merger {
   void take_in_lone_cells() {
     std::vector<char> has_chain = pieces_with_ends();
     for (Cell c = links_.first(); c < links_.end(); ++c) {
+      poll_.step();
       if (!links_.kept(c) || links_.degree(c) != 0 || has_chain[static_cast<std::size_t>(piece(c))] != 0) continue;
       take_in(c);
       has_chain[static_cast<std::size_t>(piece(c))] = links_.degree(c) > 0 ? 1 : 0;
@@ -97,6 +107,7 @@ class Merger {
   std::vector<char> pieces_with_ends() const {
     std::vector<char> has_end(pieces_.pieces.size(), 0);
     for (Cell c = links_.first(); c < links_.end(); ++c) {
+      poll_.step();
       if (links_.degree(c) == 1) has_end[static_cast<std::size_t>(piece(c))] = 1;
     }
     return has_end;
@@ -104,6 +115,7 @@ class Merger {
 
   void take_in_everywhere() {
     for (Cell c = links_.first(); c < links_.end(); ++c) {
+      poll_.step();
       if (links_.degree(c) == 1) take_in(c);
     }
   }
@@ -112,6 +124,7 @@ class Merger {
   void bridge_loops() {
     std::vector<char> has_chain = pieces_with_ends();
     for (Cell c = links_.first(); c < links_.end(); ++c) {
+      poll_.step();
       if (links_.degree(c) != 2 || has_chain[static_cast<std::size_t>(piece(c))] != 0) continue;
       for (int d = 0; d < 2; ++d) {
         const Cell y = links_.neighbour(c, d);
@@ -147,6 +160,7 @@ class Merger {
     std::vector<Cell> heads;
     std::vector<Cell> longest(pieces_.pieces.size(), -1);
     for (Cell c = links_.first(); c < links_.end(); ++c) {
+      poll_.step();
       if (links_.degree(c) == 0) continue;
       Cell& first = head[static_cast<std::size_t>(chains_.name(c))];
       if (first >= 0) continue;
@@ -174,9 +188,11 @@ class Merger {
   /// Splits and joins near the loop of a cell until there is one loop fewer.
   void free_loop(Cell loop) {
     constexpr int kTries = 4000;
-    constexpr int kNear = 2;  // cells from the loop
+    constexpr int kAskEvery = 64;  // tries: a split walks through up to half of a chain
+    constexpr int kNear = 2;       // cells from the loop
     const Index before = joined_;
     for (int k = 0; k < kTries && budget_ > 0; ++k) {
+      if (k % kAskEvery == 0) progress_.check();
       loop = along(loop);
       const Cell square = loop + (static_cast<Cell>(dice_.below(2 * kNear + 1)) - kNear) * links_.row_step() +
                           static_cast<Cell>(dice_.below(2 * kNear + 1)) - kNear;
@@ -197,6 +213,8 @@ class Merger {
     }
   }
 
+  const Progress& progress_;
+  mutable Poll poll_;
   CellLinks& links_;
   const LatticePieces& pieces_;
   Dice& dice_;
@@ -208,6 +226,8 @@ class Merger {
 
 }  // namespace
 
-void merge_loops(CellLinks& links, const LatticePieces& pieces, Dice& dice) { Merger(links, pieces, dice).run(); }
+void merge_loops(CellLinks& links, const LatticePieces& pieces, Dice& dice, const Progress& progress) {
+  Merger(links, pieces, dice, progress).run();
+}
 
 }  // namespace dwell

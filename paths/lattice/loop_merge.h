@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/base/progress.h"
 #include "paths/domain/dice.h"
 #include "paths/lattice/link_cover.h"
 
@@ -15,6 +16,6 @@ namespace dwell {
 ///
 /// Cost O(cells) but for freed loops: a split costs the shorter of the two parts; all splits together are given up
 /// after 30 steps a cell.
-void merge_loops(CellLinks& links, const LatticePieces& pieces, Dice& dice);
+void merge_loops(CellLinks& links, const LatticePieces& pieces, Dice& dice, const Progress& progress = {});
 
 }  // namespace dwell

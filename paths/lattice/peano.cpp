@@ -27,8 +27,8 @@ PeanoOptions parse_peano_options(const SpecText& spec) {
   return {parse_lattice_options(spec), parse_gap_move(spec)};
 }
 
-ToolPath peano_path(const HeightMap& map, const PeanoOptions& options) {
-  return curve_path(map, options.lattice, peano_curve(), options.gaps, "peano");
+ToolPath peano_path(const HeightMap& map, const PeanoOptions& options, const Progress& progress) {
+  return curve_path(map, options.lattice, peano_curve(), options.gaps, "peano", progress);
 }
 
 }  // namespace dwell

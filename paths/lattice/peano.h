@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/base/progress.h"
 #include "core/motion/tool_path.h"
 #include "paths/lattice/cell_lattice.h"
 #include "paths/lattice/curve_order.h"
@@ -20,6 +21,6 @@ PeanoOptions parse_peano_options(const SpecText& spec);
 /// compare such paths with Hilbert's in polishing.
 ///
 /// Throws InputError as cell_lattice does. Cost O(pixels + points of the box).
-ToolPath peano_path(const HeightMap& map, const PeanoOptions& options);
+ToolPath peano_path(const HeightMap& map, const PeanoOptions& options, const Progress& progress = {});
 
 }  // namespace dwell

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/poll.h"
 #include "paths/domain/cell_pyramid.h"
 #include "paths/domain/dice.h"
 #include "paths/lattice/cell_links.h"
@@ -23,12 +24,14 @@ using Cell = CellLinks::Cell;
 using Chains = std::vector<std::pair<Cell, Cell>>;  // end cells
 
 /// Cuts every loop at its lowest, leftmost cell.
-Chains cut_to_chains(CellLinks& links) {
+Chains cut_to_chains(CellLinks& links, const Progress& progress) {
+  Poll poll(progress);
   std::vector<char> seen(static_cast<std::size_t>(links.size()), 0);
   const auto other_end = [&](Cell c) {
     int way = links.link_direction(c);
     seen[static_cast<std::size_t>(c)] = 1;
     while (way >= 0) {
+      poll.step();
       c = links.neighbour(c, way);
       seen[static_cast<std::size_t>(c)] = 1;
       way = links.link_direction(c, way ^ 2);
@@ -38,6 +41,7 @@ Chains cut_to_chains(CellLinks& links) {
   Chains chains;
   for (const bool loops : {false, true}) {
     for (Cell c = links.first(); c < links.end(); ++c) {
+      poll.step();
       if (!links.kept(c) || seen[static_cast<std::size_t>(c)] != 0) continue;
       if (!loops && links.degree(c) == 2) continue;
       const int cut = links.link_direction(c);
@@ -59,19 +63,21 @@ struct Cover {
   Index lifts_in_pieces() const { return static_cast<Index>(chains.size() - pieces.pieces.size()); }
 };
 
-void cover(Cover& c, bool peel, Dice& dice) {
+void cover(Cover& c, bool peel, Dice& dice, const Progress& progress) {
+  Poll poll(progress);
   CellLinks& links = c.links;
-  trim_dead_ends(links, c.pieces, dice);
-  cover_with_loops(links, c.pieces, peel, dice);
-  merge_loops(links, c.pieces, dice);
+  trim_dead_ends(links, c.pieces, dice, progress);
+  cover_with_loops(links, c.pieces, peel, dice, progress);
+  merge_loops(links, c.pieces, dice, progress);
   Index kept = 0, all = 0;
   for (const LatticePiece& piece : c.pieces.pieces) all += piece.cells;
   for (Cell cell = links.first(); cell < links.end(); ++cell) {
+    poll.step();
     if (links.degree(cell) == 0 && links.kept(cell) && links.kept_neighbours(cell) > 0) links.drop(cell);
     kept += links.kept(cell) ? 1 : 0;
   }
   c.left_out = all - kept;
-  c.chains = cut_to_chains(links);
+  c.chains = cut_to_chains(links, progress);
 }
 
 /// By piece: whether it has more than one chain.
@@ -86,19 +92,19 @@ std::vector<char> in_parts(const Cover& c) {
 }
 
 /// Where a piece does not make one chain: with ends peeled off, then with more and more of its corners left out.
-Cover best_cover(const CellLattice& lattice, Dice& dice) {
+Cover best_cover(const CellLattice& lattice, Dice& dice, const Progress& progress) {
   constexpr Index kPointsForALift = 64;
   const CellLinks bare(lattice);
-  const LatticePieces pieces = find_pieces(bare);
+  const LatticePieces pieces = find_pieces(bare, progress);
   Cover best{bare, pieces, {}};
-  cover(best, false, dice);
+  cover(best, false, dice, progress);
   for (const LatticePiece& piece : best.pieces.pieces) best.must_leave_out += piece.must_leave_out();
   for (const unsigned share : {0U, 16U, 128U}) {
     if (best.lifts_in_pieces() == 0) break;
     Cover next{bare, pieces, {}};
     next.must_leave_out = best.must_leave_out;
-    thin_corners(next.links, pieces, in_parts(best), share, dice);
-    cover(next, true, dice);
+    thin_corners(next.links, pieces, in_parts(best), share, dice, progress);
+    cover(next, true, dice, progress);
     const auto price = [&](const Cover& c) { return c.left_out + kPointsForALift * c.lifts_in_pieces(); };
     if (price(next) < price(best)) best = std::move(next);
   }
@@ -108,8 +114,8 @@ Cover best_cover(const CellLattice& lattice, Dice& dice) {
 /// Chains in a short order: from the end of one to the nearest end of another.
 class Assembly {
  public:
-  Assembly(const CellLattice& lattice, const CellLinks& links, ToolPath& path)
-      : lattice_(lattice), links_(links), path_(path) {
+  Assembly(const CellLattice& lattice, const CellLinks& links, ToolPath& path, const Progress& progress)
+      : poll_(progress), lattice_(lattice), links_(links), path_(path) {
     path_.points.reserve(static_cast<std::size_t>(lattice.kept_cells));
     path_.lifted.reserve(static_cast<std::size_t>(lattice.kept_cells));
   }
@@ -149,19 +155,22 @@ class Assembly {
     return c;
   }
   void append(Cell c, char lifted) {
+    poll_.step();
     path_.points.push_back(lattice_.at(links_.lattice_cell(c)));
     path_.lifted.push_back(lifted);
   }
 
+  Poll poll_;
   const CellLattice& lattice_;
   const CellLinks& links_;
   ToolPath& path_;
 };
 
 /// Points not visited that have a visited neighbour.
-Index left_out_beside(const CellLattice& lattice, const CellLinks& links) {
+Index left_out_beside(const CellLattice& lattice, const CellLinks& links, const Progress& progress) {
   Index count = 0;
   for (Index row = 0; row < lattice.rows; ++row) {
+    progress.check();
     for (Index col = 0; col < lattice.cols; ++col) {
       const Cell c = links.first() + static_cast<Cell>(row) * links.row_step() + static_cast<Cell>(col);
       if (lattice.keeps(row, col) && !links.kept(c) && links.kept_neighbours(c) > 0) ++count;
@@ -218,19 +227,19 @@ RandomOptions parse_random_options(const SpecText& spec) {
   return options;
 }
 
-RandomPath random_path(const HeightMap& map, const RandomOptions& options) {
-  const CellLattice lattice = cell_lattice(map, options.lattice, "random");
+RandomPath random_path(const HeightMap& map, const RandomOptions& options, const Progress& progress) {
+  const CellLattice lattice = cell_lattice(map, options.lattice, "random", progress);
   Dice dice(options.seed);
-  const Cover cover = best_cover(lattice, dice);
+  const Cover cover = best_cover(lattice, dice, progress);
   RandomPath result;
   result.lattice_points = lattice.kept_cells;
   result.left_out = cover.left_out;
   result.must_leave_out = cover.must_leave_out;
-  result.left_out_beside = left_out_beside(lattice, cover.links);
+  result.left_out_beside = left_out_beside(lattice, cover.links, progress);
   result.pieces = static_cast<Index>(cover.pieces.pieces.size());
   result.lifts_in_pieces = cover.lifts_in_pieces();
   result.path.kind = "random";
-  Assembly(lattice, cover.links, result.path).add_all(cover.chains);
+  Assembly(lattice, cover.links, result.path, progress).add_all(cover.chains);
   add_notes(result);
   return result;
 }

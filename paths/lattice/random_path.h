@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "core/base/progress.h"
 #include "core/motion/tool_path.h"
 #include "paths/lattice/cell_lattice.h"
 
@@ -41,6 +42,6 @@ struct RandomPath {
 ///
 /// Throws InputError as cell_lattice does. Cost about O(points of the box): 10^6 points in about a second, several
 /// times that on ragged parts, where up to four covers are tried; memory about 60 bytes a point.
-RandomPath random_path(const HeightMap& map, const RandomOptions& options);
+RandomPath random_path(const HeightMap& map, const RandomOptions& options, const Progress& progress = {});
 
 }  // namespace dwell

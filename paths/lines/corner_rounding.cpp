@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "core/base/errors.h"
+#include "core/base/poll.h"
 #include "paths/domain/point_limit.h"
 #include "paths/domain/rounding.h"
 
@@ -42,10 +43,12 @@ double angle_between(Point from, Point to) {
 
 /// Corners of the path, trims and points not yet chosen. A point that repeats its neighbour ends a leg but is no
 /// corner.
-std::vector<Vertex> bends(const ToolPath& path) {
+std::vector<Vertex> bends(const ToolPath& path, const Progress& progress) {
+  Poll poll(progress);
   const auto& p = path.points;
   std::vector<Vertex> vertices;
   for (std::size_t j = 0; j < path.size(); ++j) {
+    poll.step();
     const bool begins = j == 0 || path.lifted[j];
     const bool ends = j + 1 == path.size() || path.lifted[j + 1];
     Vertex vertex;
@@ -84,11 +87,13 @@ std::size_t points_on_arc(const std::vector<Point>& p, const Vertex& before, con
   return static_cast<std::size_t>(std::ceil(std::max(smooth, close) - kRounding));
 }
 
-Rounding plan(const ToolPath& path, double radius) {
+Rounding plan(const ToolPath& path, double radius, const Progress& progress) {
+  Poll poll(progress, 4096);
   const auto& p = path.points;
-  Rounding plan{bends(path)};
+  Rounding plan{bends(path, progress)};
   plan.points = path.size();
   for (std::size_t i = 0; i < plan.vertices.size(); ++i) {
+    poll.step();
     Vertex& v = plan.vertices[i];
     const double corner = std::abs(v.corner);
     if (!(corner > kLeftCornerDeg * kDegree * (1.0 + kRounding))) continue;
@@ -139,13 +144,13 @@ std::string note(const Rounding& plan, double radius) {
 
 }  // namespace
 
-ToolPath rounded_corners(const ToolPath& path, double radius) {
+ToolPath rounded_corners(const ToolPath& path, double radius, const Progress& progress) {
   if (!(std::isfinite(radius) && radius >= 0.0)) {
     throw InputError(fmt::format("{}: corner = {} mm; required finite and >= 0", path.kind, radius));
   }
   validate(path);
   if (radius == 0.0) return path;
-  const Rounding rounding = plan(path, radius);
+  const Rounding rounding = plan(path, radius, progress);
   if (!(static_cast<double>(rounding.points) <= kMaxPathPoints)) {
     throw InputError(fmt::format("{}: with its corners rounded the path has up to {} points; at most {:.0e} accepted",
                                  path.kind, rounding.points, kMaxPathPoints));
@@ -154,7 +159,9 @@ ToolPath rounded_corners(const ToolPath& path, double radius) {
   ToolPath result{path.kind, {}, {}, path.notes};
   result.points.reserve(rounding.points);
   result.lifted.reserve(rounding.points);
+  Poll poll(progress);
   const auto keep = [&](std::size_t j) {
+    poll.step();
     result.points.push_back(p[j]);
     result.lifted.push_back(path.lifted[j]);
   };

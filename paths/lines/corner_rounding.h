@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/base/progress.h"
 #include "core/motion/tool_path.h"
 
 namespace dwell {
@@ -30,6 +31,6 @@ inline constexpr double kArcTurnDeg = 24.0;
 /// radius = 0 returns the path itself. Throws InputError, which names the kind of the path, if the radius is negative
 /// or not finite or the result has more than kMaxPathPoints points; as validate() if the path is not valid. Cost and
 /// memory O(points).
-ToolPath rounded_corners(const ToolPath& path, double radius);
+ToolPath rounded_corners(const ToolPath& path, double radius, const Progress& progress = {});
 
 }  // namespace dwell

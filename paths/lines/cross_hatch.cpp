@@ -30,8 +30,8 @@ Pass make_pass(const HeightMap& map, const ScanOptions& scan, const TurnOptions&
   return {frame, steps, lines, lines.count * points};
 }
 
-ScanLines lines_of(const HeightMap& map, const Pass& pass, double overrun) {
-  return {map, pass.frame, pass.steps, LinePositions(pass.lines), overrun};
+ScanLines lines_of(const HeightMap& map, const Pass& pass, double overrun, const Progress& progress) {
+  return {map, pass.frame, pass.steps, LinePositions(pass.lines), overrun, progress};
 }
 
 /// The serpentine that begins nearest to a point; of equally near ones the first line forwards, first line backwards,
@@ -70,7 +70,11 @@ CrossHatchOptions parse_cross_hatch_options(const SpecText& spec) {
   return options;
 }
 
-ToolPath cross_hatch_path(const HeightMap& map, const CrossHatchOptions& options) {
+std::vector<PathDistance> cross_hatch_distances(const CrossHatchOptions& options) {
+  return {{"pitch", options.pitch}, {"step", options.step.value_or(0.0)}};
+}
+
+ToolPath cross_hatch_path(const HeightMap& map, const CrossHatchOptions& options, const Progress& progress) {
   ScanOptions scan{options.pitch, options.step.value_or(options.pitch), options.angle_deg,
                    options.overrun.value_or(0.0)};
   check_scan_options(scan, kCrossHatch);
@@ -91,10 +95,10 @@ ToolPath cross_hatch_path(const HeightMap& map, const CrossHatchOptions& options
 
   ToolPath path;
   path.kind = kCrossHatch;
-  append_lines(path, lines_of(map, first, scan.overrun), {}, options.turns);
-  const ScanLines across = lines_of(map, second, scan.overrun);
-  append_lines(path, across, order_from(path.points.back(), across), options.turns);
-  return options.turns.corner > 0.0 ? rounded_corners(path, options.turns.corner) : path;
+  append_lines(path, lines_of(map, first, scan.overrun, progress), {}, options.turns, progress);
+  const ScanLines across = lines_of(map, second, scan.overrun, progress);
+  append_lines(path, across, order_from(path.points.back(), across), options.turns, progress);
+  return options.turns.corner > 0.0 ? rounded_corners(path, options.turns.corner, progress) : path;
 }
 
 }  // namespace dwell

@@ -1,10 +1,13 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
+#include "core/base/progress.h"
 #include "core/base/spec_text.h"
 #include "core/map/height_map.h"
 #include "core/motion/tool_path.h"
+#include "paths/domain/path_distance.h"
 #include "paths/lines/turnarounds.h"
 
 namespace dwell {
@@ -22,12 +25,15 @@ struct CrossHatchOptions {
 /// From "cross-hatch:pitch=MM,..."; throws InputError as SpecText does.
 CrossHatchOptions parse_cross_hatch_options(const SpecText& spec);
 
+/// The distances of tracks and dwell points that these options ask for.
+std::vector<PathDistance> cross_hatch_distances(const CrossHatchOptions& options);
+
 /// Two serpentine rasters (raster.h) whose lines cross, one after the other. Of the four ways to run the second (either
 /// line first, from either end) the one that begins nearest to where the first ended; the tool is lifted in between.
 /// What the raster says of its points and coverage holds for each of the two.
 ///
 /// Throws InputError naming the option, its value and what is required; also above 50 million lattice points of both.
 /// Cost O(pixels + lattice points).
-ToolPath cross_hatch_path(const HeightMap& map, const CrossHatchOptions& options);
+ToolPath cross_hatch_path(const HeightMap& map, const CrossHatchOptions& options, const Progress& progress = {});
 
 }  // namespace dwell

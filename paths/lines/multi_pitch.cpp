@@ -10,6 +10,7 @@
 
 #include "core/base/errors.h"
 #include "core/base/number_text.h"
+#include "core/base/poll.h"
 #include "paths/domain/box_mean.h"
 #include "paths/domain/feed_direction.h"
 #include "paths/lines/region_raster.h"
@@ -122,10 +123,13 @@ std::vector<PitchRegion> ranges_of(const MultiPitchOptions& o, const Settings& s
 
 /// Neighbouring ranges of equal pitch become one; those that no pixel lies in go. Fills in the region of every pixel.
 std::vector<PitchRegion> merged(const std::vector<PitchRegion>& ranges, const std::vector<double>& depth,
-                                const std::vector<Index>& pixels, std::vector<std::int32_t>& region_of) {
+                                const std::vector<Index>& pixels, std::vector<std::int32_t>& region_of,
+                                const Progress& progress) {
+  Poll poll(progress);
   std::vector<std::size_t> pixels_in(ranges.size(), 0);
   std::vector<std::size_t> range_of(pixels.size());
   for (std::size_t i = 0; i < pixels.size(); ++i) {
+    poll.step();
     const auto above = std::upper_bound(ranges.begin() + 1, ranges.end(), depth[i],
                                         [](double d, const PitchRegion& r) { return d < r.from; });
     range_of[i] = static_cast<std::size_t>(above - ranges.begin()) - 1;
@@ -188,13 +192,14 @@ double middle_along(const Grid& grid, const std::vector<std::int32_t>& region_of
 }
 
 void raster_regions(const HeightMap& map, const MultiPitchOptions& options, const Settings& s,
-                    const std::vector<std::int32_t>& region_of, MultiPitchPath& result) {
+                    const std::vector<std::int32_t>& region_of, MultiPitchPath& result, const Progress& progress) {
   std::vector<double> reaches;
   const double pixel = 0.5 * std::hypot(map.grid.pitch_x, map.grid.pitch_y);
   for (const PitchRegion& r : result.regions) {
     reaches.push_back(std::max({s.overrun, 0.5 * std::hypot(r.pitch, s.step), pixel}));
   }
-  const RegionLabels labels(map, region_of, reaches, "multi-pitch");
+  const RegionLabels labels(map, region_of, reaches, "multi-pitch", progress);
+  progress.check();
   std::vector<std::vector<Index>> pixels(result.regions.size());
   for (std::size_t i = 0; i < region_of.size(); ++i) {
     if (region_of[i] > 0) pixels[static_cast<std::size_t>(region_of[i] - 1)].push_back(static_cast<Index>(i));
@@ -212,7 +217,7 @@ void raster_regions(const HeightMap& map, const MultiPitchOptions& options, cons
                             reaches[k],
                             link,
                             kMostPoints - static_cast<double>(result.path.size())};
-    region.lifts = append_region(labels, map.grid, pixels[k], lines, result.path);
+    region.lifts = append_region(labels, map.grid, pixels[k], lines, result.path, progress);
     region.points = result.path.size() - region.first_point;
   }
 }
@@ -258,6 +263,14 @@ MultiPitchOptions parse_multi_pitch_options(const SpecText& spec) {
   return options;
 }
 
+std::vector<PathDistance> multi_pitch_distances(const MultiPitchOptions& options) {
+  std::vector<PathDistance> distances{{"step", options.step.value_or(0.0)},
+                                      {"min-pitch", options.min_pitch.value_or(0.0)},
+                                      {"max-pitch", options.max_pitch.value_or(0.0)}};
+  for (const double pitch : options.pitches) distances.push_back({"pitches", pitch});
+  return distances;
+}
+
 std::vector<double> MultiPitchPath::pitch_of_points() const {
   std::vector<double> pitch(path.size());
   for (const PitchRegion& region : regions) {
@@ -288,11 +301,11 @@ std::vector<PitchRegion> pitches_by_depth(const std::vector<double>& borders, do
 }
 
 MultiPitchPath multi_pitch_path(const HeightMap& map, const RemovalFunction& tif, double max_feed,
-                                const MultiPitchOptions& options) {
+                                const MultiPitchOptions& options, const Progress& progress) {
   const Settings settings = settings_of(options, tif, max_feed);
   const std::vector<Index> pixels = finite_pixels(map);
   if (pixels.empty()) throw InputError("multi-pitch: the map has no finite pixel; at least one is required");
-  const HeightMap smoothed = box_mean(map, settings.smooth);
+  const HeightMap smoothed = box_mean(map, settings.smooth, progress);
   std::vector<double> depth;
   depth.reserve(pixels.size());
   for (const Index i : pixels) depth.push_back(smoothed.values[static_cast<std::size_t>(i)]);
@@ -305,8 +318,9 @@ MultiPitchPath multi_pitch_path(const HeightMap& map, const RemovalFunction& tif
   result.lowest = lowest;
   result.step = settings.step;
   std::vector<std::int32_t> region_of(map.values.size(), 0);
-  result.regions = merged(ranges_of(options, settings, highest, tif.volume, max_feed), depth, pixels, region_of);
-  raster_regions(map, options, settings, region_of, result);
+  result.regions =
+      merged(ranges_of(options, settings, highest, tif.volume, max_feed), depth, pixels, region_of, progress);
+  raster_regions(map, options, settings, region_of, result, progress);
   result.path.notes.push_back(note_of(result, settings.ranges));
   return result;
 }

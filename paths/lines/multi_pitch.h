@@ -4,10 +4,12 @@
 #include <string>
 #include <vector>
 
+#include "core/base/progress.h"
 #include "core/base/spec_text.h"
 #include "core/map/height_map.h"
 #include "core/motion/tool_path.h"
 #include "core/tif/removal_function.h"
+#include "paths/domain/path_distance.h"
 
 namespace dwell {
 
@@ -29,6 +31,9 @@ struct MultiPitchOptions {
 
 /// From "multi-pitch:..." or "multi-pitch" alone; throws InputError as SpecText does.
 MultiPitchOptions parse_multi_pitch_options(const SpecText& spec);
+
+/// The distances of tracks and dwell points that these options ask for.
+std::vector<PathDistance> multi_pitch_distances(const MultiPitchOptions& options);
 
 /// Neighbouring ranges of removal depth that have one pitch, and their part of the path.
 struct PitchRegion {
@@ -76,6 +81,6 @@ std::vector<PitchRegion> pitches_by_depth(const std::vector<double>& borders, do
 /// max_feed [mm/s]: needed unless pitches are given. Size of the TIF = 2 radius. Throws InputError naming the option,
 /// its value and what is required; also above 50 million points. Cost O(pixels + lattice points of the regions' boxes).
 MultiPitchPath multi_pitch_path(const HeightMap& map, const RemovalFunction& tif, double max_feed,
-                                const MultiPitchOptions& options);
+                                const MultiPitchOptions& options, const Progress& progress = {});
 
 }  // namespace dwell

@@ -70,7 +70,11 @@ RandomRasterOptions parse_random_raster_options(const SpecText& spec) {
   return options;
 }
 
-ToolPath random_raster_path(const HeightMap& map, const RandomRasterOptions& options) {
+std::vector<PathDistance> random_raster_distances(const RandomRasterOptions& options) {
+  return {{"pitch", options.pitch}, {"step", options.step.value_or(0.0)}};
+}
+
+ToolPath random_raster_path(const HeightMap& map, const RandomRasterOptions& options, const Progress& progress) {
   const ScanOptions scan{options.pitch, options.step.value_or(options.pitch), options.angle_deg,
                          options.overrun.value_or(0.0)};
   check_scan_options(scan, kRandomRaster);
@@ -89,10 +93,11 @@ ToolPath random_raster_path(const HeightMap& map, const RandomRasterOptions& opt
   path.kind = kRandomRaster;
   LinePositions lines(draw_positions(frame.v, options, scan, points_a_line));
   const Index count = lines.count();
-  append_lines(path, ScanLines(map, frame, steps, std::move(lines), scan.overrun), {options.serpentine}, options.turns);
+  append_lines(path, ScanLines(map, frame, steps, std::move(lines), scan.overrun, progress), {options.serpentine},
+               options.turns, progress);
   path.notes.push_back(fmt::format("{} lines at random distances from {:.6g} to {:.6g} mm, seed {}", count,
                                    options.pitch * (1.0 - options.spread), farthest, options.seed));
-  return options.turns.corner > 0.0 ? rounded_corners(path, options.turns.corner) : path;
+  return options.turns.corner > 0.0 ? rounded_corners(path, options.turns.corner, progress) : path;
 }
 
 }  // namespace dwell

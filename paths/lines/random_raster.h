@@ -2,10 +2,13 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
+#include "core/base/progress.h"
 #include "core/base/spec_text.h"
 #include "core/map/height_map.h"
 #include "core/motion/tool_path.h"
+#include "paths/domain/path_distance.h"
 #include "paths/lines/turnarounds.h"
 
 namespace dwell {
@@ -26,6 +29,9 @@ struct RandomRasterOptions {
 /// ("spread=20%"). Throws InputError as SpecText does.
 RandomRasterOptions parse_random_raster_options(const SpecText& spec);
 
+/// The distances of tracks and dwell points that these options ask for.
+std::vector<PathDistance> random_raster_distances(const RandomRasterOptions& options);
+
 /// A raster (raster.h) whose line distances vary at random, against the ripple that equal distances leave ("path
 /// interval changing", Zha et al. 2020, sections 3.2 and 4.2, where the pitch is that of the best overlap).
 ///
@@ -37,6 +43,6 @@ RandomRasterOptions parse_random_raster_options(const SpecText& spec);
 ///
 /// Throws InputError naming the option, its value and what is required; also above 50 million points. Cost O(pixels +
 /// lattice points).
-ToolPath random_raster_path(const HeightMap& map, const RandomRasterOptions& options);
+ToolPath random_raster_path(const HeightMap& map, const RandomRasterOptions& options, const Progress& progress = {});
 
 }  // namespace dwell

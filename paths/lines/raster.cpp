@@ -24,7 +24,11 @@ RasterOptions parse_raster_options(const SpecText& spec) {
   return options;
 }
 
-ToolPath raster_path(const HeightMap& map, const RasterOptions& options) {
+std::vector<PathDistance> raster_distances(const RasterOptions& options) {
+  return {{"pitch", options.pitch}, {"step", options.step.value_or(0.0)}};
+}
+
+ToolPath raster_path(const HeightMap& map, const RasterOptions& options, const Progress& progress) {
   const ScanOptions scan{options.pitch, options.step.value_or(options.pitch), options.angle_deg,
                          options.overrun.value_or(0.0)};
   check_scan_options(scan, "raster");
@@ -37,9 +41,9 @@ ToolPath raster_path(const HeightMap& map, const RasterOptions& options) {
 
   ToolPath path;
   path.kind = "raster";
-  append_lines(path, ScanLines(map, frame, steps, LinePositions(lines), scan.overrun), {options.serpentine},
-               options.turns);
-  return options.turns.corner > 0.0 ? rounded_corners(path, options.turns.corner) : path;
+  append_lines(path, ScanLines(map, frame, steps, LinePositions(lines), scan.overrun, progress), {options.serpentine},
+               options.turns, progress);
+  return options.turns.corner > 0.0 ? rounded_corners(path, options.turns.corner, progress) : path;
 }
 
 }  // namespace dwell

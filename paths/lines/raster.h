@@ -1,10 +1,13 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
+#include "core/base/progress.h"
 #include "core/base/spec_text.h"
 #include "core/map/height_map.h"
 #include "core/motion/tool_path.h"
+#include "paths/domain/path_distance.h"
 #include "paths/lines/turnarounds.h"
 
 namespace dwell {
@@ -24,6 +27,9 @@ struct RasterOptions {
 /// From "raster:pitch=MM,..."; throws InputError as SpecText does.
 RasterOptions parse_raster_options(const SpecText& spec);
 
+/// The distances of tracks and dwell points that these options ask for.
+std::vector<PathDistance> raster_distances(const RasterOptions& options);
+
 /// Straight parallel lines over the valid pixels of a map (NaN = outside).
 ///
 /// Lines and dwell points lie on one lattice, `pitch` x `step`, in the frame rotated by the angle. It is symmetric
@@ -37,6 +43,6 @@ RasterOptions parse_raster_options(const SpecText& spec);
 /// serpentine joins neighbouring lines on the part (turnarounds.h) and is lifted where a line between them was left
 /// out. Throws InputError naming the option, its value and what is required; also above 50 million lattice points. Cost
 /// O(pixels + lattice points).
-ToolPath raster_path(const HeightMap& map, const RasterOptions& options);
+ToolPath raster_path(const HeightMap& map, const RasterOptions& options, const Progress& progress = {});
 
 }  // namespace dwell

@@ -8,6 +8,7 @@
 
 #include "core/base/errors.h"
 #include "core/base/point.h"
+#include "core/base/poll.h"
 #include "paths/domain/feed_direction.h"
 #include "paths/domain/rounding.h"
 #include "paths/lines/run_order.h"
@@ -76,12 +77,15 @@ class Stretches {
   Stretches(const RegionLabels& labels, const Lattice& lattice, const RegionLines& lines)
       : labels_(labels), lattice_(lattice), lines_(lines) {}
 
-  void find() {
+  void find(const Progress& progress) {
+    Poll poll(progress);
     const auto line_count = static_cast<Index>(lattice_.lines.count);
     const auto step_count = static_cast<Index>(lattice_.steps.count);
     for (Index line = 0; line < line_count; ++line) {
+      progress.check();
       Index begin = -1;
       for (Index i = 0; i <= step_count; ++i) {
+        poll.step();
         const bool in = i < step_count && inside(line, i);
         if (in && begin < 0) begin = i;
         if (in || begin < 0) continue;
@@ -92,9 +96,11 @@ class Stretches {
   }
 
   /// Adds the lattice points of pixels that have none near.
-  void rescue(const Grid& grid, const std::vector<Index>& pixels) {
+  void rescue(const Grid& grid, const std::vector<Index>& pixels, const Progress& progress) {
+    Poll poll(progress);
     const std::size_t found = stretches_.size();
     for (const Index i : pixels) {
+      poll.step();
       const Point p = grid.centre(i);
       const Index line = lattice_.lines.nearest(dot(p, lattice_.across));
       const Index step = lattice_.steps.nearest(dot(p, lattice_.along));
@@ -177,7 +183,7 @@ void append(const Lattice& lattice, const LineRun& stretch, bool backwards, Tool
 }  // namespace
 
 Index append_region(const RegionLabels& labels, const Grid& grid, const std::vector<Index>& pixels,
-                    const RegionLines& lines, ToolPath& path) {
+                    const RegionLines& lines, ToolPath& path, const Progress& progress) {
   const Lattice lattice = lattice_of(grid, pixels, lines);
   const double area = grid.pitch_x * grid.pitch_y * static_cast<double>(pixels.size());
   const double expected = std::max(area / (lines.pitch * lines.step), lattice.lines.count);
@@ -186,13 +192,14 @@ Index append_region(const RegionLabels& labels, const Grid& grid, const std::vec
   const double box = lattice.lines.count * lattice.steps.count;
   if (!(box <= 20.0 * kMostPathPoints)) refuse_points(lines, expected);
   Stretches found(labels, lattice, lines);
-  found.find();
-  found.rescue(grid, pixels);
+  found.find(progress);
+  found.rescue(grid, pixels, progress);
   const std::vector<LineRun>& stretches = found.stretches();
   const Runs runs = joined(stretches, lines.step, lines.link);
-  const std::vector<OrderedRun> order = order_runs(runs.runs, lines.pitch, lines.step, lines.link);
+  const std::vector<OrderedRun> order = order_runs(runs.runs, lines.pitch, lines.step, lines.link, progress);
   Index lifts = -1;
   for (const OrderedRun& next : order) {
+    progress.check();
     const std::size_t first_point = path.points.size();
     const std::size_t begin = runs.begin[static_cast<std::size_t>(next.run)];
     const std::size_t end = runs.begin[static_cast<std::size_t>(next.run) + 1];

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/base/progress.h"
 #include "core/motion/tool_path.h"
 #include "paths/domain/region_labels.h"
 
@@ -36,6 +37,6 @@ struct RegionLines {
 /// `pixels`: the region's, linear indices into the map's grid. Returns the number of lifted moves after the first
 /// point. Throws InputError above most_points. Cost O(lattice points of the bounding box + runs log runs).
 Index append_region(const RegionLabels& labels, const Grid& grid, const std::vector<Index>& pixels,
-                    const RegionLines& lines, ToolPath& path);
+                    const RegionLines& lines, ToolPath& path, const Progress& progress = {});
 
 }  // namespace dwell

@@ -5,6 +5,8 @@
 #include <limits>
 #include <numeric>
 
+#include "core/base/poll.h"
+
 namespace dwell {
 namespace {
 
@@ -53,12 +55,14 @@ class Orderer {
     std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
   }
 
-  std::vector<OrderedRun> order(double link) {
+  std::vector<OrderedRun> order(double link, const Progress& progress) {
+    Poll poll(progress, 1024);
     std::vector<OrderedRun> order;
     order.reserve(runs_.size());
     if (runs_.empty()) return order;
     take({0.0, 0, false}, true, order);
     while (order.size() < runs_.size()) {
+      poll.step();
       Candidate best;
       for (const Index line : {line_ + direction_, line_ - direction_, line_}) consider_line(line, best);
       const double farthest = link * link;  // infinite: never lifted, and still there may be no run on these lines
@@ -140,8 +144,9 @@ class Orderer {
 
 }  // namespace
 
-std::vector<OrderedRun> order_runs(const std::vector<LineRun>& runs, double pitch, double step, double link) {
-  return Orderer(runs, pitch, step).order(link);
+std::vector<OrderedRun> order_runs(const std::vector<LineRun>& runs, double pitch, double step, double link,
+                                   const Progress& progress) {
+  return Orderer(runs, pitch, step).order(link, progress);
 }
 
 }  // namespace dwell

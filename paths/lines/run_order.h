@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/base/grid.h"
+#include "core/base/progress.h"
 
 namespace dwell {
 
@@ -26,6 +27,7 @@ struct OrderedRun {
 /// along them, `link` in the same unit; infinite: no move is lifted.
 /// runs: ascending by line, then by first; disjoint. Cost O(runs log runs) where lifts are few; a lift looks at as many
 /// lines as the nearest end is away.
-std::vector<OrderedRun> order_runs(const std::vector<LineRun>& runs, double pitch, double step, double link);
+std::vector<OrderedRun> order_runs(const std::vector<LineRun>& runs, double pitch, double step, double link,
+                                   const Progress& progress = {});
 
 }  // namespace dwell

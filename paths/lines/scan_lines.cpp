@@ -6,6 +6,7 @@
 
 #include "core/base/errors.h"
 #include "core/base/point.h"
+#include "core/base/poll.h"
 #include "paths/domain/distance_map.h"
 #include "paths/domain/feed_direction.h"
 #include "paths/domain/point_limit.h"
@@ -92,19 +93,20 @@ void check_scan_size(const ScanOptions& options, double lines, double points, co
 }
 
 ScanLines::ScanLines(const HeightMap& map, const ScanFrame& frame, const EvenPositions& steps, LinePositions lines,
-                     double overrun)
+                     double overrun, const Progress& progress)
     : along_(frame.along),
       across_(frame.across),
       steps_(steps),
       lines_(std::move(lines)),
       runs_(static_cast<std::size_t>(lines_.count())) {
-  include_nearest(map);
-  include_within(map, overrun);
+  include_nearest(map, progress);
+  include_within(map, overrun, progress);
 }
 
-void ScanLines::include_nearest(const HeightMap& map) {
+void ScanLines::include_nearest(const HeightMap& map, const Progress& progress) {
   const Grid& grid = map.grid;
   for (Index row = 0; row < grid.rows; ++row) {
+    progress.check();
     for (Index col = 0; col < grid.cols; ++col) {
       if (!std::isfinite(map.at(row, col))) continue;
       const Point p = grid.centre(row, col);
@@ -113,14 +115,17 @@ void ScanLines::include_nearest(const HeightMap& map) {
   }
 }
 
-void ScanLines::include_within(const HeightMap& map, double overrun) {
-  const DistanceMap distance(map, overrun);
+void ScanLines::include_within(const HeightMap& map, double overrun, const Progress& progress) {
+  const DistanceMap distance(map, overrun, progress);
   const double reach = overrun + kRounding * smallest_gap(lines_, steps_.step);
   const auto step_count = static_cast<Index>(steps_.count);
+  Poll poll(progress);
   for (Index line = 0; line < count(); ++line) {
+    progress.check();
     Run& run = runs_[static_cast<std::size_t>(line)];
     // 0 if point i is wanted; else how many points to go on, over those that are too far away because i is.
     const auto points_to_skip = [&](Index i) -> Index {
+      poll.step();
       const Point p = at(line, i);
       const double spare = distance.bounds(p).low - reach;
       if (spare >= steps_.step) return static_cast<Index>(std::min(spare / steps_.step, steps_.count));

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/base/progress.h"
 #include "core/map/height_map.h"
 
 namespace dwell {
@@ -95,7 +96,7 @@ class ScanLines {
 
   /// Cost O(pixels + points that are not wanted, less those a distance bound skips).
   ScanLines(const HeightMap& map, const ScanFrame& frame, const EvenPositions& steps, LinePositions lines,
-            double overrun);
+            double overrun, const Progress& progress = {});
 
   Index count() const { return lines_.count(); }
   const Run& run(Index line) const { return runs_[static_cast<std::size_t>(line)]; }
@@ -108,8 +109,8 @@ class ScanLines {
   std::size_t points() const;
 
  private:
-  void include_nearest(const HeightMap& map);
-  void include_within(const HeightMap& map, double overrun);
+  void include_nearest(const HeightMap& map, const Progress& progress);
+  void include_within(const HeightMap& map, double overrun, const Progress& progress);
 
   Point along_, across_;
   EvenPositions steps_;

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/base/errors.h"
+#include "core/base/poll.h"
 
 namespace dwell {
 namespace {
@@ -65,7 +66,9 @@ double most_points_on_arc(const TurnOptions& turns, double distance, double step
   return turns.turn == Turnaround::Arc ? points_on_arc(distance, step) : 0.0;
 }
 
-void append_lines(ToolPath& path, const ScanLines& lines, const LineOrder& order, const TurnOptions& turns) {
+void append_lines(ToolPath& path, const ScanLines& lines, const LineOrder& order, const TurnOptions& turns,
+                  const Progress& progress) {
+  Poll poll(progress);
   bool backwards = order.first_backwards;
   bool gap = true;
   Index before = -1;
@@ -73,6 +76,7 @@ void append_lines(ToolPath& path, const ScanLines& lines, const LineOrder& order
   path.lifted.reserve(path.size() + lines.points());
   for (Index n = 0; n < lines.count(); ++n) {
     const Index line = order.from_last_line ? lines.count() - 1 - n : n;
+    progress.check();
     const ScanLines::Run run = lines.run(line);
     if (run.empty()) {
       gap = true;
@@ -85,6 +89,7 @@ void append_lines(ToolPath& path, const ScanLines& lines, const LineOrder& order
       append_arc_link(path, lines, before, backwards ? last.last : last.first, line, start, backwards ? 1 : -1);
     }
     for (Index k = 0; k <= run.last - run.first; ++k) {
+      poll.step();
       append(path, lines.at(line, backwards ? run.last - k : run.first + k), k == 0 && lifted);
     }
     backwards = order.serpentine && !backwards;

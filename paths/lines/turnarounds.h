@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/base/progress.h"
 #include "core/base/spec_text.h"
 #include "core/motion/tool_path.h"
 #include "paths/lines/scan_lines.h"
@@ -43,6 +44,7 @@ struct LineOrder {
 /// line's own positions; on the half circle they lie in the middles of equal parts of it, as near to the step as
 /// divides it but at least six, so that the tool turns by at most 30 degrees at a time and no move of a link is longer
 /// than 13/12 of the step. A link goes beyond the ends of the two lines by half of their distance.
-void append_lines(ToolPath& path, const ScanLines& lines, const LineOrder& order, const TurnOptions& turns);
+void append_lines(ToolPath& path, const ScanLines& lines, const LineOrder& order, const TurnOptions& turns,
+                  const Progress& progress = {});
 
 }  // namespace dwell

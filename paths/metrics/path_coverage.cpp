@@ -8,6 +8,7 @@
 
 #include "core/base/errors.h"
 #include "core/base/numbers.h"
+#include "core/base/poll.h"
 #include "paths/domain/rounding.h"
 
 namespace dwell {
@@ -78,7 +79,7 @@ void cover(const Capsule& capsule, const Grid& grid, std::vector<char>& covered)
 
 }  // namespace
 
-PathCoverage path_coverage(const ToolPath& path, const HeightMap& map, double reach) {
+PathCoverage path_coverage(const ToolPath& path, const HeightMap& map, double reach, const Progress& progress) {
   validate(path);
   if (!(reach >= 0.0 && reach < kInfinity)) {
     throw InputError(fmt::format("path coverage: reach = {} mm; required finite and >= 0", reach));
@@ -87,7 +88,9 @@ PathCoverage path_coverage(const ToolPath& path, const HeightMap& map, double re
   if (pixels.empty()) throw InputError("path coverage: the map has no finite pixel; at least one is required");
   const double padded = reach + kRounding * std::max(reach, std::min(map.grid.pitch_x, map.grid.pitch_y));
   std::vector<char> covered(map.values.size(), 0);
+  Poll poll(progress, 1024);
   for (const Stroke& stroke : moving_strokes(path)) {
+    poll.step();
     cover({stroke.start, stroke.via, padded}, map.grid, covered);
     if (!(stroke.via == stroke.finish)) cover({stroke.via, stroke.finish, padded}, map.grid, covered);
   }

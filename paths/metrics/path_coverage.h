@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/base/progress.h"
 #include "core/map/height_map.h"
 #include "core/motion/tool_path.h"
 
@@ -17,6 +18,6 @@ struct PathCoverage {
 ///
 /// Throws InputError if the path is not valid, the map has no valid pixel, or the reach is not finite and >= 0. Cost
 /// O(strokes + pixels under them, each time they are covered); memory O(pixels).
-PathCoverage path_coverage(const ToolPath& path, const HeightMap& map, double reach);
+PathCoverage path_coverage(const ToolPath& path, const HeightMap& map, double reach, const Progress& progress = {});
 
 }  // namespace dwell

@@ -5,6 +5,8 @@
 #include <complex>
 #include <numbers>
 
+#include "core/base/poll.h"
+
 namespace dwell {
 namespace {
 
@@ -53,13 +55,19 @@ class Course {
 
 }  // namespace
 
-PathMetrics path_metrics(const ToolPath& path) {
+PathMetrics path_metrics(const ToolPath& path, const Progress& progress) {
   validate(path);
+  progress.check();
   PathMetrics metrics;
   metrics.points = static_cast<Index>(path.size());
-  for (const Stroke& stroke : moving_strokes(path)) metrics.length += stroke.length();
+  Poll poll(progress);
+  for (const Stroke& stroke : moving_strokes(path)) {
+    poll.step();
+    metrics.length += stroke.length();
+  }
   Course course(metrics);
   for (std::size_t j = 1; j < path.size(); ++j) {
+    poll.step();
     const Point step = path.points[j] - path.points[j - 1];
     const double move = length(step);
     metrics.point_length += move;

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "core/base/grid.h"
+#include "core/base/progress.h"
 #include "core/motion/tool_path.h"
 
 namespace dwell {
@@ -39,6 +40,6 @@ struct PathMetrics {
 
 /// Throws InputError if the path is not valid. Cost O(points). What takes a search is elsewhere: path_spacing.h,
 /// path_coverage.h, spanning_tree.h.
-PathMetrics path_metrics(const ToolPath& path);
+PathMetrics path_metrics(const ToolPath& path, const Progress& progress = {});
 
 }  // namespace dwell

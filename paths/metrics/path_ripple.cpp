@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/base/errors.h"
+#include "core/base/poll.h"
 #include "core/removal/scattered_removal.h"
 #include "core/tif/removal_kernel.h"
 
@@ -57,13 +58,15 @@ struct Near {
   double length_inside = 0.0;
 };
 
-Near near_strokes(const ToolPath& path, Point centre, double side, double reach) {
+Near near_strokes(const ToolPath& path, Point centre, double side, double reach, const Progress& progress) {
+  Poll poll(progress);
   const auto within = [&](const Stroke& s, double half) {
     const Point d = s.via - centre;
     return std::max(std::abs(d.x), std::abs(d.y)) <= half;
   };
   Near near;
   for (const Stroke& stroke : moving_strokes(path)) {
+    poll.step();
     const double length = stroke.length();
     if (!(length > 0.0) || !within(stroke, 0.5 * side + reach + length)) continue;
     near.strokes.push_back(stroke);
@@ -105,14 +108,15 @@ void summarise(PathRipple& ripple, double depth) {
 
 }  // namespace
 
-PathRipple path_ripple(const ToolPath& path, const RemovalFunction& tif, const PathRippleOptions& options) {
+PathRipple path_ripple(const ToolPath& path, const RemovalFunction& tif, const PathRippleOptions& options,
+                       const Progress& progress) {
   validate(path);
   check_positive("depth", options.depth, "nm");
   const Extent extent(path.points);
   const double side = options.side ? *options.side : default_side(extent, tif.radius);
   check_positive("side", side, "mm");
   const Point centre = options.centre.value_or(midpoint(extent.low, extent.high));
-  const Near near = near_strokes(path, centre, side, 1.5 * tif.radius);
+  const Near near = near_strokes(path, centre, side, 1.5 * tif.radius, progress);
   if (!(near.length_inside > 0.0)) {
     throw InputError(
         fmt::format("path ripple: the path has no moving stroke in the patch of {:.4g} mm about {:.6g}/{:.6g}; "
@@ -130,6 +134,7 @@ PathRipple path_ripple(const ToolPath& path, const RemovalFunction& tif, const P
   for (std::size_t i = 0; i < pixels.size(); ++i) pixels[i] = static_cast<Index>(i);
   Vector seconds(static_cast<Index>(near.strokes.size()));  // at 1 mm/s
   for (std::size_t j = 0; j < near.strokes.size(); ++j) seconds[static_cast<Index>(j)] = near.strokes[j].length();
+  progress.check();
   const Vector removal = removal_once(grid, pixels, removal_kernel(tif, pixel, pixel), near.strokes, seconds,
                                       std::max(options.threads, 1));
   ripple.feed = removal.mean() / options.depth;
@@ -138,6 +143,7 @@ PathRipple path_ripple(const ToolPath& path, const RemovalFunction& tif, const P
   }
   ripple.removal.history.push_back(fmt::format("removal of the path {} at {:.6g} mm/s", path.kind, ripple.feed));
   summarise(ripple, options.depth);
+  progress.check();
   ripple.spectrum = ripple_spectrum(ripple.removal, options.band, options.threads);
   return ripple;
 }

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "core/base/progress.h"
 #include "core/motion/tool_path.h"
 #include "core/tif/removal_function.h"
 #include "paths/metrics/ripple_spectrum.h"
@@ -42,6 +43,7 @@ struct PathRipple {
 /// Throws InputError naming an option out of range, also if nothing is left for the patch, if it would have more than
 /// 4096 pixels a side, or if part of it is not removed at all (a hole of the part: give a centre). Cost: O(strokes) and
 /// a transform of the patch widened by the removal function; strokes out of reach are left out.
-PathRipple path_ripple(const ToolPath& path, const RemovalFunction& tif, const PathRippleOptions& options);
+PathRipple path_ripple(const ToolPath& path, const RemovalFunction& tif, const PathRippleOptions& options,
+                       const Progress& progress = {});
 
 }  // namespace dwell

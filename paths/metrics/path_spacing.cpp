@@ -8,6 +8,7 @@
 
 #include "core/base/errors.h"
 #include "core/base/numbers.h"
+#include "core/base/poll.h"
 #include "paths/domain/point_tree.h"
 #include "paths/domain/rounding.h"
 
@@ -47,14 +48,17 @@ void check(const ToolPath& path, const SpacingOptions& options) {
 
 }  // namespace
 
-PathSpacing path_spacing(const ToolPath& path, const SpacingOptions& options) {
+PathSpacing path_spacing(const ToolPath& path, const SpacingOptions& options, const Progress& progress) {
   check(path, options);
+  progress.check();
   const std::vector<Station> station = stations(path);
-  const PointTree tree(path.points);
+  const PointTree tree(path.points, progress);
   PathSpacing spacing;
   spacing.min = kInfinity;
   double sum = 0.0, squares = 0.0, reference = 0.0;
+  Poll poll(progress, 1024);
   for (std::size_t i = 0; i < path.size(); ++i) {
+    poll.step();
     double nearest2 = kInfinity, reach2 = options.reach * options.reach;
     const auto take = [&](std::int32_t member) {
       const auto j = static_cast<std::size_t>(member);

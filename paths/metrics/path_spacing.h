@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "core/base/grid.h"
+#include "core/base/progress.h"
 #include "core/motion/tool_path.h"
 
 namespace dwell {
@@ -33,6 +34,6 @@ struct PathSpacing {
 ///
 /// Throws InputError if the path is not valid or an option is out of range. Memory O(n); about O(n log n) time times
 /// the square of spacing over step: the points of its own track that lie nearer are looked at.
-PathSpacing path_spacing(const ToolPath& path, const SpacingOptions& options = {});
+PathSpacing path_spacing(const ToolPath& path, const SpacingOptions& options = {}, const Progress& progress = {});
 
 }  // namespace dwell

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "core/base/errors.h"
+#include "core/base/poll.h"
 #include "paths/domain/cell_pyramid.h"
 #include "paths/domain/rounding.h"
 #include "paths/tours/spanning_tree.h"
@@ -76,12 +77,14 @@ Cells tile(const Grid& grid, const std::vector<Index>& pixels, double cell) {
 }
 
 /// Eq. 1: the mean of the valid pixels of every cell.
-Cells average(const HeightMap& map, const std::vector<Index>& pixels, double cell) {
+Cells average(const HeightMap& map, const std::vector<Index>& pixels, double cell, const Progress& progress) {
+  Poll poll(progress);
   Cells cells = tile(map.grid, pixels, cell);
   const auto size = static_cast<std::size_t>(cells.rows * cells.cols);
   std::vector<std::int32_t> count(size, 0);
   cells.mean.assign(size, 0.0);
   for (const Index i : pixels) {
+    poll.step();
     const Point p = map.grid.centre(i);
     const auto k = static_cast<std::size_t>(cells.y.holding(p.y) * cells.cols + cells.x.holding(p.x));
     cells.mean[k] += map.values[static_cast<std::size_t>(i)];
@@ -129,7 +132,8 @@ Index start_cell(const Cells& cells, const std::optional<Point>& start) {
 }
 
 /// Reorders the cells; returns what to say of it. Works in cells, so that lattice distances are exact.
-std::vector<std::string> shorten(std::vector<Index>& order, const Cells& cells, const NearestOptions& nearest) {
+std::vector<std::string> shorten(std::vector<Index>& order, const Cells& cells, const NearestOptions& nearest,
+                                 const Progress& progress) {
   std::vector<Point> points;
   points.reserve(order.size());
   for (const Index k : order) {
@@ -139,16 +143,14 @@ std::vector<std::string> shorten(std::vector<Index>& order, const Cells& cells, 
   std::iota(identity.begin(), identity.end(), Index{0});
   TourOptions options;
   options.fixed_start = nearest.start.has_value();
-  options.stop = nearest.stop;
-  const ImprovedTour tour = improve_tour(points, identity, options);
+  const ImprovedTour tour = improve_tour(points, identity, options, progress);
   const std::vector<Index> greedy = order;
   for (std::size_t j = 0; j < order.size(); ++j) order[j] = greedy[static_cast<std::size_t>(tour.order[j])];
   const double side = cells.x.side;
   return {
-      fmt::format("2-opt and Or-opt moves{} shortened the nearest-neighbour path from {:.6g} to {:.6g} mm; no path "
+      fmt::format("2-opt and Or-opt moves shortened the nearest-neighbour path from {:.6g} to {:.6g} mm; no path "
                   "through its points is shorter than their minimum spanning tree, {:.6g} mm",
-                  tour.stopped ? ", stopped early," : "", side * tour.length_before, side * tour.length_after,
-                  side * spanning_tree_length(points))};
+                  side * tour.length_before, side * tour.length_after, side * spanning_tree_length(points, progress))};
 }
 
 void append_points(const std::vector<Index>& order, const Cells& cells, double lift, NearestPath& result) {
@@ -177,11 +179,14 @@ NearestOptions parse_nearest_options(const SpecText& spec) {
   return options;
 }
 
-NearestPath nearest_path(const HeightMap& map, const NearestOptions& options) {
+std::vector<PathDistance> nearest_distances(const NearestOptions& options) { return {{"cell", options.cell}}; }
+
+NearestPath nearest_path(const HeightMap& map, const NearestOptions& options, const Progress& progress) {
+  Poll poll(progress, 4096);
   check(options, map.grid);
   const std::vector<Index> pixels = finite_pixels(map);
   if (pixels.empty()) throw InputError("nearest: the map has no finite pixel; at least one is required");
-  Cells cells = average(map, pixels, options.cell);
+  Cells cells = average(map, pixels, options.cell, progress);
   drop_below(cells, options.critical);
 
   NearestPath result;
@@ -191,13 +196,14 @@ NearestPath nearest_path(const HeightMap& map, const NearestOptions& options) {
   std::vector<Index> order;
   Index row = 0, col = 0;
   for (Index k = start_cell(cells, options.start); k >= 0; k = unvisited.nearest(row, col)) {
+    poll.step();
     order.push_back(k);
     row = k / cells.cols;
     col = k % cells.cols;
     unvisited.remove(k);
   }
   result.blocks_searched = unvisited.blocks_searched();
-  if (options.improve) result.path.notes = shorten(order, cells, options);
+  if (options.improve) result.path.notes = shorten(order, cells, options, progress);
   append_points(order, cells, options.lift, result);
   return result;
 }

@@ -1,12 +1,13 @@
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <vector>
 
+#include "core/base/progress.h"
 #include "core/base/spec_text.h"
 #include "core/map/height_map.h"
 #include "core/motion/tool_path.h"
+#include "paths/domain/path_distance.h"
 
 namespace dwell {
 
@@ -16,7 +17,6 @@ struct NearestOptions {
   double lift = 1.5;           // moves longer than lift * cell are made lifted, > 0; infinity = never
   std::optional<Point> start;  // the path starts at the dwell point nearest to it; default: lowest row, leftmost cell
   bool improve = false;        // shorten the path by improve_tour ("improve=2opt"); it keeps a start that was given
-  std::function<bool()> stop;  // of improve_tour; "stopped early" is said in the notes
 };
 
 struct NearestPath {
@@ -28,6 +28,9 @@ struct NearestPath {
 
 /// From "nearest:cell=MM,..."; throws InputError as SpecText does.
 NearestOptions parse_nearest_options(const SpecText& spec);
+
+/// The distances of tracks and dwell points that these options ask for.
+std::vector<PathDistance> nearest_distances(const NearestOptions& options);
 
 /// From the start to the nearest unvisited dwell point; among equally near ones to that of the highest eigenvalue,
 /// then to the lowest row and column; until none is left ("improved Prim", Xie et al. 2022, section 2, eq. 1-5).
@@ -44,6 +47,6 @@ NearestOptions parse_nearest_options(const SpecText& spec);
 /// Throws InputError naming the option, its value and what is required, or the largest eigenvalue if no cell reaches
 /// the critical value. Memory O(cells of the box); about O(n log n) time: each search descends a pyramid of blocks in
 /// which finished areas are empty at every scale. With `improve` as improve_tour: 16 to 45 s for 10^5 points.
-NearestPath nearest_path(const HeightMap& map, const NearestOptions& options);
+NearestPath nearest_path(const HeightMap& map, const NearestOptions& options, const Progress& progress = {});
 
 }  // namespace dwell

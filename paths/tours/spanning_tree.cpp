@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "core/base/errors.h"
+#include "core/base/poll.h"
 #include "paths/domain/point_tree.h"
 
 namespace dwell {
@@ -44,8 +45,13 @@ struct Edge {
 
 class Boruvka {
  public:
-  explicit Boruvka(const std::vector<Point>& points)
-      : points_(points), tree_(points), parent_(points.size()), component_(points.size()), nearest_(points.size()) {
+  Boruvka(const std::vector<Point>& points, const Progress& progress)
+      : points_(points),
+        poll_(progress, 4096),
+        tree_(points, progress),
+        parent_(points.size()),
+        component_(points.size()),
+        nearest_(points.size()) {
     std::iota(parent_.begin(), parent_.end(), 0);
   }
 
@@ -76,10 +82,14 @@ class Boruvka {
 
   /// The component of every point, and of every box of the tree that lies in one.
   void name_components() {
-    for (std::size_t i = 0; i < points_.size(); ++i) component_[i] = root(static_cast<std::int32_t>(i));
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      poll_.step();
+      component_[i] = root(static_cast<std::int32_t>(i));
+    }
     const std::vector<PointTree::Node>& nodes = tree_.nodes();
     box_.resize(nodes.size());
     for (std::size_t n = nodes.size(); n-- > 0;) {
+      poll_.step();
       const PointTree::Node& node = nodes[n];
       if (node.child >= 0) {
         const auto child = at(node.child);
@@ -104,6 +114,7 @@ class Boruvka {
       }
     }
     for (std::size_t i = 0; i < points_.size(); ++i) {
+      poll_.step();
       Edge& shortest = best[at(component_[i])];
       if (nearest_[i].found() && !(nearest_[i] < shortest)) continue;
       look_from(static_cast<std::int32_t>(i), shortest);
@@ -130,6 +141,7 @@ class Boruvka {
   }
 
   const std::vector<Point>& points_;
+  Poll poll_;
   PointTree tree_;
   std::vector<std::int32_t> parent_, component_, box_;
   std::vector<Edge> nearest_;  // of every point: its shortest edge to another component when last looked for
@@ -137,13 +149,17 @@ class Boruvka {
 
 }  // namespace
 
-double spanning_tree_length(const std::vector<Point>& points) {
+double spanning_tree_length(const std::vector<Point>& points, const Progress& progress) {
   check(points);
   std::vector<Point> distinct = points;  // duplicates cost nothing, but a heap of them would be all ties
-  const auto less = [](Point a, Point b) { return std::tie(a.x, a.y) < std::tie(b.x, b.y); };
+  Poll poll(progress);
+  const auto less = [&poll](Point a, Point b) {
+    poll.step();
+    return std::tie(a.x, a.y) < std::tie(b.x, b.y);
+  };
   std::sort(distinct.begin(), distinct.end(), less);
   distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
-  return Boruvka(distinct).length();
+  return Boruvka(distinct, progress).length();
 }
 
 }  // namespace dwell

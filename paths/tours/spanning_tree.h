@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/base/point.h"
+#include "core/base/progress.h"
 
 namespace dwell {
 
@@ -15,6 +16,6 @@ namespace dwell {
 /// minimum spanning tree"). About O(n log^2 n) time, memory O(n).
 ///
 /// Throws InputError if there is no point, more than 50 million, or one that is not finite (named, 1-based).
-double spanning_tree_length(const std::vector<Point>& points);
+double spanning_tree_length(const std::vector<Point>& points, const Progress& progress = {});
 
 }  // namespace dwell

@@ -125,8 +125,8 @@ double tour_length(const std::vector<Point>& points, const std::vector<Index>& o
   return sum;
 }
 
-ImprovedTour improve_tour(const std::vector<Point>& points, const std::vector<Index>& order,
-                          const TourOptions& options) {
+ImprovedTour improve_tour(const std::vector<Point>& points, const std::vector<Index>& order, const TourOptions& options,
+                          const Progress& progress) {
   check(points, order, options);
   std::vector<Point> path;
   path.reserve(order.size());
@@ -135,10 +135,13 @@ ImprovedTour improve_tour(const std::vector<Point>& points, const std::vector<In
   ImprovedTour result;
   result.length_before = tour_length(points, order);
   TourArray tour(path, options.fixed_start);
-  TourSearch search(path, tour);
+  TourSearch search(path, tour, progress);
   search.enqueue_all();
   bool stopped = false;
-  const auto stop = [&] { return stopped = stopped || (options.stop && options.stop()); };
+  const auto stop = [&] {
+    progress.check();
+    return stopped = stopped || (options.stop && options.stop());
+  };
   search.run(true, stop);
   Kicks kicks(tour, search, options.seed);
   const Index budget = kicks.possible() ? options.kicks.value_or(static_cast<Index>(points.size())) : 0;

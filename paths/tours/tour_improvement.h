@@ -7,6 +7,7 @@
 
 #include "core/base/grid.h"
 #include "core/base/point.h"
+#include "core/base/progress.h"
 
 namespace dwell {
 
@@ -14,7 +15,8 @@ struct TourOptions {
   bool fixed_start = false;    // the first point of the order stays the first; else both ends are free
   std::optional<Index> kicks;  // work after the local search, >= 0; default one a point
   std::uint64_t seed = 1;      // of the kicks
-  std::function<bool()> stop;  // asked now and then; true ends the search with what has been reached
+  std::function<bool()> stop;  // asked now and then; true ends the search with what has been reached (`progress` ends
+                               // it with Interrupted)
 };
 
 struct ImprovedTour {
@@ -43,7 +45,7 @@ struct ImprovedTour {
 /// is not a permutation are refused with InputError, as are more than 50 million points. Memory O(n). On one core 10^5
 /// cells of a lattice take 16 to 45 s with the default kicks and 1.5 s without, 10^6 cells 140 s and 6 s.
 ImprovedTour improve_tour(const std::vector<Point>& points, const std::vector<Index>& order,
-                          const TourOptions& options = {});
+                          const TourOptions& options = {}, const Progress& progress = {});
 
 /// Length of the open path through points in this order [mm].
 double tour_length(const std::vector<Point>& points, const std::vector<Index>& order);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/base/poll.h"
 #include "paths/domain/point_tree.h"
 
 namespace dwell {
@@ -35,16 +36,19 @@ struct TourSearch::Stretch {
   bool onwards;
 };
 
-TourSearch::TourSearch(const std::vector<Point>& path, TourArray& tour) : tour_(tour), queued_(path.size(), 0) {
-  find_neighbours(path);
+TourSearch::TourSearch(const std::vector<Point>& path, TourArray& tour, const Progress& progress)
+    : tour_(tour), queued_(path.size(), 0) {
+  find_neighbours(path, progress);
 }
 
-void TourSearch::find_neighbours(const std::vector<Point>& path) {
+void TourSearch::find_neighbours(const std::vector<Point>& path, const Progress& progress) {
   neighbours_each_ = std::min(kNeighbours, path.size() - 1);
   neighbours_.reserve(neighbours_each_ * path.size());
-  const PointTree tree(path);
+  const PointTree tree(path, progress);
+  Poll poll(progress, 4096);
   std::vector<City> found;
   for (City city = 0; city < tour_.dummy(); ++city) {
+    poll.step();
     tree.nearest(city, neighbours_each_, found);
     neighbours_.insert(neighbours_.end(), found.begin(), found.end());
   }

@@ -4,6 +4,7 @@
 #include <functional>
 #include <vector>
 
+#include "core/base/progress.h"
 #include "paths/tours/tour_array.h"
 
 namespace dwell {
@@ -16,7 +17,7 @@ class TourSearch {
   using Length = TourArray::Length;
 
   /// `path`: the points of the cities, finite.
-  TourSearch(const std::vector<Point>& path, TourArray& tour);
+  TourSearch(const std::vector<Point>& path, TourArray& tour, const Progress& progress = {});
 
   void enqueue(City city);
   void enqueue_all();
@@ -34,7 +35,7 @@ class TourSearch {
   struct Chain;
   struct Stretch;
 
-  void find_neighbours(const std::vector<Point>& path);
+  void find_neighbours(const std::vector<Point>& path, const Progress& progress);
   bool take_next(City& city);
   Length improve(City city);
   Length improve_by_chain(City base, City last, Length gain, int depth, bool onwards);

@@ -80,23 +80,8 @@ bool ResultFiles::has(std::string_view name) const {
          std::find(figures.begin(), figures.end(), name.substr(0, dot)) != figures.end();
 }
 
-const ResultFiles& plan_files() {
-  static const ResultFiles kFiles{
-      "plan",
-      "summary.json",
-      {"feed.csv", "program.nc", "residual.npy", "residual.npy.json", "dwell.npy", "search.csv"},
-      {"before", "after", "dwell", "path", "path_detail"},
-      nullptr};
-  return kFiles;
-}
-
 const ResultFiles& pareto_files() {
   static const ResultFiles kFiles{"pareto sweep", "pareto.json", {"pareto.csv"}, {"pareto"}, nullptr};
-  return kFiles;
-}
-
-const ResultFiles& path_comparison_files() {
-  static const ResultFiles kFiles{"path comparison", "paths.json", {"paths.csv"}, {"paths", "psd"}, &plan_files()};
   return kFiles;
 }
 

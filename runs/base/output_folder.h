@@ -18,9 +18,7 @@ struct ResultFiles {
 
   bool has(std::string_view name) const;
 };
-const ResultFiles& plan_files();
 const ResultFiles& pareto_files();
-const ResultFiles& path_comparison_files();
 
 /// A folder of results that appears whole or not at all. Files go to a temporary folder beside the target; commit()
 /// puts it in place in one step (an earlier result is exchanged with it and then removed); without commit() the
@@ -30,7 +28,7 @@ class OutputFolder {
   /// Throws InputError if the target is empty text, a file, a folder that holds anything but an earlier result
   /// of the kind, or if its parent cannot be written. Checks before any work is done; creates the temporary folder.
   /// A link to a folder stays: what it points to is replaced.
-  explicit OutputFolder(const std::filesystem::path& target, const ResultFiles& files = plan_files());
+  OutputFolder(const std::filesystem::path& target, const ResultFiles& files);
   ~OutputFolder();
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;

@@ -15,6 +15,7 @@
 #include "paths/metrics/path_coverage.h"
 #include "paths/tours/spanning_tree.h"
 #include "runs/job/option_flags.h"
+#include "runs/reports/plan_files.h"
 #include "runs/reports/plan_output.h"
 
 namespace dwell {
@@ -33,14 +34,14 @@ PsdCurve radial_spectrum(const HeightMap& map, int threads) {
 }
 
 /// On a square where the part is widest; a corner may lie beyond the disc by what the path overruns.
-void find_ripple(const Part& part, const LaidPath& laid, ComparedPath& path) {
-  const WidestPlace place = widest_place(part.figure);
+void find_ripple(const Part& part, const LaidPath& laid, ComparedPath& path, const Progress& progress) {
+  const WidestPlace place = widest_place(part.figure, progress);
   PathRippleOptions options;
   options.threads = part.threads;
   options.centre = place.centre;
   options.side = std::min(8.0 * part.tif.radius, std::numbers::sqrt2 * place.radius);
   try {
-    path.ripple = path_ripple(laid.path, part.tif, options);
+    path.ripple = path_ripple(laid.path, part.tif, options, progress);
     path.ripple->removal = {};
   } catch (const InputError& error) {
     path.no_ripple = error.what();
@@ -60,22 +61,22 @@ void measure(const Part& part, const LaidPath& laid, double pitch, ComparedPath&
   path.kind = laid.path.kind;
   path.metrics = laid.metrics;
   path.notes = laid.path.notes;
-  path.spacing = path_spacing(laid.path, {.reach = 4.0 * part.tif.radius});
+  path.spacing = path_spacing(laid.path, {.reach = 4.0 * part.tif.radius}, progress);
   progress.check();
-  path.coverage = path_coverage(laid.path, part.figure, pitch).share();
+  path.coverage = path_coverage(laid.path, part.figure, pitch, progress).share();
   progress.check();
-  path.tree_length = spanning_tree_length(laid.path.points);
+  path.tree_length = spanning_tree_length(laid.path.points, progress);
   progress.step("path: ripple at constant feed");
-  find_ripple(part, laid, path);
+  find_ripple(part, laid, path, progress);
   progress.check();
 }
 
 void plan_one(Job job, double pitch, ComparedPath& path, const OutputFolder& folder, const Progress& progress) {
-  job.options.path = path.listed.text;
+  job.options.path = parse_path_spec(path.listed.text);
   LaidPath laid = lay_job_path(job, progress);
   measure(*job.part, laid, pitch, path, progress);
   const PlannedJob plan = plan_job(std::move(job), std::move(laid), progress);
-  OutputFolder own(folder.path(path.listed.name));
+  OutputFolder own(folder.path(path.listed.name), plan_files());
   const WrittenPlan written = write_plan(plan, own, progress);
   own.commit();
   path.limits = written.limits;

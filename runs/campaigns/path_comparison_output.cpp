@@ -10,6 +10,7 @@
 #include "runs/reports/figure_output.h"
 #include "runs/reports/options_json.h"
 #include "runs/reports/plan_blocks.h"
+#include "runs/reports/plan_files.h"
 
 namespace dwell {
 namespace {
@@ -186,6 +187,11 @@ std::vector<Cell> cells_of(const ComparedPath& p) {
 }
 
 }  // namespace
+
+const ResultFiles& path_comparison_files() {
+  static const ResultFiles kFiles{"path comparison", "paths.json", {"paths.csv"}, {"paths", "psd"}, &plan_files()};
+  return kFiles;
+}
 
 std::string path_table_text(const PathComparison& comparison) {
   std::string text = "folder,path,";

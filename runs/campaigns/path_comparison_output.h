@@ -6,6 +6,9 @@
 
 namespace dwell {
 
+/// The files of a comparison: its own, and a folder for each plan.
+const ResultFiles& path_comparison_files();
+
 /// The text of paths.csv (docs/paths.md, "Comparing paths"): a line a path, units in the column names.
 std::string path_table_text(const PathComparison& comparison);
 

@@ -41,7 +41,7 @@ Example write_example(const std::filesystem::path& folder, const ExampleOptions&
   job.map = "mirror.csv";
   job.tif = "tif.csv";
   job.tif_centre = TifCentre{TifCentre::Kind::Centroid, {}};
-  job.path = "raster:pitch=1";
+  job.path = parse_path_spec("raster:pitch=1");
   job.max_feed_mm_per_min = 3000.0;
   write_whole_file(folder / "demo.toml", job_file_text(job));
   write_whole_file(

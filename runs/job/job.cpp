@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <utility>
-#include <variant>
 
 #include "core/base/errors.h"
 #include "core/base/whole_file.h"
@@ -13,10 +12,10 @@
 namespace dwell {
 namespace {
 
-PathSpec required_path(const JobOptions& options) {
-  if (options.path.empty())
+const PathSpec& required_path(const JobOptions& options) {
+  if (!options.path.given())
     throw InputError("--path: required; for instance raster:pitch=1, nearest:cell=2 or file:path.csv");
-  return parse_path_spec(options.path);
+  return options.path;
 }
 
 }  // namespace
@@ -44,8 +43,7 @@ LaidPath lay_job_path(const Job& job, const Progress& progress) {
 }
 
 std::optional<InputFile> path_input(const JobOptions& options) {
-  const PathSpec spec = required_path(options);
-  const auto* file = std::get_if<PathFromFile>(&spec);
+  const auto* file = required_path(options).get_if<PathFromFile>();
   if (!file) return std::nullopt;
   return InputFile{"path", file->file.string(), sha256_of_file(file->file)};
 }

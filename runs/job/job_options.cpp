@@ -11,7 +11,7 @@
 #include "core/map/value_units.h"
 #include "core/motion/motion.h"
 #include "core/tif/removal_orientation.h"
-#include "paths/path_spec.h"
+#include "paths/path_catalogue.h"
 #include "runs/drawing/figure_format.h"
 #include "runs/job/place_option.h"
 #include "runs/map_steps/map_steps.h"
@@ -120,8 +120,8 @@ std::vector<JobOptionRecord> make_table() {
       {"path", "path", "PATH",
        "KIND:OPTIONS, for instance raster:pitch=1, random:pitch=1,seed=2 or file:PATH.csv; dwell paths --kinds lists "
        "them all",
-       false, false, [](Options& o, const std::string& t) { parse_path_spec(t), o.path = t; },
-       [](const Options& o) { return o.path; }},
+       false, false, [](Options& o, const std::string& t) { o.path = parse_path_spec(t); },
+       [](const Options& o) { return to_string(o.path); }},
       {"motion", "motion", "HOW", "moving: the tool runs through; stop: it halts at every dwell point", false, false,
        [](Options& o, const std::string& t) { o.motion = parse_motion(t); },
        [](const Options& o) { return to_string(o.motion); }},

@@ -10,6 +10,7 @@
 #include "core/motion/motion.h"
 #include "core/tif/removal_function.h"
 #include "core/tif/removal_orientation.h"
+#include "paths/path_catalogue.h"
 #include "runs/drawing/figure_format.h"
 #include "runs/programs/gcode_dialect.h"
 #include "solvers/problem/dwell_solver.h"
@@ -32,7 +33,7 @@ struct JobOptions {
   std::optional<TifCentre> tif_centre;  // nothing: as the file says
   double tif_angle_deg = 0.0;
   ToolOrientation::Flip tif_flip = ToolOrientation::Flip::None;
-  std::string path;
+  PathSpec path;
   Motion motion = Motion::Moving;
   FormTerms remove{true, true};
   Aperture aperture;

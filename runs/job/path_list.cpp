@@ -8,7 +8,7 @@
 #include "core/base/errors.h"
 #include "core/base/number_text.h"
 #include "core/base/spec_text.h"
-#include "paths/path_spec.h"
+#include "paths/path_catalogue.h"
 
 namespace dwell {
 namespace {
@@ -37,8 +37,8 @@ std::vector<std::string> cut(const std::string& list) {
 std::string with_pitch(const std::string& text, double pitch) {
   const std::string kind = split_kind(text).first;
   const auto known =
-      std::find_if(path_kinds().begin(), path_kinds().end(), [&](const auto& k) { return k.name == kind; });
-  if (known == path_kinds().end() || known->spacing.empty()) return text;
+      std::find_if(path_catalogue().begin(), path_catalogue().end(), [&](const auto& k) { return k.name == kind; });
+  if (known == path_catalogue().end() || known->spacing.empty()) return text;
   const SpecText spec = parse_spec_text(text, "path");
   if (spec.has(known->spacing)) return text;
   return fmt::format("{}{}{}={:.6g}", text, spec.entries.empty() ? (text.back() == ':' ? "" : ":") : ",",

@@ -31,7 +31,7 @@ LaidPath lay_path(ToolPath path, Motion motion) {
 
 LaidPath lay_path(const Part& part, const PathSpec& spec, Motion motion, double max_feed, const Progress& progress) {
   progress.step("path: planning");
-  ToolPath path = plan_path(spec, {part.figure, part.tif, max_feed, true, progress.stop});
+  ToolPath path = plan_path(spec, {part.figure, part.tif, max_feed, true, progress});
   progress.check();
   LaidPath laid = lay_path(std::move(path), motion);
   progress.step(fmt::format("path: {} dwell points, {:.4g} mm", laid.path.size(), laid.metrics.length));

@@ -5,7 +5,7 @@
 #include "core/motion/motion.h"
 #include "core/motion/tool_path.h"
 #include "paths/metrics/path_metrics.h"
-#include "paths/path_spec.h"
+#include "paths/path_catalogue.h"
 #include "runs/plan/part.h"
 
 namespace dwell {

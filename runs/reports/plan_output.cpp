@@ -11,7 +11,7 @@
 #include "core/removal/simulate.h"
 #include "runs/drawing/path_picture.h"
 #include "runs/drawing/picture.h"
-#include "runs/programs/gcode.h"
+#include "runs/programs/program_formats.h"
 #include "runs/programs/program_reader.h"
 #include "runs/reports/figure_output.h"
 #include "runs/reports/plan_summary.h"
@@ -27,13 +27,10 @@ void write_program(const PlannedJob& plan, const OutputFolder& folder) {
     table.inputs.emplace_back(input.role + " " + input.file, input.sha256);
     header.push_back(fmt::format("input: {} {} sha256={}", input.role, input.file, input.sha256));
   }
-  folder.write("feed.csv", feed_table_text(table));
-  GcodeOptions gcode;
-  gcode.dialect = plan.job.options.gcode;
-  gcode.lift_height_mm = plan.job.options.lift_height_mm;
-  gcode.max_feed_mm_per_min = table.max_feed_mm_per_min;
-  gcode.header = header;
-  folder.write("program.nc", gcode_text(program_of(table), gcode));
+  const JobOptions& options = plan.job.options;
+  for (const WrittenProgram& program : written_programs(table, {options.gcode, options.lift_height_mm, header})) {
+    folder.write(program.file, program.bytes);
+  }
 }
 
 void write_pictures(const PlannedJob& plan, const WrittenPlan& written, const OutputFolder& folder,

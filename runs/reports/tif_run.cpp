@@ -150,8 +150,7 @@ std::vector<FitRequest> parse_fits(const std::vector<std::string>& texts, bool r
     for (const std::string_view name : split(text, ',')) {
       if (trim(name) == "all") {
         for (const RemovalModel& model : removal_models()) {
-          // A bonnet's cap does not follow from its spot.
-          if (model.name != "bonnet") requests.push_back({model.name, {{}, robust}});
+          if (model.fits_alone()) requests.push_back({model.name, {{}, robust}});
         }
         continue;
       }

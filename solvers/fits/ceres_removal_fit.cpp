@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <span>
 #include <stdexcept>
 #include <utility>
 
@@ -120,8 +121,7 @@ class ModelFit {
         throw InputError(
             fmt::format("fit of {0}: {1} must be held; `fit` {0}:{1}=VALUE is required", model_.name, p.name));
       }
-      // All round, the direction of the lean means nothing.
-      if (p.name == "angle" && model_.name == "bonnet" && given_[k - 2] == 0.0 && std::isnan(given_[k])) {
+      if (model_.idle != nullptr && std::isnan(given_[k]) && model_.idle(k - kOwn, std::span(given_).subspan(kOwn))) {
         parameters_[k].held = true;
         given_[k] = 0.0;
       }
@@ -267,25 +267,22 @@ class ModelFit {
   }
 
   std::string spec() const {
-    if (model_.name == "disc")
-      return fmt::format("disc:slope={:.8g},radius={:.8g}", values_[2] / values_[3], values_[3]);
+    if (model_.spec != nullptr) return model_.spec(values_[2], std::span(values_).subspan(kOwn));
     std::string text = fmt::format("{}:peak={:.8g}", model_.name, values_[2]);
     for (std::size_t k = kOwn; k < values_.size(); ++k)
       text += fmt::format(",{}={:.8g}", parameters_[k].name, values_[k]);
     return text;
   }
 
-  /// A D turned half round with its steep and its long side exchanged is the same D: the long side is taken to be
-  /// upstream.
-  void put_long_side_first() {
-    if (model_.name != "mrf" || parameters_[3].held || parameters_[4].held || parameters_[6].held) return;
-    if (values_[3] >= values_[4]) return;
-    std::swap(values_[3], values_[4]);
-    values_[6] += 180.0;
+  void make_canonical() {
+    if (model_.make_canonical == nullptr) return;
+    std::vector<bool> held;
+    for (std::size_t k = kOwn; k < parameters_.size(); ++k) held.push_back(parameters_[k].held);
+    model_.make_canonical(std::span(values_).subspan(kOwn), held);
   }
 
   RemovalFit result(const ceres::Solver::Summary& summary) {
-    put_long_side_first();
+    make_canonical();
     const std::vector<double> r = residuals();
     find_errors(r);
     RemovalFit fit;

@@ -1,4 +1,4 @@
-#include "paths/path_spec.h"
+#include "paths/path_catalogue.h"
 #include "tests/fuzz/fuzz_reader.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

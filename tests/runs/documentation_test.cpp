@@ -1,7 +1,13 @@
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <string>
+
 #include "core/base/whole_file.h"
+#include "core/tif/models/removal_models.h"
+#include "paths/path_catalogue.h"
 #include "runs/job/job_options.h"
+#include "runs/reports/plan_files.h"
 #include "solvers/solver_catalogue.h"
 
 namespace dwell {
@@ -25,6 +31,39 @@ TEST(Documentation, MathListsEverySolverOfTheCatalogue) {
     const std::string row = "| `" + solver.name + "` | " + solver.about + " | " + largest + " |\n";
     EXPECT_NE(text.find(row), std::string::npos) << "docs/math.md lacks the line\n" << row;
   }
+}
+
+TEST(Documentation, NamesEveryPlannerModelAndFileOfAPlan) {
+  const std::string paths = read_whole_file(DWELL_SOURCE_DIR "/docs/paths.md");
+  for (const PathRecord& record : path_catalogue()) {
+    const std::string row = "| `" + record.name + "` | " + record.about + " |\n";
+    EXPECT_NE(paths.find(row), std::string::npos) << "docs/paths.md lacks the line\n" << row;
+  }
+  const std::string models = read_whole_file(DWELL_SOURCE_DIR "/docs/removal_functions.md");
+  for (const RemovalModel& model : removal_models()) {
+    EXPECT_NE(models.find("`" + model.name), std::string::npos) << "docs/removal_functions.md lacks " << model.name;
+  }
+  const std::string formats = read_whole_file(DWELL_SOURCE_DIR "/docs/formats.md");
+  for (const std::string_view file : plan_files().others) {
+    EXPECT_NE(formats.find("`" + std::string(file) + "`"), std::string::npos) << "docs/formats.md lacks " << file;
+  }
+}
+
+// docs/adding.md says what to do by real examples: its files and rows must exist.
+TEST(Documentation, AddingNamesFilesThatExist) {
+  const std::string text = read_whole_file(DWELL_SOURCE_DIR "/docs/adding.md");
+  const std::filesystem::path root = DWELL_SOURCE_DIR;
+  std::size_t files = 0;
+  for (std::size_t from = text.find('`'); from != std::string::npos; from = text.find('`', from + 1)) {
+    const std::size_t end = text.find('`', from + 1);
+    ASSERT_NE(end, std::string::npos);
+    const std::string word = text.substr(from + 1, end - from - 1);
+    from = end;
+    if (word.find('/') == std::string::npos || word.find_first_of(" :()*{}") != std::string::npos) continue;
+    EXPECT_TRUE(std::filesystem::exists(root / word)) << word;
+    ++files;
+  }
+  EXPECT_GT(files, 20u);
 }
 
 }  // namespace

@@ -10,11 +10,13 @@
 #include "core/base/errors.h"
 #include "core/base/spec_text.h"
 #include "core/base/whole_file.h"
+#include "core/formats/map_formats.h"
 #include "core/formats/map_io.h"
 #include "core/formats/npy_sidecar.h"
 #include "core/map/aperture.h"
+#include "paths/path_catalogue.h"
 #include "paths/path_file.h"
-#include "paths/path_spec.h"
+#include "runs/programs/program_formats.h"
 #include "runs/programs/program_reader.h"
 
 namespace dwell {
@@ -70,6 +72,28 @@ TEST(FuzzSeeds, AreReadButForThoseThatShowARefusal) {
     EXPECT_GE(files, 2u) << name;
   }
   EXPECT_LT(bytes, 20000u);
+}
+
+/// A target of its own, and more than one seed to begin from.
+void expect_fuzzed(const std::string& name) {
+  const std::filesystem::path fuzz = std::filesystem::path(DWELL_SOURCE_DIR) / "tests/fuzz";
+  EXPECT_TRUE(std::filesystem::exists(fuzz / ("reader_" + name + ".cpp"))) << name << " has no fuzz target";
+  EXPECT_TRUE(std::filesystem::is_directory(fuzz / "seeds" / name)) << name << " has no seeds";
+  EXPECT_TRUE(readers().contains(name)) << name << " is not among the readers above";
+}
+
+TEST(FuzzSeeds, EveryFormatHasATargetAndSeeds) {
+  for (const MapFormat& format : map_formats()) expect_fuzzed(format.fuzz);
+  for (const char* text : {"matrix_text", "xyz_text"}) expect_fuzzed(text);  // what is left
+  for (const ProgramFormat& format : program_formats()) expect_fuzzed(format.fuzz);
+}
+
+TEST(FuzzSeeds, EveryPlannerHasASeed) {
+  const std::filesystem::path seeds = std::filesystem::path(DWELL_SOURCE_DIR) / "tests/fuzz/seeds/path_spec";
+  for (const PathRecord& record : path_catalogue()) {
+    ASSERT_TRUE(std::filesystem::exists(seeds / record.name)) << record.name;
+    EXPECT_EQ(parse_path_spec(read_whole_file(seeds / record.name)).record->name, record.name);
+  }
 }
 
 }  // namespace

@@ -116,4 +116,32 @@ RemovalShape bonnet_shape(const BonnetContact& contact) {
   return {[bonnet](Point p) { return (*bonnet)(p); }, peak, contact.radius};
 }
 
+RemovalModel bonnet_model() {
+  RemovalModel model;
+  model.name = "bonnet";
+  model.about = "a spinning spherical cap pressed on the part, its axis inclined";
+  model.preston = true;
+  model.parameters = {model_size("radius"),
+                      {"cap", "mm", 0.0, 1e6, true, {}, false, false},
+                      {"precession", "deg", 0.0, 90.0, false, {}, true, false},
+                      {"positions", "", 0.0, 64.0, false, 4.0, false, true},
+                      {"exponent", "", 0.0, 20.0, true, 0.5, false, false},
+                      model_angle()};
+  model.shape = [](std::span<const double> v, double) {
+    return bonnet_shape({v[0], v[1], v[2], static_cast<int>(std::lround(v[3])), v[4], v[5]});
+  };
+  model.starts = [](const RemovalMoments& m) {
+    std::vector<ModelStart> starts;
+    for (const double angle : {0.0, 90.0, 180.0, 270.0}) {
+      for (const double precession : {6.0, 20.0}) {
+        starts.push_back({m.centre, {1.05 * m.edge, 1.0, precession, 4.0, 0.5, m.angle + angle}});
+      }
+    }
+    return starts;
+  };
+  // All round, the direction of the lean means nothing.
+  model.idle = [](std::size_t parameter, std::span<const double> held) { return parameter == 5 && held[3] == 0.0; };
+  return model;
+}
+
 }  // namespace dwell

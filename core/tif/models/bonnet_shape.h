@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/tif/models/removal_model.h"
 #include "core/tif/removal_shape.h"
 
 namespace dwell {
@@ -22,5 +23,8 @@ struct BonnetContact {
 /// precession). The speed is zero where the spin axis meets the part, at x = -h tan. Throws InputError naming what is
 /// out of range, or if nothing slides.
 RemovalShape bonnet_shape(const BonnetContact& contact);
+
+/// Its row in removal_models().
+RemovalModel bonnet_model();
 
 }  // namespace dwell

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/tif/models/removal_model.h"
 #include "core/tif/removal_shape.h"
 
 namespace dwell {
@@ -19,5 +20,11 @@ RemovalShape super_gaussian_shape(double fwhm, double order);
 /// `trail` for u > 0: the distances from the peak to half of it, up- and downstream [mm]. `angle` [deg]: direction in
 /// which the ribbon runs. It is no hydrodynamic model. Lengths > 0.
 RemovalShape mrf_shape(double lead, double trail, double width, double angle);
+
+/// Their rows in removal_models(). A gaussian keeps its closed form.
+RemovalModel gaussian_model();
+RemovalModel elliptic_gaussian_model();
+RemovalModel super_gaussian_model();
+RemovalModel mrf_model();
 
 }  // namespace dwell

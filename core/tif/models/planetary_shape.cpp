@@ -92,4 +92,21 @@ RemovalShape planetary_shape(double radius, double eccentricity, double ratio) {
           peak, outer};
 }
 
+RemovalModel planetary_model() {
+  RemovalModel model;
+  model.name = "planetary";
+  model.about = "a pad that revolves about the tool axis and spins about its own centre";
+  model.preston = true;
+  model.parameters = {model_size("radius"),
+                      {"eccentricity", "", 0.0, 100.0, false, {}, true, false},
+                      {"ratio", "", -1e4, 1e4, false, -1.0, false, false}};
+  model.shape = [](std::span<const double> v, double) { return planetary_shape(v[0], v[1], v[2]); };
+  model.starts = [](const RemovalMoments& m) {
+    std::vector<ModelStart> starts;
+    for (const double e : {0.3, 0.8, 1.1, 2.0}) starts.push_back({m.centre, {m.edge / (1.0 + e), e, -1.0}});
+    return starts;
+  };
+  return model;
+}
+
 }  // namespace dwell

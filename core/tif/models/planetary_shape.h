@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/tif/models/removal_model.h"
 #include "core/tif/removal_shape.h"
 
 namespace dwell {
@@ -16,5 +17,8 @@ namespace dwell {
 /// of these. Throws InputError if nothing moves (ratio -1 with eccentricity 0). radius > 0, eccentricity >= 0. Cost of
 /// the table: about 2 ms.
 RemovalShape planetary_shape(double radius, double eccentricity, double ratio);
+
+/// Its row in removal_models().
+RemovalModel planetary_model();
 
 }  // namespace dwell

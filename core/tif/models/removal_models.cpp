@@ -9,62 +9,13 @@
 #include "core/base/errors.h"
 #include "core/base/units.h"
 #include "core/tif/models/bonnet_shape.h"
+#include "core/tif/models/disc_shape.h"
 #include "core/tif/models/gaussian_shapes.h"
 #include "core/tif/models/planetary_shape.h"
 #include "core/tif/removal_kernel.h"
 
 namespace dwell {
 namespace {
-
-ModelParameter size(const char* name) { return {name, "mm", 0.0, 1e6, true, {}, true, false}; }
-ModelParameter angle() { return {"angle", "deg", -1e6, 1e6, false, 0.0, true, false}; }
-
-/// A disc with a ramp in place of its rim, so that a fit can find it.
-RemovalShape disc_shape(double radius, double blur) {
-  const double width = std::max(blur, 1e-6 * radius);
-  return {[radius, width](Point p) {
-            const double r = length(p);
-            return r * std::clamp((radius - r) / width + 0.5, 0.0, 1.0);
-          },
-          radius, radius + 0.5 * width};
-}
-
-std::vector<RemovalModel> make_models() {
-  using Values = std::span<const double>;
-  return {
-      {"gaussian", {size("fwhm")}, false, [](Values v, double) { return elliptic_gaussian_shape(v[0], v[0], 0.0); }},
-      {"elliptic-gaussian",
-       {size("fwhm_x"), size("fwhm_y"), angle()},
-       false,
-       [](Values v, double) { return elliptic_gaussian_shape(v[0], v[1], v[2]); }},
-      {"super-gaussian",
-       {size("fwhm"), {"order", "", 0.5, 50.0, false, {}, true, false}},
-       false,
-       [](Values v, double) { return super_gaussian_shape(v[0], v[1]); }},
-      {"disc", {size("radius")}, false, [](Values v, double blur) { return disc_shape(v[0], blur); }},
-      {"planetary",
-       {size("radius"),
-        {"eccentricity", "", 0.0, 100.0, false, {}, true, false},
-        {"ratio", "", -1e4, 1e4, false, -1.0, false, false}},
-       true,
-       [](Values v, double) { return planetary_shape(v[0], v[1], v[2]); }},
-      {"mrf",
-       {size("lead"), size("trail"), size("width"), angle()},
-       false,
-       [](Values v, double) { return mrf_shape(v[0], v[1], v[2], v[3]); }},
-      {"bonnet",
-       {size("radius"),
-        {"cap", "mm", 0.0, 1e6, true, {}, false, false},
-        {"precession", "deg", 0.0, 90.0, false, {}, true, false},
-        {"positions", "", 0.0, 64.0, false, 4.0, false, true},
-        {"exponent", "", 0.0, 20.0, true, 0.5, false, false},
-        angle()},
-       true,
-       [](Values v, double) {
-         return bonnet_shape({v[0], v[1], v[2], static_cast<int>(std::lround(v[3])), v[4], v[5]});
-       }},
-  };
-}
 
 std::vector<double> values_of(const RemovalModel& model, const SpecText& spec) {
   std::vector<double> values;
@@ -104,16 +55,6 @@ double scale_of(const RemovalModel& model, const SpecText& spec, const RemovalSh
          units::kNmPerMm;
 }
 
-RemovalFunction gaussian_of(const SpecText& spec) {
-  spec.accept_only({"peak", "fwhm", "sigma", "radius"});
-  if (spec.has("fwhm") == spec.has("sigma")) {
-    throw InputError(fmt::format("tif '{}': give either fwhm or sigma [mm]", spec.text));
-  }
-  const double fwhm =
-      spec.has("fwhm") ? spec.number("fwhm") : spec.number("sigma") * std::sqrt(8.0 * std::numbers::ln2);
-  return gaussian_removal(spec.number("peak"), fwhm, spec.number("radius", 1.5 * fwhm));
-}
-
 /// Samples of the shape from -half to +half pitches about the axis; zero beyond the reach.
 HeightMap sample(const RemovalShape& shape, double scale, Index half) {
   const double pitch = shape.reach / static_cast<double>(half);
@@ -147,8 +88,10 @@ double interpolation_error(const HeightMap& samples, const RemovalShape& shape, 
 }  // namespace
 
 const std::vector<RemovalModel>& removal_models() {
-  static const std::vector<RemovalModel> models = make_models();
-  return models;
+  static const std::vector<RemovalModel> kModels{gaussian_model(), elliptic_gaussian_model(), super_gaussian_model(),
+                                                 disc_model(),     planetary_model(),         mrf_model(),
+                                                 bonnet_model()};
+  return kModels;
 }
 
 bool is_removal_model(const std::string& name) {
@@ -192,12 +135,8 @@ RemovalFunction sampled_removal(const RemovalShape& shape, double scale, const s
 }
 
 RemovalFunction removal_of_spec(const SpecText& spec) {
-  if (spec.kind == "gaussian") return gaussian_of(spec);
-  if (spec.kind == "disc") {
-    spec.accept_only({"slope", "radius"});
-    return spinning_disc_removal(spec.number("slope"), spec.number("radius"));
-  }
   const RemovalModel& model = removal_model(spec.kind);
+  if (model.closed_form != nullptr) return model.closed_form(spec);
   accept_keys(model, spec);
   const RemovalShape shape = model.shape(values_of(model, spec), 0.0);
   return sampled_removal(shape, scale_of(model, spec, shape), model.name);

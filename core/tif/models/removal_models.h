@@ -1,38 +1,16 @@
 #pragma once
 
-#include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "core/base/spec_text.h"
+#include "core/tif/models/removal_model.h"
 #include "core/tif/removal_function.h"
 #include "core/tif/removal_shape.h"
 
 namespace dwell {
 
-/// A parameter of the form of a removal function, besides its peak and its place.
-struct ModelParameter {
-  std::string name;    // the key of a specification: "fwhm"
-  std::string unit;    // "mm", "deg", or empty
-  double least = 0.0;  // accepted: least <= value <= most (least < value if `open`), finite
-  double most = 1e6;
-  bool open = true;
-  std::optional<double> fallback;  // if the user does not say; none: required
-  bool fitted = true;              // a fit varies it, unless it is held
-  bool whole = false;              // a whole number
-};
-
-/// A formula for removal functions (docs/removal_functions.md).
-struct RemovalModel {
-  std::string name;
-  std::vector<ModelParameter> parameters;
-  bool preston = false;  // its shape is pressure share x speed / angular velocity [mm]: Preston's law gives the rate
-  /// The shape of these parameters, in their order. Jumps are ramps of the width `blur` [mm]. Throws InputError.
-  RemovalShape (*shape)(std::span<const double> values, double blur);
-};
-
-/// gaussian, elliptic-gaussian, super-gaussian, disc, planetary, mrf, bonnet.
+/// Every model, in the order of the documentation: a new one is its two files and its row.
 const std::vector<RemovalModel>& removal_models();
 
 /// Throws InputError listing the models.

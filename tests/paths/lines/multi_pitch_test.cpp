@@ -8,7 +8,7 @@
 #include <numbers>
 #include <random>
 
-#include "paths/path_spec.h"
+#include "paths/path_catalogue.h"
 #include "tests/paths/domain/path_test_util.h"
 
 namespace dwell {
@@ -274,7 +274,7 @@ INSTANTIATE_TEST_SUITE_P(Seeds, MultiPitchProperties, ::testing::Range<std::uint
 
 // --- options ----------------------------------------------------------------------------------------------------
 
-MultiPitchOptions parsed(const std::string& text) { return std::get<MultiPitchOptions>(parse_path_spec(text)); }
+MultiPitchOptions parsed(const std::string& text) { return options_of<MultiPitchOptions>(parse_path_spec(text)); }
 
 TEST(MultiPitch, ParsesItsOptions) {
   const MultiPitchOptions full =

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "paths/lines/raster.h"
-#include "paths/path_spec.h"
+#include "paths/path_catalogue.h"
 #include "tests/paths/curves/curve_test_util.h"
 
 namespace dwell {
@@ -145,7 +145,7 @@ TEST(RandomRaster, SeedsDecide) {
 }
 
 TEST(RandomRaster, ReadsSpreadsInMillimetresAndPercent) {
-  const auto spread = [](const char* text) { return std::get<RandomRasterOptions>(parse_path_spec(text)).spread; };
+  const auto spread = [](const char* text) { return options_of<RandomRasterOptions>(parse_path_spec(text)).spread; };
   EXPECT_DOUBLE_EQ(spread("random-raster:pitch=2,spread=0.5"), 0.25);
   EXPECT_DOUBLE_EQ(spread("random-raster:pitch=2,spread=40%"), 0.4);
   EXPECT_DOUBLE_EQ(spread("random-raster:pitch=2"), 0.3);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/whole_file.h"
+#include "runs/reports/plan_files.h"
 #include "tests/core/base/expect_error.h"
 #include "tests/core/base/temporary_folder.h"
 
@@ -14,7 +15,7 @@ using test::expect_input_error;
 using test::TemporaryFolder;
 
 void write_result(const fs::path& target, const std::string& summary) {
-  OutputFolder folder(target);
+  OutputFolder folder(target, plan_files());
   folder.write("summary.json", summary);
   folder.write("feed.csv", "feed of " + summary);
   folder.commit();
@@ -24,7 +25,7 @@ TEST(OutputFolder, AppearsWholeOrNotAtAll) {
   const TemporaryFolder temporary;
   const fs::path target = temporary.path() / "plan";
   {
-    OutputFolder folder(target);
+    OutputFolder folder(target, plan_files());
     folder.write("summary.json", "{}");
     EXPECT_FALSE(fs::exists(target));
     EXPECT_EQ(read_whole_file(folder.path("summary.json")), "{}");
@@ -33,7 +34,7 @@ TEST(OutputFolder, AppearsWholeOrNotAtAll) {
   }
   EXPECT_EQ(temporary.entries(), 1u);
   {
-    OutputFolder abandoned(temporary.path() / "other");
+    OutputFolder abandoned(temporary.path() / "other", plan_files());
     abandoned.write("summary.json", "{}");
   }
   EXPECT_EQ(temporary.entries(), 1u);
@@ -44,13 +45,13 @@ TEST(OutputFolder, ExchangesAnEarlierResultAndLeavesItWithoutCommit) {
   const fs::path target = temporary.path() / "plan";
   write_result(target, "one");
   {
-    OutputFolder abandoned(target);
+    OutputFolder abandoned(target, plan_files());
     abandoned.write("summary.json", "two");
   }
   EXPECT_EQ(read_whole_file(target / "summary.json"), "one");
   EXPECT_EQ(read_whole_file(target / "feed.csv"), "feed of one");
   {
-    OutputFolder folder(target);
+    OutputFolder folder(target, plan_files());
     folder.write("summary.json", "three");
     EXPECT_EQ(read_whole_file(target / "summary.json"), "one");
     folder.commit();
@@ -71,7 +72,7 @@ TEST(OutputFolder, TakesAnEmptyFolderAndASlashAtTheEnd) {
 TEST(OutputFolder, MakesParentsAndRemovesThemAgainWithoutCommit) {
   const TemporaryFolder temporary;
   fs::create_directory(temporary.path() / "mine");
-  { OutputFolder abandoned(temporary.path() / "mine/a/b/plan"); }
+  { OutputFolder abandoned(temporary.path() / "mine/a/b/plan", plan_files()); }
   EXPECT_TRUE(fs::exists(temporary.path() / "mine"));
   EXPECT_FALSE(fs::exists(temporary.path() / "mine/a"));
   write_result(temporary.path() / "mine/a/b/plan", "one");
@@ -82,11 +83,11 @@ TEST(OutputFolder, RefusesAFolderThatHoldsOtherThings) {
   const TemporaryFolder temporary;
   fs::create_directory(temporary.path() / "photos");
   temporary.file("photos/holiday.jpg", "x");
-  expect_input_error([&] { OutputFolder folder(temporary.path() / "photos"); },
+  expect_input_error([&] { OutputFolder folder(temporary.path() / "photos", plan_files()); },
                      {"`out`", "photos", "holiday.jpg", "empty or a new folder"});
   // A summary.json does not make the other files beside it ours to remove.
   temporary.file("photos/summary.json", "{}");
-  expect_input_error([&] { OutputFolder folder(temporary.path() / "photos"); }, {"`out`", "holiday.jpg"});
+  expect_input_error([&] { OutputFolder folder(temporary.path() / "photos", plan_files()); }, {"`out`", "holiday.jpg"});
   EXPECT_EQ(read_whole_file(temporary.path() / "photos/holiday.jpg"), "x");
   EXPECT_EQ(temporary.entries(), 1u);
 }
@@ -103,7 +104,8 @@ TEST(OutputFolder, ReplacesOnlyAResultOfItsOwnKind) {
     folder.commit();
   }
   EXPECT_NO_THROW(OutputFolder(sweep, pareto_files()));
-  expect_input_error([&] { OutputFolder folder(sweep); }, {"`out`", "not an earlier plan", "pareto.json"});
+  expect_input_error([&] { OutputFolder folder(sweep, plan_files()); },
+                     {"`out`", "not an earlier plan", "pareto.json"});
   fs::remove(sweep / "pareto.json");
   temporary.file("sweep/pareto.csv", "x");
   expect_input_error([&] { OutputFolder folder(sweep, pareto_files()); }, {"it holds no pareto.json"});
@@ -125,10 +127,11 @@ TEST(OutputFolder, WritesThroughALinkToAFolder) {
 TEST(OutputFolder, RefusesWhatCannotBeWrittenBeforeAnyWork) {
   const TemporaryFolder temporary;
   const fs::path file = temporary.file("file", "x");
-  expect_input_error([] { OutputFolder folder(""); }, {"`out`", "required"});
-  expect_input_error([&] { OutputFolder folder(file); }, {"`out`", "file", "a folder is required"});
-  expect_input_error([&] { OutputFolder folder(file / "plan"); }, {"`out`", "cannot write", "Not a directory"});
-  expect_input_error([] { OutputFolder folder("/proc/plan"); }, {"`out`", "cannot write '/proc/plan'"});
+  expect_input_error([] { OutputFolder folder("", plan_files()); }, {"`out`", "required"});
+  expect_input_error([&] { OutputFolder folder(file, plan_files()); }, {"`out`", "file", "a folder is required"});
+  expect_input_error([&] { OutputFolder folder(file / "plan", plan_files()); },
+                     {"`out`", "cannot write", "Not a directory"});
+  expect_input_error([] { OutputFolder folder("/proc/plan", plan_files()); }, {"`out`", "cannot write '/proc/plan'"});
   EXPECT_EQ(temporary.entries(), 1u);
 }
 

@@ -123,7 +123,7 @@ TEST(WritePareto, TableAndJsonSayTheSame) {
   const auto json = nlohmann::json::parse(pareto_json_text(sweep));
   EXPECT_EQ(json["version"], version());
   EXPECT_EQ(json["inputs"].size(), 1u);
-  EXPECT_EQ(json["options"]["path"], job.options.path);
+  EXPECT_EQ(json["options"]["path"], to_string(job.options.path));
   EXPECT_FALSE(json["options"].contains("smoothness"));
   ASSERT_EQ(json["points"].size(), 6u);
 

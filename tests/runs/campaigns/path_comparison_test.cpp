@@ -9,6 +9,7 @@
 
 #include "core/base/whole_file.h"
 #include "runs/campaigns/path_comparison_output.h"
+#include "runs/reports/plan_files.h"
 #include "runs/reports/simulation.h"
 #include "tests/core/base/expect_error.h"
 #include "tests/runs/plan/small_job.h"
@@ -89,7 +90,7 @@ TEST(PathComparison, SaysOfEachPathWhatItsOwnProgramDoes) {
   EXPECT_EQ(parsed["paths"][0]["program"]["residual_rms_nm"], comparison.paths[0].residual_rms);
   EXPECT_FALSE(parsed["options"].contains("path"));
   EXPECT_NO_THROW(OutputFolder(out, path_comparison_files()));  // an earlier comparison may be replaced
-  expect_input_error([&] { OutputFolder plan(out); }, {"not an earlier plan"});
+  expect_input_error([&] { OutputFolder plan(out, plan_files()); }, {"not an earlier plan"});
   job.folder.file("paths/raster/holiday.jpg", "x");
   expect_input_error([&] { OutputFolder(out, path_comparison_files()); }, {"'raster'", "holiday.jpg"});
 }

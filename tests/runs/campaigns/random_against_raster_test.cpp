@@ -5,6 +5,7 @@
 
 #include "core/formats/map_io.h"
 #include "runs/campaigns/path_comparison.h"
+#include "runs/campaigns/path_comparison_output.h"
 #include "tests/core/base/temporary_folder.h"
 
 namespace dwell {

@@ -32,7 +32,7 @@ JobOptions unusual() {
   o.tif_centre = parse_tif_centre("0.5,-0.25");
   o.tif_angle_deg = -37.5;
   o.tif_flip = ToolOrientation::Flip::Y;
-  o.path = "nearest:cell=2,critical=-inf";
+  o.path = parse_path_spec("nearest:cell=2,critical=-inf");
   o.motion = Motion::Stop;
   o.remove = {true, true, true};
   o.aperture = parse_aperture("rect:0,0,1,2");

@@ -12,6 +12,7 @@
 #include "core/base/whole_file.h"
 #include "runs/job/place_option.h"
 #include "runs/job/planned_job.h"
+#include "runs/reports/plan_files.h"
 #include "runs/reports/plan_output.h"
 #include "runs/reports/simulation.h"
 #include "tests/core/base/temporary_folder.h"
@@ -105,7 +106,7 @@ class Orientation : public testing::TestWithParam<Case> {
     }
     o.tif = folder.file("tif.csv", matrix_csv(15, 15, {-3.5, -3.5}, rate)).string();
     o.tif_centre = parse_tif_centre("0,0");
-    o.path = fmt::format("raster:pitch=0.5,angle={}", GetParam().angle);
+    o.path = parse_path_spec(fmt::format("raster:pitch=0.5,angle={}", GetParam().angle));
     o.remove = {};
     o.max_feed_mm_per_min = 1e5;  // so fast that passing removes next to nothing
     o.smoothness = {1e-4};
@@ -202,7 +203,7 @@ TEST_P(Orientation, BumpIsRemovedWhereItIsByTheToolAsMeasured) {
   std::array<Eigen::VectorXd, 4> by_formula;
   for (const char* dialect : {"g94", "g93-per-minute", "g93-seconds"}) {
     plan.job.options.gcode = parse_gcode_dialect(dialect);
-    OutputFolder out(o.out);
+    OutputFolder out(o.out, plan_files());
     write_plan(plan, out, {});
     out.commit();
     const auto rows = table_rows(read_whole_file(std::filesystem::path(o.out) / "feed.csv"));

@@ -7,6 +7,7 @@
 #include "runs/job/planned_job.h"
 #include "runs/plan/plan_problem.h"
 #include "runs/plan/weight_choice.h"
+#include "runs/reports/plan_files.h"
 #include "runs/reports/plan_output.h"
 #include "tests/core/base/expect_error.h"
 #include "tests/runs/plan/small_job.h"
@@ -186,8 +187,8 @@ TEST(PlanSearch, TwoResidualTargetsAreRefused) {
 TEST(WritePlan, SearchIsInTheSummaryAndInItsOwnTable) {
   SmallJob job;
   job.options.smoothness = {0.0, GoalKind::Corner};
-  PlannedJob plan = plan_job(job.options, {});
-  const OutputFolder folder(job.options.out);
+  const PlannedJob plan = plan_job(job.options, {});
+  const OutputFolder folder(job.options.out, plan_files());
   const auto summary = nlohmann::json::parse(write_plan(plan, folder, {}).summary);
   const auto& weights = summary.at("weights");
   EXPECT_EQ(weights.at("smoothness"), plan.dwell.weights.smoothness);

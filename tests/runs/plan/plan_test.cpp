@@ -10,6 +10,7 @@
 #include "core/removal/simulate.h"
 #include "paths/feed/plan_program.h"
 #include "runs/job/planned_job.h"
+#include "runs/reports/plan_files.h"
 #include "runs/reports/plan_output.h"
 #include "tests/core/base/expect_error.h"
 #include "tests/runs/plan/small_job.h"
@@ -47,7 +48,7 @@ TEST(MakePlan, PreparesItsMapAndSaysHow) {
   EXPECT_EQ(plan.part().map.valid_pixels(), plan.part().map.grid.size());
   EXPECT_EQ(plan.job.map_pixels, plan.part().map.grid.size());
   ASSERT_EQ(plan.part().map.history.size(), 2u);
-  const OutputFolder folder(job.options.out);
+  const OutputFolder folder(job.options.out, plan_files());
   const auto summary = nlohmann::json::parse(write_plan(plan, folder, {}).summary);
   EXPECT_EQ(summary["map"]["history"], plan.part().map.history);
   EXPECT_EQ(summary["options"]["map_steps"], job.options.map_steps);
@@ -116,7 +117,7 @@ TEST(MakePlan, PlansForTheApertureAlone) {
 
 TEST(MakePlan, FollowsANearestNeighbourPath) {
   SmallJob job;
-  job.options.path = "nearest:cell=1,critical=-inf";
+  job.options.path = parse_path_spec("nearest:cell=1,critical=-inf");
   const PlannedJob plan = plan_job(job.options, {});
   EXPECT_EQ(plan.laid.path.kind, "nearest");
   EXPECT_LE(plan.dwell.residual.rms, 0.5 * plan.part().before.rms);
@@ -134,7 +135,7 @@ TEST(MakePlan, FollowsAPathFromAFile) {
     }
   }
   const std::filesystem::path file = job.folder.file("path.csv", text);
-  job.options.path = "file:" + file.string();
+  job.options.path = parse_path_spec("file:" + file.string());
   const PlannedJob plan = plan_job(job.options, {});
   ASSERT_EQ(plan.laid.path.size(), 13u * 17u);
   EXPECT_EQ(plan.laid.path.points[17].x, 11.0);
@@ -148,7 +149,7 @@ TEST(MakePlan, FollowsAPathFromAFile) {
 
 TEST(MakePlan, SaysWhichInputIsMissing) {
   SmallJob job;
-  job.options.path.clear();
+  job.options.path = {};
   expect_input_error([&] { plan_job(job.options, {}); }, {"--path", "raster:pitch=1"});
   job.options.tif.clear();
   expect_input_error([&] { plan_job(job.options, {}); }, {"--tif"});
@@ -170,7 +171,7 @@ TEST(MakePlan, StopsWhenAskedAndReportsEveryStage) {
 
 std::map<std::string, std::string> written_files(const JobOptions& options) {
   PlannedJob plan = plan_job(options, {});
-  OutputFolder folder(options.out);
+  OutputFolder folder(options.out, plan_files());
   write_plan(plan, folder, {});
   folder.commit();
   std::map<std::string, std::string> files;
@@ -208,7 +209,7 @@ TEST(WritePlan, ProgramOnDiskLeavesWhatTheSolverPredicts) {
     SmallJob job;
     job.options.motion = parse_motion(motion);
     PlannedJob plan = plan_job(job.options, {});
-    const OutputFolder folder(job.options.out);
+    const OutputFolder folder(job.options.out, plan_files());
     const WrittenPlan written = write_plan(plan, folder, {});
     EXPECT_NEAR(written.simulated.rms, plan.dwell.residual.rms, 1e-3 * plan.dwell.residual.rms) << motion;
     EXPECT_TRUE(plan.limits().empty()) << motion;

@@ -33,7 +33,7 @@ struct SmallJob {
     options.map = (folder.path() / "map.csv").string();
     write_map(options.map, small_map());
     options.tif = "gaussian:peak=10,fwhm=2.5,radius=4";
-    options.path = "raster:pitch=1,overrun=2";
+    options.path = parse_path_spec("raster:pitch=1,overrun=2");
     options.smoothness = {0.01};
     options.threads = 1;
     options.out = (folder.path() / "plan").string();

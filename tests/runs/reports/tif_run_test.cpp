@@ -183,7 +183,7 @@ TEST(TurnedTool, PlansWithTheToolThatActs) {
   options.map = (folder.path() / "map.csv").string();
   options.tif = "mrf:lead=1.8,trail=0.7,width=2,peak=12";
   options.tif_angle_deg = 90.0;
-  options.path = "raster:pitch=0.5,overrun=2";
+  options.path = parse_path_spec("raster:pitch=0.5,overrun=2");
   options.remove = {};
   options.smoothness = {1e-4};
   options.max_feed_mm_per_min = 1e5;

@@ -181,5 +181,43 @@ TEST(RemovalOfSpec, RefusesWhatIsOutOfRange) {
   expect_input_error([] { of("planatary:radius=1"); }, {"'planatary'", "planetary", "bonnet"});
 }
 
+TEST(RemovalModels, RowsAreWhole) {
+  RemovalMoments moments;
+  moments.peak = 5.0;
+  moments.fwhm = moments.major = 4.0;
+  moments.minor = 3.0;
+  moments.edge = 3.5;
+  for (const RemovalModel& model : removal_models()) {
+    EXPECT_FALSE(model.name.empty() || model.about.empty() || model.parameters.empty()) << model.name;
+    EXPECT_EQ(&removal_model(model.name), &model);
+    const std::vector<ModelStart> starts = model.starts(moments);
+    ASSERT_FALSE(starts.empty()) << model.name;
+    for (const ModelStart& start : starts) {
+      ASSERT_EQ(start.values.size(), model.parameters.size()) << model.name;
+      for (std::size_t k = 0; k < start.values.size(); ++k) {
+        EXPECT_NO_THROW(check_model_parameter(model, model.parameters[k], start.values[k])) << model.name;
+      }
+    }
+    EXPECT_EQ(model.fits_alone(), model.name != "bonnet");
+  }
+}
+
+TEST(RemovalModels, AnMrfSpotHasItsLongSideUpstream) {
+  const RemovalModel& mrf = removal_model("mrf");
+  std::vector<double> values{1.0, 3.0, 2.0, 10.0};
+  mrf.make_canonical(values, {false, true, false, false});
+  EXPECT_EQ(values, (std::vector<double>{1.0, 3.0, 2.0, 10.0})) << "held";
+  mrf.make_canonical(values, {false, false, false, false});
+  EXPECT_EQ(values, (std::vector<double>{3.0, 1.0, 2.0, 190.0}));
+}
+
+TEST(RemovalModels, ALeanAllRoundHasNoDirection) {
+  const RemovalModel& bonnet = removal_model("bonnet");
+  const double kNone = std::nan("");
+  EXPECT_TRUE(bonnet.idle(5, std::vector<double>{kNone, 20.0, kNone, 0.0, kNone, kNone}));
+  EXPECT_FALSE(bonnet.idle(5, std::vector<double>{kNone, 20.0, kNone, 4.0, kNone, kNone}));
+  EXPECT_FALSE(bonnet.idle(2, std::vector<double>{kNone, 20.0, kNone, 0.0, kNone, kNone}));
+}
+
 }  // namespace
 }  // namespace dwell

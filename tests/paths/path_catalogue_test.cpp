@@ -1,10 +1,19 @@
-#include "paths/path_spec.h"
+#include "paths/path_catalogue.h"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <fstream>
+#include <set>
+#include <stdexcept>
 
+#include "paths/curves/circles.h"
+#include "paths/curves/fibonacci.h"
+#include "paths/curves/spiral.h"
+#include "paths/lines/cross_hatch.h"
+#include "paths/lines/random_raster.h"
+#include "paths/lines/raster.h"
+#include "paths/tours/nearest_neighbour.h"
 #include "tests/paths/domain/path_test_util.h"
 
 namespace dwell {
@@ -18,23 +27,23 @@ RemovalFunction tool(double radius) { return gaussian_removal(1.0, 0.5 * radius,
 
 TEST(PathSpec, ParsesARaster) {
   const auto full =
-      std::get<RasterOptions>(parse_path_spec("raster:pitch=1,step=0.5,angle=30,overrun=5,order=one-way"));
+      options_of<RasterOptions>(parse_path_spec("raster:pitch=1,step=0.5,angle=30,overrun=5,order=one-way"));
   EXPECT_EQ(full.pitch, 1.0);
   EXPECT_EQ(full.step, 0.5);
   EXPECT_EQ(full.angle_deg, 30.0);
   EXPECT_EQ(full.overrun, 5.0);
   EXPECT_FALSE(full.serpentine);
-  const auto least = std::get<RasterOptions>(parse_path_spec("raster:pitch=2"));
+  const auto least = options_of<RasterOptions>(parse_path_spec("raster:pitch=2"));
   EXPECT_FALSE(least.step.has_value());
   EXPECT_FALSE(least.overrun.has_value());
   EXPECT_EQ(least.angle_deg, 0.0);
   EXPECT_TRUE(least.serpentine);
-  EXPECT_TRUE(std::get<RasterOptions>(parse_path_spec("raster:pitch=2,order=serpentine")).serpentine);
+  EXPECT_TRUE(options_of<RasterOptions>(parse_path_spec("raster:pitch=2,order=serpentine")).serpentine);
 }
 
 TEST(PathSpec, ParsesTurnarounds) {
   const auto turns = [](const std::string& text) {
-    return std::get<RasterOptions>(parse_path_spec("raster:pitch=1" + text)).turns;
+    return options_of<RasterOptions>(parse_path_spec("raster:pitch=1" + text)).turns;
   };
   EXPECT_EQ(turns("").turn, Turnaround::Square);
   EXPECT_EQ(turns("").corner, 0.0);
@@ -46,7 +55,7 @@ TEST(PathSpec, ParsesTurnarounds) {
 }
 
 TEST(PathSpec, ParsesCrossHatchAndRandomRaster) {
-  const auto cross = std::get<CrossHatchOptions>(
+  const auto cross = options_of<CrossHatchOptions>(
       parse_path_spec("cross-hatch:pitch=1,step=0.5,angle=30,crossing=60,overrun=5,turn=arc,corner=0.1"));
   EXPECT_EQ(cross.pitch, 1.0);
   EXPECT_EQ(cross.step, 0.5);
@@ -55,8 +64,8 @@ TEST(PathSpec, ParsesCrossHatchAndRandomRaster) {
   EXPECT_EQ(cross.overrun, 5.0);
   EXPECT_EQ(cross.turns.turn, Turnaround::Arc);
   EXPECT_EQ(cross.turns.corner, 0.1);
-  EXPECT_EQ(std::get<CrossHatchOptions>(parse_path_spec("cross-hatch:pitch=1")).crossing_deg, 90.0);
-  const auto random = std::get<RandomRasterOptions>(parse_path_spec(
+  EXPECT_EQ(options_of<CrossHatchOptions>(parse_path_spec("cross-hatch:pitch=1")).crossing_deg, 90.0);
+  const auto random = options_of<RandomRasterOptions>(parse_path_spec(
       "random-raster:pitch=1,spread=0.2,step=0.5,angle=30,overrun=5,order=one-way,turn=lift,corner=0.1,seed=7"));
   EXPECT_EQ(random.spread, 0.2);
   EXPECT_EQ(random.step, 0.5);
@@ -66,21 +75,21 @@ TEST(PathSpec, ParsesCrossHatchAndRandomRaster) {
   EXPECT_EQ(random.turns.turn, Turnaround::Lift);
   EXPECT_EQ(random.turns.corner, 0.1);
   EXPECT_EQ(random.seed, 7u);
-  EXPECT_EQ(std::get<RandomRasterOptions>(parse_path_spec("random-raster:pitch=1")).seed, 1u);
+  EXPECT_EQ(options_of<RandomRasterOptions>(parse_path_spec("random-raster:pitch=1")).seed, 1u);
 }
 
 TEST(PathSpec, ParsesCurves) {
   const auto spiral =
-      std::get<SpiralOptions>(parse_path_spec("spiral:pitch=2,step=0.5,overrun=5,centre=-1/2.5,from=edge,turn=cw"));
+      options_of<SpiralOptions>(parse_path_spec("spiral:pitch=2,step=0.5,overrun=5,centre=-1/2.5,from=edge,turn=cw"));
   EXPECT_EQ(spiral.pitch, 2.0);
   EXPECT_EQ(spiral.step, 0.5);
   EXPECT_EQ(spiral.overrun, 5.0);
   EXPECT_EQ(spiral.centre, (Point{-1.0, 2.5}));
   EXPECT_TRUE(spiral.from_edge);
   EXPECT_TRUE(spiral.clockwise);
-  const auto circles = std::get<CirclesOptions>(parse_path_spec("circles:pitch=2"));
+  const auto circles = options_of<CirclesOptions>(parse_path_spec("circles:pitch=2"));
   EXPECT_FALSE(circles.step || circles.overrun || circles.centre || circles.from_edge || circles.clockwise);
-  const auto fibonacci = std::get<FibonacciOptions>(parse_path_spec("fibonacci:pitch=2,overrun=3,centre=4/5"));
+  const auto fibonacci = options_of<FibonacciOptions>(parse_path_spec("fibonacci:pitch=2,overrun=3,centre=4/5"));
   EXPECT_EQ(fibonacci.pitch, 2.0);
   EXPECT_EQ(fibonacci.overrun, 3.0);
   EXPECT_EQ(fibonacci.centre, (Point{4.0, 5.0}));
@@ -103,19 +112,19 @@ TEST(PathSpec, EveryPlannerTakesTheTifRadiusAsOverrun) {
 
 TEST(PathSpec, ParsesNearestAndFile) {
   const auto full =
-      std::get<NearestOptions>(parse_path_spec("nearest:cell=1,critical=-3,lift=inf,start=-1.5/2e1,improve=2opt"));
+      options_of<NearestOptions>(parse_path_spec("nearest:cell=1,critical=-3,lift=inf,start=-1.5/2e1,improve=2opt"));
   EXPECT_EQ(full.cell, 1.0);
   EXPECT_EQ(full.critical, -3.0);
   EXPECT_EQ(full.lift, test::kInf);
   EXPECT_EQ(full.start, (Point{-1.5, 20.0}));
   EXPECT_TRUE(full.improve);
-  const auto least = std::get<NearestOptions>(parse_path_spec("nearest:cell=2"));
+  const auto least = options_of<NearestOptions>(parse_path_spec("nearest:cell=2"));
   EXPECT_EQ(least.critical, 0.0);
   EXPECT_EQ(least.lift, 1.5);
   EXPECT_FALSE(least.start.has_value());
   EXPECT_FALSE(least.improve);
-  EXPECT_FALSE(std::get<NearestOptions>(parse_path_spec("nearest:cell=2,improve=none")).improve);
-  EXPECT_EQ(std::get<PathFromFile>(parse_path_spec("file:a=1,b:c.csv")).file, "a=1,b:c.csv");
+  EXPECT_FALSE(options_of<NearestOptions>(parse_path_spec("nearest:cell=2,improve=none")).improve);
+  EXPECT_EQ(options_of<PathFromFile>(parse_path_spec("file:a=1,b:c.csv")).file, "a=1,b:c.csv");
 }
 
 TEST(PathSpec, NamesWhatItDoesNotKnow) {
@@ -162,10 +171,10 @@ TEST(PathSpec, PlansWithTheTifRadiusAsOverrunUnlessGiven) {
 }
 
 TEST(PathSpec, FindsThePitchOfARaster) {
-  const auto options = std::get<RasterOptions>(parse_path_spec("raster:pitch=auto,ripple=0.02"));
+  const auto options = options_of<RasterOptions>(parse_path_spec("raster:pitch=auto,ripple=0.02"));
   EXPECT_TRUE(options.auto_pitch);
   EXPECT_EQ(options.ripple, 0.02);
-  EXPECT_FALSE(std::get<RasterOptions>(parse_path_spec("raster:pitch=1")).auto_pitch);
+  EXPECT_FALSE(options_of<RasterOptions>(parse_path_spec("raster:pitch=1")).auto_pitch);
   const HeightMap map = test::full_map(30, 41);
   const ToolPath path = plan_path(parse_path_spec("raster:pitch=auto,step=1,overrun=0"), {map, tool(6.0)});
   ASSERT_EQ(path.notes.size(), 1u);
@@ -234,6 +243,44 @@ TEST(PathSpec, RefusesAFileWhollyOutsideThePart) {
       << "x_mm,y_mm\n-60,2\n68,2\n";  // both points far away, but the move between them crosses the part
   EXPECT_EQ(plan_path(spec, {map, tool(2.0)}).kind, "file");
   std::filesystem::remove(file);
+}
+
+TEST(PathCatalogue, RowsAreWhole) {
+  std::set<std::string> names;
+  for (const PathRecord& record : path_catalogue()) {
+    EXPECT_TRUE(names.insert(record.name).second) << record.name;
+    EXPECT_FALSE(record.usage.empty() || record.about.empty()) << record.name;
+    EXPECT_TRUE(record.spacing.empty() || record.usage.starts_with(record.spacing + "=MM")) << record.name;
+  }
+}
+
+TEST(PathCatalogue, NoPlannerEscapesTheCheckAgainstTheTool) {
+  const HeightMap map = test::full_map(20, 21);
+  for (const PathRecord& record : path_catalogue()) {
+    if (record.spacing.empty()) continue;  // multi-pitch and file have tests of their own
+    const std::string text = record.name + ":" + record.spacing + "=6.1";
+    EXPECT_EQ(test::message_of([&] {
+                plan_path(parse_path_spec(text), {map, tool(3.0), 1.0});
+              }),
+              "path: " + record.spacing +
+                  " = 6.1 mm; required at most 6 mm, the removal function's diameter: farther apart, there are places "
+                  "that the tool never touches")
+        << text;
+  }
+}
+
+TEST(PathCatalogue, SpecsAreWrittenBackAsTheyWereRead) {
+  for (const char* text : {"raster:pitch=1,angle=30", "multi-pitch", "file:a=1,b:c.csv"}) {
+    const PathSpec spec = parse_path_spec(text);
+    EXPECT_EQ(to_string(spec), text);
+    EXPECT_EQ(parse_path_spec(to_string(spec)).record, spec.record);
+  }
+  EXPECT_EQ(parse_path_spec("random:pitch=1").record->name, "random");
+  EXPECT_EQ(parse_path_spec("random:pitch=1").get_if<RasterOptions>(), nullptr);
+  EXPECT_FALSE(PathSpec{}.given());
+  EXPECT_EQ(to_string(PathSpec{}), "");
+  const HeightMap map = test::full_map(2, 2);
+  EXPECT_THROW(plan_path(PathSpec{}, {map, tool(3.0)}), std::logic_error);
 }
 
 }  // namespace

@@ -1,0 +1,59 @@
+#include "runs/programs/program_formats.h"
+
+#include "runs/programs/gcode.h"
+#include "runs/programs/gcode_reader.h"
+
+namespace dwell {
+namespace {
+
+bool is_feed_table(std::string_view text) { return text.starts_with("# dwell") || text.starts_with("sequence,"); }
+
+Program read_table(std::string_view text, const std::string& file, std::optional<GcodeDialect>) {
+  Program program = program_of(parse_feed_table(text, file));
+  program.file = file;
+  return program;
+}
+
+std::string write_table(const FeedTable& table, const ProgramWriting&) { return feed_table_text(table); }
+
+bool is_gcode(std::string_view text) {
+  return !text.empty() && std::string_view("%(;GgMmNnFfSsXxYyZz").find(text.front()) != std::string_view::npos;
+}
+
+std::string write_gcode(const FeedTable& table, const ProgramWriting& writing) {
+  GcodeOptions options;
+  options.dialect = writing.dialect;
+  options.lift_height_mm = writing.lift_height_mm;
+  options.max_feed_mm_per_min = table.max_feed_mm_per_min;
+  options.header = writing.header;
+  return gcode_text(program_of(table), options);
+}
+
+}  // namespace
+
+const std::vector<ProgramFormat>& program_formats() {
+  static const std::vector<ProgramFormat> kFormats{
+      {"a feed table (first line \"# dwell ...\")", "feed.csv", "the dwell points in order, each with dwell and feed",
+       "feed_table", false, is_feed_table, read_table, write_table},
+      {"G-code (comments and words such as G1 X1.5)", "program.nc", "the same as G-code", "gcode", true, is_gcode,
+       read_gcode, write_gcode},
+  };
+  return kFormats;
+}
+
+const ProgramFormat* program_format_of(std::string_view text) {
+  const std::size_t begin = text.find_first_not_of(" \t\r\n");
+  if (begin == std::string_view::npos) return nullptr;
+  for (const ProgramFormat& format : program_formats()) {
+    if (format.recognise(text.substr(begin))) return &format;
+  }
+  return nullptr;
+}
+
+std::vector<WrittenProgram> written_programs(const FeedTable& table, const ProgramWriting& writing) {
+  std::vector<WrittenProgram> programs;
+  for (const ProgramFormat& format : program_formats()) programs.push_back({format.file, format.write(table, writing)});
+  return programs;
+}
+
+}  // namespace dwell

@@ -1,0 +1,25 @@
+#include "runs/reports/plan_files.h"
+
+#include "runs/programs/program_formats.h"
+
+namespace dwell {
+namespace {
+
+ResultFiles make_plan_files() {
+  ResultFiles files{"plan",
+                    "summary.json",
+                    {"residual.npy", "residual.npy.json", "dwell.npy", "search.csv"},
+                    {"before", "after", "dwell", "path", "path_detail"},
+                    nullptr};
+  for (const ProgramFormat& format : program_formats()) files.others.emplace_back(format.file);
+  return files;
+}
+
+}  // namespace
+
+const ResultFiles& plan_files() {
+  static const ResultFiles kFiles = make_plan_files();
+  return kFiles;
+}
+
+}  // namespace dwell
