@@ -14,24 +14,25 @@ using test::kNoData;
 using test::uneven_map;
 
 const Grid kGrid{2, 3, 0.3, 0.2, {-1.0, 4.0}};
-const double n = kNoData;
 
 TEST(MapDifference, SubtractsWhereBothHaveData) {
-  const HeightMap a(kGrid, {1, 2, n, 4, 5, 6}), b(kGrid, {10, n, 30, 1, 1, 8});
-  test::expect_same_map(difference(a, b), HeightMap(kGrid, {-9, n, n, 3, 4, -2}));
+  const HeightMap a(kGrid, {1, 2, kNoData, 4, 5, 6}), b(kGrid, {10, kNoData, 30, 1, 1, 8});
+  test::expect_same_map(difference(a, b), HeightMap(kGrid, {-9, kNoData, kNoData, 3, 4, -2}));
   expect_input_error(
       [&] {
-        difference(HeightMap(kGrid, {1, 2, 3, n, n, n}), HeightMap(kGrid, {n, n, n, 1, 2, 3}));
+        difference(HeightMap(kGrid, {1, 2, 3, kNoData, kNoData, kNoData}),
+                   HeightMap(kGrid, {kNoData, kNoData, kNoData, 1, 2, 3}));
       },
       {"no pixel"});
 }
 
 TEST(MapMean, CountsThoseThatHaveData) {
-  const std::vector<HeightMap> maps{HeightMap(kGrid, {1, 2, n, 4, n, n}), HeightMap(kGrid, {3, n, 7, 5, n, n}),
-                                    HeightMap(kGrid, {8, 6, n, 9, 2, n})};
-  test::expect_same_map(mean_map(maps, 3), HeightMap(kGrid, {4, n, n, 6, n, n}));
-  test::expect_same_map(mean_map(maps, 2), HeightMap(kGrid, {4, 4, n, 6, n, n}));
-  test::expect_same_map(mean_map(maps, 1), HeightMap(kGrid, {4, 4, 7, 6, 2, n}));
+  const std::vector<HeightMap> maps{HeightMap(kGrid, {1, 2, kNoData, 4, kNoData, kNoData}),
+                                    HeightMap(kGrid, {3, kNoData, 7, 5, kNoData, kNoData}),
+                                    HeightMap(kGrid, {8, 6, kNoData, 9, 2, kNoData})};
+  test::expect_same_map(mean_map(maps, 3), HeightMap(kGrid, {4, kNoData, kNoData, 6, kNoData, kNoData}));
+  test::expect_same_map(mean_map(maps, 2), HeightMap(kGrid, {4, 4, kNoData, 6, kNoData, kNoData}));
+  test::expect_same_map(mean_map(maps, 1), HeightMap(kGrid, {4, 4, 7, 6, 2, kNoData}));
   expect_input_error([&] { mean_map(maps, 4); }, {"least = 4 of 3", "1 to 3"});
   expect_input_error([&] { mean_map(maps, 0); }, {"least = 0"});
 }
