@@ -31,6 +31,11 @@ class SplineSpreading {
   void spread(const Eigen::Ref<const Vector>& t, Vector& nodes);
   /// t_j = w_j'nodes. Cost 16 multiply-adds a point.
   void gather(const Eigen::Ref<const Vector>& nodes, Eigen::Ref<Vector> t) const;
+  /// The same into a vector that is given its size.
+  void gather(const Eigen::Ref<const Vector>& nodes, Vector& t) const {
+    t.resize(strokes());
+    gather(nodes, Eigen::Ref<Vector>(t));
+  }
   /// Calls visit(node) for the 16 nodes on which the first point of stroke j stands.
   template <class Visit>
   void for_nodes(Index j, const Visit& visit) const {

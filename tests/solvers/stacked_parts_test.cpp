@@ -130,20 +130,21 @@ INSTANTIATE_TEST_SUITE_P(Catalogue, EverySolverOnTwoTools, testing::ValuesIn(opt
 });
 
 TEST(TwoTools, AreDecidedTogetherByAutoOnCoarsePixels) {
-  const ToolsProblem two({90, 90, 0.25, 0.25, {}}, {{7.0, 0.4, false}, {4.5, 0.35, true}});
+  const ToolsProblem two({50, 50, 0.25, 0.25, {}}, {{7.0, 0.3, false}, {4.5, 0.3, true}});
   // Dense enough for smooth dwell on coarse lattices, of both tools.
   ASSERT_TRUE(StackedSmoothDwell(two.problem, {3, 3}).has_points_for_each(3));
   Vector by_auto, by_cg;
   SolverOptions options = precise(SolverKind::Auto);
-  options.gradient_tolerance = 1e-5;
+  options.gradient_tolerance = 1e-4;
   const SolverSummary summary = make_solver(options)->solve(two.problem, by_auto);
   EXPECT_EQ(summary.status, SolverStatus::Converged) << summary.message;
   EXPECT_GT(summary.coarse_pairs, 0.0);
-  EXPECT_TRUE(certify(two.problem, by_auto).passes(1.01e-5));
+  EXPECT_TRUE(certify(two.problem, by_auto).passes(1.01e-4));
   options.kind = SolverKind::ProjectedCg;
+  options.objective_tolerance = 1e-5;
   ASSERT_TRUE(make_solver(options)->solve(two.problem, by_cg).converged());
   const double best = certify(two.problem, by_cg).objective;
-  EXPECT_NEAR(certify(two.problem, by_auto).objective, best, 1e-3 * best);
+  EXPECT_NEAR(certify(two.problem, by_auto).objective, best, 5e-3 * best);
   // By the default rules, within what they promise.
   Vector quick;
   const SolverSummary settled = make_solver(SolverOptions{})->solve(two.problem, quick);
