@@ -10,8 +10,6 @@
 #include <map>
 #include <stdexcept>
 
-#include "runs/drawing/sheet.h"
-
 namespace dwell {
 namespace {
 

@@ -25,7 +25,7 @@ HeightMap rounded(HeightMap map) {
 }  // namespace
 
 const ResultFiles& example_files() {
-  static const ResultFiles kFiles{"example", "MANIFEST", {"mirror.csv", "tif.csv", "demo.toml"}, nullptr};
+  static const ResultFiles kFiles{"example", "MANIFEST", {"mirror.csv", "tif.csv", "demo.toml"}, {}, nullptr};
   return kFiles;
 }
 
@@ -57,7 +57,7 @@ Example write_example(const std::filesystem::path& folder, const ExampleOptions&
 }
 
 std::string example_json(const Example& example, std::uint64_t seed) {
-  const FormTerms terms = parse_form_terms(JobOptions{}.remove);
+  const FormTerms terms = JobOptions{}.remove;
   const RemovalFunction tif = measured_removal(example.tif, {TifCentre::Kind::Centroid, {}});
   nlohmann::ordered_json json = json_of_command("example");
   json["map"] = map_block({"mirror.csv", example.mirror.grid, example.mirror.history, example.mirror.valid_pixels(),

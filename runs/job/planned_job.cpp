@@ -28,7 +28,7 @@ PlannedJob plan_job(Job job, LaidPath laid, const Progress& progress) {
   if (auto file = path_input(planned.job.options)) planned.job.inputs.push_back(std::move(*file));
   planned.laid = std::move(laid);
   planned.dwell = find_dwell(planned.part(), planned.laid, options, progress);
-  planned.program = make_machine_program(planned.laid, planned.dwell, options.machine);
+  planned.program = make_machine_program(planned.laid, planned.dwell, options.machine, progress);
   return planned;
 }
 

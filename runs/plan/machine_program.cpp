@@ -4,14 +4,15 @@
 
 namespace dwell {
 
-MachineProgram make_machine_program(const LaidPath& laid, const DwellPlan& dwell, const MachineLimits& machine) {
+MachineProgram make_machine_program(const LaidPath& laid, const DwellPlan& dwell, const MachineLimits& machine,
+                                    const Progress& progress) {
   MachineProgram program;
   const FeedLimits limits = machine.feed_limits();
   program.feed = feed_schedule(laid.strokes, dwell.seconds, limits);
   // Halts have no length; the machine moves between them at maximum feed.
   if (laid.motion == Motion::Stop) program.feed.min_speed = program.feed.max_speed = limits.max_feed;
-  program.table =
-      feed_table_of(laid.path, {dwell.seconds.begin(), dwell.seconds.end()}, laid.motion, machine.max_feed_mm_per_min);
+  program.table = feed_table_of(laid.path, {dwell.seconds.begin(), dwell.seconds.end()}, laid.motion,
+                                machine.max_feed_mm_per_min, progress);
   if (program.feed.segments_infeasible > 0) {
     program.limits.push_back(fmt::format("{} of {} segments run faster than `max feed` {} mm/min allows",
                                          program.feed.segments_infeasible, laid.path.size(),

@@ -20,6 +20,7 @@ struct MachineProgram {
 };
 
 /// Turns dwell times into a program. Throws InputError as feed_table_of. Cost O(points).
-MachineProgram make_machine_program(const LaidPath& laid, const DwellPlan& dwell, const MachineLimits& machine);
+MachineProgram make_machine_program(const LaidPath& laid, const DwellPlan& dwell, const MachineLimits& machine,
+                                    const Progress& progress = {});
 
 }  // namespace dwell

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "core/base/errors.h"
+#include "core/base/poll.h"
 #include "core/base/units.h"
 #include "paths/feed/plan_program.h"
 #include "runs/programs/number_text.h"
@@ -27,7 +28,8 @@ double total(const std::vector<double>& values) { return std::accumulate(values.
 }  // namespace
 
 FeedTable feed_table_of(const ToolPath& path, const std::vector<double>& dwell_s, Motion motion,
-                        double max_feed_mm_per_min) {
+                        double max_feed_mm_per_min, const Progress& progress) {
+  Poll poll(progress);
   const double max_feed = units::mm_per_s(max_feed_mm_per_min);
   program_of(path, dwell_s, motion, max_feed);  // throws for what cannot be run, before anything is rounded
   FeedTable table;
@@ -35,9 +37,13 @@ FeedTable feed_table_of(const ToolPath& path, const std::vector<double>& dwell_s
   table.path.lifted[0] = 1;
   table.motion = motion;
   table.max_feed_mm_per_min = max_feed_mm_per_min;
-  for (Point& p : table.path.points) p = {number_of(coordinate_text(p.x)), number_of(coordinate_text(p.y))};
+  for (Point& p : table.path.points) {
+    poll.step();
+    p = {number_of(coordinate_text(p.x)), number_of(coordinate_text(p.y))};
+  }
   const std::vector<Stroke> strokes = strokes_of(table.path, motion);
   for (std::size_t j = 0; j < strokes.size(); ++j) {
+    poll.step();
     const double length = strokes[j].length();
     double dwell = number_of(digits_nearest(dwell_s[j]));
     if (length > max_feed * dwell) dwell = number_of(digits_not_below(length / max_feed));
@@ -50,7 +56,7 @@ FeedTable feed_table_of(const ToolPath& path, const std::vector<double>& dwell_s
   return table;
 }
 
-std::string feed_table_text(const FeedTable& table) {
+std::string feed_table_text(const FeedTable& table, const Progress& progress) {
   const std::size_t n = table.path.size();
   if (table.path.lifted.size() != n || table.dwell_s.size() != n || table.feed_mm_per_min.size() != n) {
     throw std::logic_error("feed table: columns differ in size");
@@ -68,7 +74,9 @@ std::string feed_table_text(const FeedTable& table) {
     fmt::format_to(out, "# input: {} sha256={}\n", one_line(name), one_line(hash));
   }
   fmt::format_to(out, "sequence,x_mm,y_mm,dwell_s,feed_mm_per_min,lift\n");
+  Poll poll(progress);
   for (std::size_t j = 0; j < n; ++j) {
+    poll.step();
     const Point p = table.path.points[j];
     fmt::format_to(out, "{},{},{},{},{},{}\n", j + 1, coordinate_text(p.x), coordinate_text(p.y),
                    digits_nearest(table.dwell_s[j]), digits_not_above(table.feed_mm_per_min[j]),

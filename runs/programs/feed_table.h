@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/progress.h"
 #include "core/motion/motion.h"
 #include "core/motion/program.h"
 #include "core/motion/tool_path.h"
@@ -28,19 +29,19 @@ struct FeedTable {
 /// computed from these and rounded down. lifted[0] is set. `version` and `inputs` are left to the caller. Throws
 /// InputError as program_of(path, dwell_s, motion, max_feed) does.
 FeedTable feed_table_of(const ToolPath& path, const std::vector<double>& dwell_s, Motion motion,
-                        double max_feed_mm_per_min);
+                        double max_feed_mm_per_min, const Progress& progress = {});
 
 /// The text of feed.csv. A control character in a header field is written as '?'. Throws std::logic_error if the
 /// columns differ in size or a number is not finite.
-std::string feed_table_text(const FeedTable& table);
+std::string feed_table_text(const FeedTable& table, const Progress& progress = {});
 
 /// Reads feed.csv. Throws InputError naming file, line, value and what is accepted: a missing header line, another
 /// number of rows or another total than the header says, a gap in the sequence, a number that is not finite, a negative
 /// dwell, a feed above the maximum or one that is not stroke length / dwell (within 1e-6 relative and 4e-6 mm).
-FeedTable read_feed_table(const std::filesystem::path& file);
+FeedTable read_feed_table(const std::filesystem::path& file, const Progress& progress = {});
 
 /// The same from the text of a table; `file` is the name for messages.
-FeedTable parse_feed_table(std::string_view text, const std::string& file);
+FeedTable parse_feed_table(std::string_view text, const std::string& file, const Progress& progress = {});
 
 /// The steps of a table, as program_of(path, dwell_s, motion, max_feed).
 Program program_of(const FeedTable& table);

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "core/base/errors.h"
+#include "core/base/poll.h"
 #include "core/base/units.h"
 #include "core/base/whole_file.h"
 #include "paths/feed/plan_program.h"
@@ -28,12 +29,14 @@ std::optional<Number> parse(std::string_view text) {
 // Reads the lines of one feed table in order: header lines, column line, rows.
 class FeedTableReader {
  public:
-  FeedTableReader(std::string file, std::string_view text) : file_(std::move(file)), text_(text) {}
+  FeedTableReader(std::string file, std::string_view text, const Progress& progress)
+      : file_(std::move(file)), text_(text), poll_(progress) {}
 
   FeedTable read() {
     bool in_rows = false;
     while (!text_.empty()) {
       const std::string_view line = next_line();
+      poll_.step();
       if (line.empty()) continue;
       if (in_rows) {
         read_row(line);
@@ -178,6 +181,7 @@ class FeedTableReader {
     if (table_.path.kind.empty()) table_.path.kind = "file";
     const std::vector<Stroke> strokes = strokes_of(table_.path, table_.motion);
     for (std::size_t j = 0; j < n; ++j) {
+      poll_.step();
       line_number_ = row_lines_[j];
       check_feed(strokes[j].length(), table_.dwell_s[j], table_.feed_mm_per_min[j]);
     }
@@ -204,6 +208,7 @@ class FeedTableReader {
 
   std::string file_;
   std::string_view text_;
+  Poll poll_;
   std::size_t line_number_ = 0;
   FeedTable table_;
   bool has_motion_ = false;
@@ -215,12 +220,12 @@ class FeedTableReader {
 
 }  // namespace
 
-FeedTable parse_feed_table(std::string_view text, const std::string& file) {
-  return FeedTableReader(file, text).read();
+FeedTable parse_feed_table(std::string_view text, const std::string& file, const Progress& progress) {
+  return FeedTableReader(file, text, progress).read();
 }
 
-FeedTable read_feed_table(const std::filesystem::path& file) {
-  return parse_feed_table(read_whole_file(file), file.string());
+FeedTable read_feed_table(const std::filesystem::path& file, const Progress& progress) {
+  return parse_feed_table(read_whole_file(file), file.string(), progress);
 }
 
 }  // namespace dwell

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "core/base/errors.h"
+#include "core/base/poll.h"
 #include "core/base/units.h"
 #include "runs/programs/number_text.h"
 
@@ -44,9 +45,11 @@ class GcodeWriter {
     lift_height_ = coordinate_text(options.lift_height_mm);
   }
 
-  std::string write(const Program& program) {
+  std::string write(const Program& program, const Progress& progress) {
     write_header();
+    Poll poll(progress);
     for (std::size_t i = 0; i < program.steps.size(); ++i) {
+      poll.step();
       const ProgramStep& step = program.steps[i];
       if (i > 0 && !(distance(program.steps[i - 1].finish, step.start) <= 1e-9)) {
         throw std::logic_error(fmt::format("program step {} does not start where step {} ends", i + 1, i));
@@ -140,8 +143,8 @@ class GcodeWriter {
 
 }  // namespace
 
-std::string gcode_text(const Program& program, const GcodeOptions& options) {
-  return GcodeWriter(options).write(program);
+std::string gcode_text(const Program& program, const GcodeOptions& options, const Progress& progress) {
+  return GcodeWriter(options).write(program, progress);
 }
 
 }  // namespace dwell

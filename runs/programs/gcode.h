@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/progress.h"
 #include "core/motion/program.h"
 #include "runs/programs/gcode_dialect.h"
 
@@ -21,6 +22,6 @@ struct GcodeOptions {
 /// halt. Lifted moves are rapids, whose time the program does not say. Throws InputError for an option out of range;
 /// std::logic_error if the program is no chain (a removing step that does not start within 1e-9 mm of where the one
 /// before it ended), a move takes no time or runs above maximum feed, or a lifted step has a duration. Cost O(steps).
-std::string gcode_text(const Program& program, const GcodeOptions& options);
+std::string gcode_text(const Program& program, const GcodeOptions& options, const Progress& progress = {});
 
 }  // namespace dwell

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/base/errors.h"
+#include "core/base/poll.h"
 #include "core/base/units.h"
 #include "runs/programs/gcode_words.h"
 
@@ -33,9 +34,11 @@ class GcodeInterpreter {
     program_.file = file_;
   }
 
-  Program run(std::string_view text) {
+  Program run(std::string_view text, const Progress& progress) {
+    Poll poll(progress);
     bool ended = false;
     while (!ended && !text.empty()) {
+      poll.step();
       const std::size_t newline = text.find('\n');
       ++line_number_;
       ended = run_line(text.substr(0, newline));
@@ -272,8 +275,9 @@ class GcodeInterpreter {
 
 }  // namespace
 
-Program read_gcode(std::string_view text, const std::string& file, std::optional<GcodeDialect> dialect) {
-  return GcodeInterpreter(file, dialect).run(text);
+Program read_gcode(std::string_view text, const std::string& file, std::optional<GcodeDialect> dialect,
+                   const Progress& progress) {
+  return GcodeInterpreter(file, dialect).run(text, progress);
 }
 
 }  // namespace dwell

@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/base/progress.h"
 #include "core/motion/program.h"
 #include "runs/programs/gcode_dialect.h"
 
@@ -17,6 +18,7 @@ namespace dwell {
 /// 0; G93 without its dialect, or a move without its own F; a dialect that contradicts the header; a rapid over the
 /// part at work or at an unknown height; work below Z = 0 or from an unknown position; a program without M2 or M30, or
 /// without steps. `file` is the name for messages.
-Program read_gcode(std::string_view text, const std::string& file, std::optional<GcodeDialect> dialect);
+Program read_gcode(std::string_view text, const std::string& file, std::optional<GcodeDialect> dialect,
+                   const Progress& progress = {});
 
 }  // namespace dwell

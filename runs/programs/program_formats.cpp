@@ -8,25 +8,28 @@ namespace {
 
 bool is_feed_table(std::string_view text) { return text.starts_with("# dwell") || text.starts_with("sequence,"); }
 
-Program read_table(std::string_view text, const std::string& file, std::optional<GcodeDialect>) {
-  Program program = program_of(parse_feed_table(text, file));
+Program read_table(std::string_view text, const std::string& file, std::optional<GcodeDialect>,
+                   const Progress& progress) {
+  Program program = program_of(parse_feed_table(text, file, progress));
   program.file = file;
   return program;
 }
 
-std::string write_table(const FeedTable& table, const ProgramWriting&) { return feed_table_text(table); }
+std::string write_table(const FeedTable& table, const ProgramWriting&, const Progress& progress) {
+  return feed_table_text(table, progress);
+}
 
 bool is_gcode(std::string_view text) {
   return !text.empty() && std::string_view("%(;GgMmNnFfSsXxYyZz").find(text.front()) != std::string_view::npos;
 }
 
-std::string write_gcode(const FeedTable& table, const ProgramWriting& writing) {
+std::string write_gcode(const FeedTable& table, const ProgramWriting& writing, const Progress& progress) {
   GcodeOptions options;
   options.dialect = writing.dialect;
   options.lift_height_mm = writing.lift_height_mm;
   options.max_feed_mm_per_min = table.max_feed_mm_per_min;
   options.header = writing.header;
-  return gcode_text(program_of(table), options);
+  return gcode_text(program_of(table), options, progress);
 }
 
 }  // namespace
@@ -50,9 +53,13 @@ const ProgramFormat* program_format_of(std::string_view text) {
   return nullptr;
 }
 
-std::vector<WrittenProgram> written_programs(const FeedTable& table, const ProgramWriting& writing) {
+std::vector<WrittenProgram> written_programs(const FeedTable& table, const ProgramWriting& writing,
+                                             const Progress& progress) {
   std::vector<WrittenProgram> programs;
-  for (const ProgramFormat& format : program_formats()) programs.push_back({format.file, format.write(table, writing)});
+  for (const ProgramFormat& format : program_formats()) {
+    progress.step("write: " + format.file);
+    programs.push_back({format.file, format.write(table, writing, progress)});
+  }
   return programs;
 }
 

@@ -30,9 +30,10 @@ struct ProgramFormat {
   bool (*recognise)(std::string_view text);
   /// Reads the text of a file; `file` is the name for messages. Throws InputError naming file, line and what is
   /// accepted.
-  Program (*read)(std::string_view text, const std::string& file, std::optional<GcodeDialect> dialect);
+  Program (*read)(std::string_view text, const std::string& file, std::optional<GcodeDialect> dialect,
+                  const Progress& progress);
   /// The bytes of the file. Throws InputError for an option out of range.
-  std::string (*write)(const FeedTable& table, const ProgramWriting& writing);
+  std::string (*write)(const FeedTable& table, const ProgramWriting& writing, const Progress& progress);
 };
 
 /// Every format, in the order in which a file is tried.
@@ -48,6 +49,7 @@ struct WrittenProgram {
 };
 
 /// The plan's program in every format, in the order of the table.
-std::vector<WrittenProgram> written_programs(const FeedTable& table, const ProgramWriting& writing);
+std::vector<WrittenProgram> written_programs(const FeedTable& table, const ProgramWriting& writing,
+                                             const Progress& progress = {});
 
 }  // namespace dwell

@@ -19,7 +19,7 @@ std::string accepted() {
 
 }  // namespace
 
-Program read_program(const std::filesystem::path& file, std::optional<GcodeDialect> dialect) {
+Program read_program(const std::filesystem::path& file, std::optional<GcodeDialect> dialect, const Progress& progress) {
   const std::string text = read_whole_file(file);
   if (text.find_first_not_of(" \t\r\n") == std::string::npos) {
     throw InputError(fmt::format("{}: is empty; {}", file.string(), accepted()));
@@ -33,7 +33,7 @@ Program read_program(const std::filesystem::path& file, std::optional<GcodeDiale
     throw InputError(fmt::format("{}: is {}, for which a G-code dialect ({}) has no meaning", file.string(), kind,
                                  to_string(*dialect)));
   }
-  return format->read(text, file.string(), dialect);
+  return format->read(text, file.string(), dialect, progress);
 }
 
 }  // namespace dwell

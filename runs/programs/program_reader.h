@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "core/base/progress.h"
 #include "core/motion/program.h"
 #include "runs/programs/gcode_dialect.h"
 
@@ -12,6 +13,7 @@ namespace dwell {
 /// the column line; runs/programs/feed_table.h) or else G-code (runs/programs/gcode_reader.h). `dialect` is for G-code
 /// with G93 whose header does not say what F means. Throws InputError as those readers do, for a dialect given with a
 /// feed table, and for a file that is empty or begins like neither.
-Program read_program(const std::filesystem::path& file, std::optional<GcodeDialect> dialect = std::nullopt);
+Program read_program(const std::filesystem::path& file, std::optional<GcodeDialect> dialect = std::nullopt,
+                     const Progress& progress = {});
 
 }  // namespace dwell

@@ -19,7 +19,7 @@
 namespace dwell {
 namespace {
 
-void write_program(const PlannedJob& plan, const OutputFolder& folder) {
+void write_program(const PlannedJob& plan, const OutputFolder& folder, const Progress& progress) {
   FeedTable table = plan.program.table;
   table.version = version();
   std::vector<std::string> header = {fmt::format("dwell {}", version())};
@@ -28,7 +28,8 @@ void write_program(const PlannedJob& plan, const OutputFolder& folder) {
     header.push_back(fmt::format("input: {} {} sha256={}", input.role, input.file, input.sha256));
   }
   const JobOptions& options = plan.job.options;
-  for (const WrittenProgram& program : written_programs(table, {options.gcode, options.lift_height_mm, header})) {
+  for (const WrittenProgram& program :
+       written_programs(table, {options.gcode, options.lift_height_mm, header}, progress)) {
     folder.write(program.file, program.bytes);
   }
 }
@@ -90,11 +91,11 @@ void compare_with_table(const PlannedJob& plan, const Program& program, const Pr
 
 WrittenPlan write_plan(const PlannedJob& plan, const OutputFolder& folder, const Progress& progress) {
   progress.report("write: feed table and program");
-  write_program(plan, folder);
+  write_program(plan, folder, progress);
   progress.check();
 
   progress.report("simulate: the program as read back from disk");
-  const Program program = read_program(folder.path("program.nc"));
+  const Program program = read_program(folder.path("program.nc"), std::nullopt, progress);
   WrittenPlan written;
   written.limits = plan.limits();
   written.residual = without_form(
@@ -112,7 +113,7 @@ WrittenPlan write_plan(const PlannedJob& plan, const OutputFolder& folder, const
     written.limits.push_back(fmt::format("the program leaves more than there was: {:.4g} nm RMS, before {:.4g} nm",
                                          written.simulated.rms, plan.part().before.rms));
   }
-  compare_with_table(plan, program, program_of(read_feed_table(folder.path("feed.csv"))), written);
+  compare_with_table(plan, program, program_of(read_feed_table(folder.path("feed.csv"), progress)), written);
   progress.check();
 
   progress.report("write: pictures and arrays");

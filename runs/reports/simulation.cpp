@@ -34,7 +34,7 @@ Simulation simulate_file(const std::filesystem::path& program, std::optional<Gco
                          const JobOptions& options, const Progress& progress, bool exact) {
   Simulation s;
   progress.report("read: program, map and removal function");
-  s.program = read_program(program, dialect);
+  s.program = read_program(program, dialect, progress);
   s.inputs.push_back({"program", program.string(), sha256_of_file(program)});
   const Job job = load_job(options, progress);
   const Part& part = *job.part;
