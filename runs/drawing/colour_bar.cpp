@@ -31,7 +31,7 @@ bool has_room_beside_arrows(const ColourBar& bar, double share) {
 void draw_upright(Sheet& sheet, const ColourBar& bar, ColourMap colours, Point corner) {
   const double top = corner.y + (bar.above.empty() ? 0.0 : kArrowLength);
   const double bottom = corner.y + bar.length - (bar.below.empty() ? 0.0 : kArrowLength);
-  const Box box{corner.x, top, kThickness, bottom - top};
+  const SheetBox box{corner.x, top, kThickness, bottom - top};
   const double label_left = box.right() + kBarTick + kBarGap, down = kMiddleToBaseline * kBarLabel.size;
   sheet.image(box, colours_of(colours, bar.direction));
   sheet.frame(box, 1.0, kInk);
@@ -58,7 +58,7 @@ void draw_upright(Sheet& sheet, const ColourBar& bar, ColourMap colours, Point c
 void draw_lying(Sheet& sheet, const ColourBar& bar, ColourMap colours, Point corner) {
   const double left = corner.x + (bar.below.empty() ? 0.0 : kArrowLength);
   const double right = corner.x + bar.length - (bar.above.empty() ? 0.0 : kArrowLength);
-  const Box box{left, corner.y, right - left, kThickness};
+  const SheetBox box{left, corner.y, right - left, kThickness};
   const double baseline = box.bottom() + kBarTick + kBarGap + 0.75 * kBarLabel.size, middle = box.centre().y;
   sheet.image(box, colours_of(colours, bar.direction));
   sheet.frame(box, 1.0, kInk);

@@ -46,7 +46,7 @@ AxisRange range_of(const ChartPanel& panel, double ChartPoint::*coordinate, Axis
 
 /// The axes of a panel on the sheet.
 struct Axes {
-  Box box;
+  SheetBox box;
   AxisRange x, y;
   AxisTicks x_ticks, y_ticks;
   double widest_y = 0.0;  // label
@@ -104,7 +104,7 @@ void label_bands(Sheet& sheet, const Axes& axes, const std::vector<ChartBand>& b
 }
 
 void draw_frame(Sheet& sheet, const Axes& axes, const ChartPanel& panel) {
-  const Box& box = axes.box;
+  const SheetBox& box = axes.box;
   const TextStyle middle = anchored(kText, TextStyle::Anchor::Middle),
                   right = anchored(kText, TextStyle::Anchor::Right);
   for (std::size_t i = 0; i < axes.x_ticks.values.size(); ++i) {

@@ -18,7 +18,7 @@ const TextStyle kTitle{15.0, true};
 
 /// A panel on its own: everything from its own top left corner.
 struct PanelLayout {
-  Box field;
+  SheetBox field;
   std::vector<std::string> title;
   AxisTicks x, y;
   double widest_y = 0.0;  // label
@@ -66,7 +66,7 @@ void draw_title(Sheet& sheet, const std::vector<std::string>& lines, double left
   }
 }
 
-void draw_axes(Sheet& sheet, const MapPanel& panel, const PanelLayout& l, const Box& field) {
+void draw_axes(Sheet& sheet, const MapPanel& panel, const PanelLayout& l, const SheetBox& field) {
   sheet.frame(field, kFrameWidth, kInk);
   TextStyle centred = kLabel, right = kLabel, upwards = kLabel;
   centred.anchor = upwards.anchor = TextStyle::Anchor::Middle;
@@ -102,15 +102,15 @@ Raster raster_of(const MapPanel& panel) {
   return raster;
 }
 
-void draw_no_data(Sheet& sheet, const Box& field) {
+void draw_no_data(Sheet& sheet, const SheetBox& field) {
   TextStyle style{15.0, false, TextStyle::Anchor::Middle};
   while (style.size > 6.0 && Sheet::text_width("no data", style) > field.width) style.size -= 1.0;
   sheet.text({field.centre().x, field.centre().y + kMiddleToBaseline * style.size}, "no data", style);
 }
 
 /// Returns the place of the field.
-Box draw_panel(Sheet& sheet, const MapPanel& panel, const PanelLayout& l, double left, double top) {
-  const Box field{left + l.field.left, top + l.field.top, l.field.width, l.field.height};
+SheetBox draw_panel(Sheet& sheet, const MapPanel& panel, const PanelLayout& l, double left, double top) {
+  const SheetBox field{left + l.field.left, top + l.field.top, l.field.width, l.field.height};
   draw_title(sheet, l.title, left, top, kPanelTitle);
   sheet.image(field, raster_of(panel));
   if (panel.over) {

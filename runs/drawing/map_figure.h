@@ -18,12 +18,12 @@ struct MapPanel {
   std::string title;  // above the field; empty: none
   std::string unit;   // of the values
   /// Draws on the field, whose place on the sheet it is told; what lies outside of that does not show.
-  std::function<void(Sheet&, const Box&)> over{};
+  std::function<void(Sheet&, const SheetBox&)> over{};
 };
 
 struct MapFigure {
   std::string bytes;
-  std::vector<Box> places;  // of the fields [units], a panel each
+  std::vector<SheetBox> places;  // of the fields [units], a panel each
 };
 
 /// Fields in colour, framed, with axes in mm (+x right, +y up), titles, and colour bars with their unit: at the right,

@@ -106,7 +106,7 @@ VisiblePath visible_path(const ToolPath& path, const Window& window, const Progr
 /// Draws lines of the part on the field that shows a window of it.
 class Pen {
  public:
-  Pen(Sheet& sheet, const Box& place, const Window& window) : sheet_(sheet), place_(place), window_(window) {}
+  Pen(Sheet& sheet, const SheetBox& place, const Window& window) : sheet_(sheet), place_(place), window_(window) {}
 
   void move_to(Point p) {
     finish();
@@ -143,7 +143,7 @@ class Pen {
   }
 
   Sheet& sheet_;
-  const Box& place_;
+  const SheetBox& place_;
   const Window& window_;
   std::vector<Point> line_;
 };
@@ -168,7 +168,7 @@ std::string drawn(const HeightMap& map, const ToolPath& path, const Window& wind
   const VisiblePath visible = visible_path(path, window, progress);
   MapPanel panel{field_in(map, window, progress), ColourMap::Diverging, colour_limits(map.values, ColourMap::Diverging),
                  "", "nm"};
-  panel.over = [&](Sheet& sheet, const Box& place) {
+  panel.over = [&](Sheet& sheet, const SheetBox& place) {
     Pen pen(sheet, place, window);
     draw_path(pen, visible, progress);
     pen.square(path.points.front(), kStart);

@@ -103,13 +103,13 @@ Sheet::Sheet(FigureFormat format, double width, double height) {
 
 Sheet::~Sheet() = default;
 
-void Sheet::fill(const Box& box, Colour colour) {
+void Sheet::fill(const SheetBox& box, Colour colour) {
   set_colour(parts_->pen, colour);
   cairo_rectangle(parts_->pen, box.left, box.top, box.width, box.height);
   cairo_fill(parts_->pen);
 }
 
-void Sheet::frame(const Box& box, double width, Colour colour) {
+void Sheet::frame(const SheetBox& box, double width, Colour colour) {
   set_line(parts_->pen, {colour, width, false});
   cairo_rectangle(parts_->pen, box.left - 0.5 * width, box.top - 0.5 * width, box.width + width, box.height + width);
   cairo_stroke(parts_->pen);
@@ -159,7 +159,7 @@ void Sheet::text(Point at, std::string_view text, const TextStyle& style) {
   parts_->texts.push_back({start, style.size, width, style.bold, style.upwards, clean});
 }
 
-void Sheet::image(const Box& box, const Raster& raster) {
+void Sheet::image(const SheetBox& box, const Raster& raster) {
   const int stride = cairo_format_stride_for_width(CAIRO_FORMAT_RGB24, raster.cols);
   cairo_surface_t* surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, raster.cols, raster.rows);
   if (unsigned char* rows = cairo_image_surface_get_data(surface)) {
@@ -182,7 +182,7 @@ void Sheet::image(const Box& box, const Raster& raster) {
   cairo_surface_destroy(surface);
 }
 
-void Sheet::clip(const Box& box) {
+void Sheet::clip(const SheetBox& box) {
   cairo_save(parts_->pen);
   cairo_rectangle(parts_->pen, box.left, box.top, box.width, box.height);
   cairo_clip(parts_->pen);

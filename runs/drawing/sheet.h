@@ -13,7 +13,7 @@
 namespace dwell {
 
 /// A rectangle on a sheet [units].
-struct Box {
+struct SheetBox {
   double left = 0.0;
   double top = 0.0;
   double width = 0.0;
@@ -58,9 +58,9 @@ class Sheet {
   Sheet(const Sheet&) = delete;
   Sheet& operator=(const Sheet&) = delete;
 
-  void fill(const Box& box, Colour colour);
+  void fill(const SheetBox& box, Colour colour);
   /// A line of the given width just outside the box.
-  void frame(const Box& box, double width, Colour colour);
+  void frame(const SheetBox& box, double width, Colour colour);
   void line(Point from, Point to, const LineStyle& style);
   /// The points joined in their order.
   void polyline(const std::vector<Point>& points, const LineStyle& style);
@@ -69,10 +69,10 @@ class Sheet {
   /// The point is where the baseline begins, has its middle, or ends.
   void text(Point at, std::string_view text, const TextStyle& style);
   /// The raster fills the box; in PNG a box of half as many units as there are pixels shows each pixel as it is.
-  void image(const Box& box, const Raster& raster);
+  void image(const SheetBox& box, const Raster& raster);
 
   /// Until unclip, what is drawn outside of the box does not show.
-  void clip(const Box& box);
+  void clip(const SheetBox& box);
   void unclip();
 
   /// The file. Nothing can be drawn afterwards. Throws std::runtime_error if Cairo could not draw.

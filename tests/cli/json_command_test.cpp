@@ -21,12 +21,8 @@ using nlohmann::json;
 using test::expect_has;
 using test::ProgramResult;
 using test::SmallInputs;
-using Words = std::vector<std::string>;
-
-Words with(Words words, const Words& more) {
-  words.insert(words.end(), more.begin(), more.end());
-  return words;
-}
+using test::with;
+using test::Words;
 
 const Words kMap{"map", "map.csv", "--map-pixel", "0.5"};
 const Words kSimulate{"simulate", "--program", "plan/program.nc", "--map",       "map.csv", "--map-pixel",

@@ -10,7 +10,8 @@ namespace {
 using test::expect_has;
 using test::ProgramResult;
 using test::SmallInputs;
-using Words = std::vector<std::string>;
+using test::with;
+using test::Words;
 
 /// Refused with all parts in the message, nothing printed, no file made and none of the inputs touched.
 void expect_refused(const SmallInputs& inputs, const Words& arguments, const Words& parts) {
@@ -23,11 +24,6 @@ void expect_refused(const SmallInputs& inputs, const Words& arguments, const Wor
   EXPECT_EQ(inputs.folder.entries(), before) << arguments.back();
   EXPECT_EQ(read_whole_file(inputs / "map.csv"), map) << arguments.back();
   EXPECT_EQ(read_whole_file(inputs / "tif.csv"), tif) << arguments.back();
-}
-
-Words with(Words words, const Words& more) {
-  words.insert(words.end(), more.begin(), more.end());
-  return words;
 }
 
 /// A user who has named files so that a picture, a text and a map could all be mistaken for an input.

@@ -13,7 +13,7 @@ namespace dwell::test {
 class TemporaryFolder {
  public:
   TemporaryFolder() {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
+    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
     const std::string name = std::string(info->test_suite_name()) + "-" + info->name() + "-" + std::to_string(getpid());
     path_ = std::filesystem::temp_directory_path() / ("dwell-" + name);
     std::filesystem::create_directories(path_);

@@ -109,7 +109,7 @@ TEST(ColourLimits, OfManyValuesAreNearlyThoseOfAllAndTheExtremesExact) {
 
 TEST(ColourLimits, ChosenForOneMapHoldForAnother) {
   const ColourLimits before = colour_limits({-100.0, 50.0}, ColourMap::Diverging);
-  const ColourLimits after = same_limits(before, {-1.0, 200.0, kNan});
+  const ColourLimits after = same_limits(before, {-1.0, 200.0, kNoNumber});
   EXPECT_EQ(after.lower, -100.0);
   EXPECT_EQ(after.upper, 100.0);
   EXPECT_EQ(after.smallest, -1.0);

@@ -29,7 +29,7 @@ struct PixelPlace {
   int left = 0, top = 0, width = 0, height = 0;
 };
 
-PixelPlace pixels_of(const Box& box) {
+PixelPlace pixels_of(const SheetBox& box) {
   const auto whole = [](double units) { return static_cast<int>(std::lround(kPixelsPerUnit * units)); };
   return {whole(box.left), whole(box.top), whole(box.width), whole(box.height)};
 }

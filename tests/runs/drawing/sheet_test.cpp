@@ -11,7 +11,7 @@
 namespace dwell {
 namespace {
 
-constexpr Colour kRed{200, 10, 20};
+constexpr Colour kBrick{200, 10, 20};
 
 int count(const testing::DecodedPng& png, Colour colour) {
   int found = 0;
@@ -23,13 +23,13 @@ int count(const testing::DecodedPng& png, Colour colour) {
 
 TEST(Sheet, HasTwoPixelsAUnitAndDrawsWhereItIsTold) {
   Sheet sheet(FigureFormat::Png, 30.0, 20.0);
-  sheet.fill({10.0, 5.0, 4.0, 3.0}, kRed);
+  sheet.fill({10.0, 5.0, 4.0, 3.0}, kBrick);
   const testing::DecodedPng png = testing::decode_png(sheet.bytes());
   ASSERT_EQ(png.width, 60);
   ASSERT_EQ(png.height, 40);
-  EXPECT_EQ(count(png, kRed), 8 * 6);
-  EXPECT_EQ(png.at(20, 10), kRed);
-  EXPECT_EQ(png.at(27, 15), kRed);
+  EXPECT_EQ(count(png, kBrick), 8 * 6);
+  EXPECT_EQ(png.at(20, 10), kBrick);
+  EXPECT_EQ(png.at(27, 15), kBrick);
   EXPECT_EQ(png.at(19, 10), kPaper);
   EXPECT_EQ(png.at(28, 15), kPaper);
 }
@@ -50,10 +50,10 @@ TEST(Sheet, ShowsEachPixelOfARasterOfItsSize) {
 TEST(Sheet, WhatLiesOutsideOfAClipDoesNotShow) {
   Sheet sheet(FigureFormat::Png, 20.0, 20.0);
   sheet.clip({5.0, 5.0, 5.0, 5.0});
-  sheet.fill({0.0, 0.0, 20.0, 20.0}, kRed);
+  sheet.fill({0.0, 0.0, 20.0, 20.0}, kBrick);
   sheet.unclip();
   const testing::DecodedPng png = testing::decode_png(sheet.bytes());
-  EXPECT_EQ(count(png, kRed), 100);
+  EXPECT_EQ(count(png, kBrick), 100);
 }
 
 TEST(Sheet, AnchorsTextAndTurnsIt) {
@@ -92,7 +92,7 @@ TEST(Sheet, WritesTheSameBytesWithoutTimeWhateverWasDrawnBefore) {
     sheet.text({5.0, 20.0}, "text", {});
     sheet.image({10.0, 30.0, 10.0, 10.0}, {1, 2, {0xff0000, 0x00ff00}});
     sheet.clip({0.0, 0.0, 9.0, 9.0});
-    sheet.line({1.0, 1.0}, {20.0, 20.0}, {kRed, 2.0, true});
+    sheet.line({1.0, 1.0}, {20.0, 20.0}, {kBrick, 2.0, true});
     sheet.unclip();
     return sheet.bytes();
   };

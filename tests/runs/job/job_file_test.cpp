@@ -124,14 +124,14 @@ TEST(JobFile, FileNamesAreRelativeToItsFolder) {
   const JobOptions o = read(folder, "map = 'maps/a.csv'\ntif = '../tif.csv'\npath = 'file:p.csv'\nout = 'plan'\n");
   EXPECT_EQ(o.map, (folder.path() / "maps/a.csv").string());
   EXPECT_EQ(o.tif, (folder.path().parent_path() / "tif.csv").string());
-  EXPECT_EQ(o.path, "file:" + (folder.path() / "p.csv").string());
+  EXPECT_EQ(to_string(o.path), "file:" + (folder.path() / "p.csv").string());
   EXPECT_EQ(o.out, (folder.path() / "plan").string());
   const JobOptions absolute = read(folder,
                                    "map = '/maps/a.csv'\ntif = 'disc:slope=1,radius=2'\n"
                                    "path = 'raster:pitch=1'\n");
   EXPECT_EQ(absolute.map, "/maps/a.csv");
   EXPECT_EQ(absolute.tif, "disc:slope=1,radius=2");
-  EXPECT_EQ(absolute.path, "raster:pitch=1");
+  EXPECT_EQ(to_string(absolute.path), "raster:pitch=1");
 }
 
 TEST(JobFile, RefusesAnUnknownFieldAndListsTheKnownOnes) {

@@ -118,10 +118,8 @@ TEST(SimulateExactly, IntegratesTheFormulaOfTheDisc) {
     program.steps.push_back({b, b + Point{3.0, 0.0}, 1.0, false});
   }
   std::vector<std::string> lines;
-  const HeightMap removal = simulate_exactly(program, map, disc, 2, [&](const std::string& line) {
-    lines.push_back(line);
-    return true;
-  });
+  const Progress listener{[&](const std::string& line) { lines.push_back(line); }, {}};
+  const HeightMap removal = simulate_exactly(program, map, disc, 2, listener);
   EXPECT_EQ(lines, (std::vector<std::string>{"0 %", "71 %"}));
   EXPECT_EQ(removal.valid_pixels(), map.valid_pixels());
   double largest = 0.0;
@@ -133,7 +131,7 @@ TEST(SimulateExactly, IntegratesTheFormulaOfTheDisc) {
     EXPECT_NEAR(removal.values[static_cast<std::size_t>(i)], expected, 1e-10) << x;
   }
   EXPECT_GT(largest, 0.5);
-  EXPECT_THROW(simulate_exactly(program, map, disc, 1, [](const std::string&) { return false; }), Interrupted);
+  EXPECT_THROW(simulate_exactly(program, map, disc, 1, Progress{{}, [] { return true; }}), Interrupted);
 }
 
 // Samples on the map's own pitch: the spline through them is the function as given, but for the ring of zeros that

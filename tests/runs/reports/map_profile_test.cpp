@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "runs/drawing/canvas.h"
+#include "runs/drawing/colour.h"
 #include "tests/core/base/expect_error.h"
 #include "tests/runs/drawing/decoded_png.h"
 

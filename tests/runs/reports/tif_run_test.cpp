@@ -76,12 +76,12 @@ TEST(MakeTif, ReportsFitsAndDrawsThem) {
   const TifResult result = make_tif(spot.job);
   ASSERT_EQ(result.fits.size(), 3u);
   EXPECT_LE(result.fits[0].bic, result.fits[1].bic);
-  const auto json = nlohmann::json::parse(tif_json(result));
-  EXPECT_EQ(json["fits"].size(), 3u);
-  EXPECT_EQ(json["fits"][0]["model"], result.fits[0].model);
-  EXPECT_NEAR(json["tif"]["peak_nm_per_s"].get<double>(), result.analysis.peak, 1e-12);
-  EXPECT_EQ(json["inputs"][0]["role"], "after");
-  EXPECT_EQ(json["spots"]["each"].size(), 1u);
+  const auto told = nlohmann::json::parse(tif_json(result));
+  EXPECT_EQ(told["fits"].size(), 3u);
+  EXPECT_EQ(told["fits"][0]["model"], result.fits[0].model);
+  EXPECT_NEAR(told["tif"]["peak_nm_per_s"].get<double>(), result.analysis.peak, 1e-12);
+  EXPECT_EQ(told["inputs"][0]["role"], "after");
+  EXPECT_EQ(told["spots"]["each"].size(), 1u);
   const std::string text = tif_text(result);
   for (const char* part :
        {"nm/s", "nm mm^2/s", "FWHM", "asymmetry", "10 % response", "held", "BIC", "--tif elliptic-gaussian:"})
