@@ -36,7 +36,8 @@ TEST(JsonBlocks, TellTheWholeMapAndWhatTheApertureLeaves) {
   EXPECT_EQ(block["pv_nm"], 7.0);
   EXPECT_EQ(block["rms_nm"], 2.0);
   // A map's grid has the keys of any grid.
-  for (const auto& [key, value] : grid_block(map.grid).items()) EXPECT_EQ(block[key], value) << key;
+  const json grid = grid_block(map.grid);
+  for (const auto& [key, value] : grid.items()) EXPECT_EQ(block[key], value) << key;
 }
 
 TEST(JsonBlocks, TellTheCorrectionOfTheKernelOnlyWhereThereIsOne) {
