@@ -61,17 +61,22 @@ TEST(TifCommand, LooksAtAModelAndPlansWithIt) {
 
 TEST(TifCommand, PreparesTheMapsOfSpotsBySteps) {
   const SpotInputs inputs;
-  const std::vector<std::string> words{"tif",    "--spot",    "after.csv", "--dwell-time", "4",
-                                       "--json", "--threads", "1",         "--map-steps",  "flip:x"};
-  const ProgramResult result = inputs.run(words);
-  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto places = [&](const char* steps) {
+    const ProgramResult result = inputs.run(
+        {"tif", "--spot", "after.csv", "--dwell-time", "4", "--threads", "1", "--map-steps", steps, "--json"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    const json printed = json::parse(result.out);
+    std::vector<double> x;
+    for (const json& spot : printed["spots"]["each"]) x.push_back(spot["x_mm"]);
+    std::sort(x.begin(), x.end());
+    return x;
+  };
   // The map reaches from -10 to 10.85 mm: what was at x is at 0.85 - x.
-  std::vector<double> places;
-  for (const json& spot : json::parse(result.out)["spots"]["each"]) places.push_back(spot["x_mm"]);
-  std::sort(places.begin(), places.end());
-  ASSERT_EQ(places.size(), 2u);
-  EXPECT_NEAR(places[0], 0.85 - 5.01, 0.2);
-  EXPECT_NEAR(places[1], 0.85 + 4.52, 0.2);
+  const std::vector<double> before = places("flip:y"), after = places("flip:x");
+  ASSERT_EQ(before.size(), 2u);
+  ASSERT_EQ(after.size(), 2u);
+  EXPECT_NEAR(after[0], 0.85 - before[1], 0.01);
+  EXPECT_NEAR(after[1], 0.85 - before[0], 0.01);
 }
 
 TEST(TifCommand, NamesWhatIsWrong) {
