@@ -167,7 +167,7 @@ TEST(MapSteps, FileNamesAreTakenRelativeToAFolder) {
 
 TEST(MapSteps, StopWhenTold) {
   std::vector<InputFile> inputs;
-  MapStepContext context{{}, &inputs, 1, [](const std::string&) { return false; }};
+  MapStepContext context{{}, &inputs, 1, Progress{{}, [] { return true; }}};
   HeightMap map = uneven_map();
   EXPECT_THROW(apply_map_steps(map, parse_map_steps("fill"), context), Interrupted);
 }

@@ -135,7 +135,7 @@ TEST(PlanSearch, ATargetOutOfReachIsSaidAndTheNearestPlanMade) {
   job.options.time_price_nm2_per_s = {1e-6, GoalKind::ResidualAtMost};
   const PlannedJob plan = plan_job(job.options, {});
   ASSERT_EQ(plan.limits().size(), 1u);
-  for (const char* part : {"`time price` 'residual<=1e-06'", "not met", "residual RMS", " nm", "time price 0 nm^2/s"}) {
+  for (const char* part : {"--time-price 'residual<=1e-06'", "not met", "residual RMS", " nm", "time price 0 nm^2/s"}) {
     EXPECT_NE(plan.limits()[0].find(part), std::string::npos) << part << " in: " << plan.limits()[0];
   }
   EXPECT_EQ(plan.dwell.weights.time_price, 0.0);

@@ -190,7 +190,7 @@ TEST(WritePlan, TheSameJobGivesTheSameBytesButForTheWallTime) {
   SmallJob job;
   job.options.time_price_nm2_per_s = {0.0, GoalKind::Corner};
   const auto one = written_files(job.options), two = written_files(job.options);
-  EXPECT_EQ(one.size(), plan_files().others.size() + 1);
+  EXPECT_EQ(one.size(), plan_files().others.size() + plan_files().figures.size() + 1);
   for (const auto& [name, bytes] : one) {
     const std::string file(name);
     EXPECT_TRUE(plan_files().has(file)) << file;

@@ -59,7 +59,11 @@ TEST(DwellProblem, NamesTheFieldOfTheWrongSize) {
   expect_refused([](DwellProblem& p) { p.weights = Vector::Ones(6); }, "weights");
   expect_refused([](DwellProblem& p) { p.form = Eigen::MatrixXd::Zero(6, 3); }, "form");
   expect_refused([](DwellProblem& p) { p.form = Eigen::MatrixXd::Identity(200, kMaxFormTerms + 1); }, "form");
-  expect_refused([](DwellProblem& p) { p.parts[0].smoothness = PathSmoothness({1.0, 1.0}, {0, 1}); }, "smoothness");
+  expect_refused(
+      [](DwellProblem& p) {
+        p.parts[0].smoothness = PathSmoothness({1.0, 1.0}, {0, 1});
+      },
+      "parts[0].smoothness");
 }
 
 TEST(DwellProblem, TakesInfiniteAndMissingUpperBounds) {
