@@ -148,8 +148,9 @@ TEST(PlanSearch, ATimeLimitEndsTheSearchWithThePlanItHas) {
   job.options.max_solve_s = 1e-9;
   const PlannedJob plan = plan_job(job.options, {});
   EXPECT_EQ(plan.dwell.search->trials.size(), 1u);
-  const auto said = [&plan](const char* part) {
-    return std::any_of(plan.limits().begin(), plan.limits().end(),
+  const std::vector<std::string> limits = plan.limits();
+  const auto said = [&limits](const char* part) {
+    return std::any_of(limits.begin(), limits.end(),
                        [&](const std::string& limit) { return limit.find(part) != std::string::npos; });
   };
   EXPECT_TRUE(said("search of the weights ended after 1 solve"));
