@@ -1,14 +1,9 @@
-// From an array of heights and a formula of the tool to a feed table, without reading a file: the four values of a plan.
+// From an array of heights and a formula of the tool to a feed table, without reading a file: the four values of a
+// plan.
 //
 //   plan_from_arrays > feed.csv
 //
 // It is built and run by the tests from the installed package, and ends with 1 if the plan does not do what it should.
-
-#include <cmath>
-#include <cstdio>
-#include <exception>
-#include <numbers>
-#include <vector>
 
 #include <dwell/core/removal/simulate.h>
 #include <dwell/paths/path_catalogue.h>
@@ -17,6 +12,12 @@
 #include <dwell/runs/plan/machine_program.h>
 #include <dwell/runs/plan/part.h>
 #include <dwell/runs/programs/feed_table.h>
+
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <numbers>
+#include <vector>
 
 namespace {
 

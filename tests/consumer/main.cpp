@@ -1,12 +1,12 @@
 // Uses the installed headers and libraries; exits with 1 if what they compute is wrong.
 
-#include <cmath>
-#include <cstdio>
-#include <vector>
-
 #include <dwell/core/map/height_map.h>
 #include <dwell/core/motion/program.h>
 #include <dwell/core/motion/tool_path.h>
+
+#include <cmath>
+#include <cstdio>
+#include <vector>
 
 int main() {
   dwell::HeightMap map(dwell::Grid{2, 3, 0.5, 0.5, {0.0, 0.0}});
