@@ -16,6 +16,7 @@ std::unique_ptr<RemovalOperator> make_removal_operator(
     const std::vector<std::shared_ptr<const RemovalGeometry>>& geometries) {
   if (geometries.size() == 1) return make_removal_operator(*geometries.front());
   std::vector<std::unique_ptr<RemovalOperator>> parts;
+  parts.reserve(geometries.size());
   for (const auto& geometry : geometries) parts.push_back(make_removal_operator(*geometry));
   return std::make_unique<StackedRemoval>(std::move(parts));
 }

@@ -171,6 +171,7 @@ FieldEdges field_edges(std::size_t panels) {
 
 MapFigure draw_maps(const std::string& title, const std::vector<MapPanel>& panels, FigureFormat format) {
   std::vector<PanelLayout> layouts;
+  layouts.reserve(panels.size());
   for (const MapPanel& panel : panels) layouts.push_back(lay_out(panel));
   const std::vector<Row> rows = rows_of(layouts);
   double width = 320.0, height = 0.0;

@@ -224,8 +224,11 @@ std::vector<std::string> broken_into_lines(const std::string& text, const TextSt
     const std::size_t space = std::min(text.find(' ', at), text.size());
     std::string word = text.substr(at, space - at);
     at = space + 1;
-    if (const std::string longer = line.empty() ? word : line + ' ' + word; fits(longer)) {
-      line = longer;
+    std::string longer = line;
+    if (!longer.empty()) longer += ' ';
+    longer += word;
+    if (fits(longer)) {
+      line = std::move(longer);
       continue;
     }
     if (!line.empty()) lines.push_back(std::move(line));

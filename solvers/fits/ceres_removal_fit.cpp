@@ -190,7 +190,7 @@ class ModelFit {
     options.gradient_tolerance = 1e-14;
     options.num_threads = 1;
     options.logging_type = ceres::SILENT;
-    const ceres::Solver::Summary summary = solve_with_stop(options, problem, progress_);
+    ceres::Solver::Summary summary = solve_with_stop(options, problem, progress_);
     iterations_ += static_cast<int>(summary.iterations.size());
     return summary;
   }

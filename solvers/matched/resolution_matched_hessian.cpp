@@ -15,6 +15,7 @@ std::vector<SplineSpreading> spread_strokes(const DwellProblem& problem, CoarseF
 
 std::vector<Grid> lattices_of(const std::vector<SplineSpreading>& strokes) {
   std::vector<Grid> lattices;
+  lattices.reserve(strokes.size());
   for (const SplineSpreading& part : strokes) lattices.push_back(part.lattice());
   return lattices;
 }

@@ -133,6 +133,7 @@ std::vector<SmoothDwellHessian::Sums> SmoothDwellHessian::make_all_sums(const Dw
 
 std::vector<Grid> SmoothDwellHessian::removal_lattices(const std::vector<Sums>& sums) {
   std::vector<Grid> lattices;
+  lattices.reserve(sums.size());
   for (const Sums& part : sums) lattices.push_back(part.to_removal.coarse());
   return lattices;
 }
