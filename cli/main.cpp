@@ -68,13 +68,14 @@ int main(int argc, char** argv) {
   using namespace dwell::cli;
   start_with_quiet_threads(argv);
   keep_freed_memory();
-  catch_interrupts();
   try {
+    catch_interrupts();
     return run(argc, argv);
   } catch (const dwell::InputError& error) {
     return fail(kBadInput, "", dwell::with_flags(error));
-  } catch (const dwell::Interrupted& error) {
-    return fail(kInterrupted, "", error);
+  } catch (const dwell::Interrupted&) {
+    say_interrupted();
+    return kInterrupted;
   } catch (const std::exception& error) {
     return fail(kInternalFault, "internal fault: ", error);
   }

@@ -9,6 +9,7 @@
 
 #include "core/base/errors.h"
 #include "core/base/number_text.h"
+#include "core/base/unfinished_output.h"
 #include "core/base/whole_file.h"
 #include "core/formats/map_formats.h"
 #include "core/formats/map_io.h"
@@ -114,6 +115,7 @@ void PendingFiles::add_map(const std::string& file, const HeightMap& map) {
 }
 
 void PendingFiles::write() const {
+  const OutputGroup together;
   if (!map_file_.empty()) write_map(map_file_, *map_);
   for (const Other& other : others_) write_whole_file(other.file, other.bytes);
 }

@@ -1,25 +1,58 @@
 #include "cli/terminal.h"
 
 #include <fmt/format.h>
+#include <semaphore.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <stdexcept>
+#include <thread>
+
+#include "core/base/errors.h"
+#include "core/base/unfinished_output.h"
 
 namespace dwell::cli {
 namespace {
 
 volatile std::sig_atomic_t interrupted = 0;
-bool line_open = false;
+sem_t interrupt_asked;
+std::atomic<bool> line_open = false;
+std::atomic_flag interrupt_said;
 
-extern "C" void on_signal(int) { interrupted = 1; }
+extern "C" void on_signal(int) {
+  interrupted = 1;
+  sem_post(&interrupt_asked);
+}
+
+/// Waits for an interrupt, and ends the process when it was not answered in time: a transform of a large map, or the
+/// setting up of its coarse models, does not ask for seconds, and no user waits that long. Nothing is left of what was
+/// being written.
+void end_if_unanswered() {
+  constexpr auto kPatience = std::chrono::milliseconds(300);  // of the half second in which a command ends
+  while (sem_wait(&interrupt_asked) != 0) continue;
+  std::this_thread::sleep_for(kPatience);
+  if (!give_up_outputs()) return;  // the results are in place: the command ends by itself
+  say_interrupted();
+  _exit(kInterrupted);
+}
 
 }  // namespace
 
 void catch_interrupts() {
+  if (sem_init(&interrupt_asked, 0, 0) != 0) throw std::runtime_error("no semaphore for interrupts");
+  std::thread(end_if_unanswered).detach();
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
+}
+
+void say_interrupted() {
+  if (interrupt_said.test_and_set()) return;
+  const std::string words = fmt::format("{}dwell: {}\n", line_open ? "\r\x1b[K" : "", Interrupted().what());
+  // Not by the stream, which may be held by another thread that will not let go of it.
+  if (::write(STDERR_FILENO, words.data(), words.size()) < 0) return;  // nobody to tell
 }
 
 void finish_progress() {

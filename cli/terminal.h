@@ -17,7 +17,11 @@ Progress terminal_progress();
 /// Ends the line in place, if one is shown.
 void finish_progress();
 
-/// Installs the handlers that make a run stop cleanly.
+/// Says on standard error that the run was interrupted, once however often it is called.
+void say_interrupted();
+
+/// Installs the handlers that make a run stop cleanly: what works is asked to stop (Progress), and if the process has
+/// not ended 0.3 s later it is ended, with nothing left of what was not yet a result.
 void catch_interrupts();
 
 /// Says on standard error which limits were reached. Gives back the exit code of the command.

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "core/base/errors.h"
+#include "core/base/unfinished_output.h"
 
 namespace dwell {
 namespace {
@@ -91,16 +92,6 @@ void write_all(int descriptor, std::string_view bytes, const fs::path& file) {
   }
 }
 
-/// Removes the temporary file unless it has become the real one.
-struct Temporary {
-  fs::path path;
-  bool renamed = false;
-
-  ~Temporary() {
-    if (!renamed) ::unlink(path.c_str());
-  }
-};
-
 class Sha256 {
  public:
   Sha256() : context_(EVP_MD_CTX_new(), &EVP_MD_CTX_free) {
@@ -142,15 +133,19 @@ std::string read_whole_file(const fs::path& file) {
 
 void write_whole_file(const fs::path& file, std::string_view bytes) {
   const fs::path path = temporary_beside(file);
-  Descriptor descriptor(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
-  if (descriptor.number() < 0) fail("write", file, errno);
-  Temporary temporary{path};
+  int opened = -1;
+  const UnfinishedOutput temporary(path, [&] {
+    opened = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (opened < 0) fail("write", file, errno);
+  });
+  Descriptor descriptor(opened);
   write_all(descriptor.number(), bytes, file);
   // Without this, a power cut after the rename may leave an empty file under the real name.
   if (::fsync(descriptor.number()) != 0) fail("write", file, errno);
   if (descriptor.close() != 0) fail("write", file, errno);
-  if (::rename(path.c_str(), file.c_str()) != 0) fail("write", file, errno);
-  temporary.renamed = true;
+  temporary.put_in_place(file, [&] {
+    if (::rename(path.c_str(), file.c_str()) != 0) fail("write", file, errno);
+  });
 }
 
 std::string sha256_of(std::string_view bytes) {

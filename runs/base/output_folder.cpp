@@ -88,19 +88,14 @@ const ResultFiles& pareto_files() {
 OutputFolder::OutputFolder(const fs::path& target, const ResultFiles& files) : target_(normal(target, files)) {
   check_target(target_, target, files);
   temporary_ = target_.parent_path() / fmt::format(".{}.tmp-{}", target_.filename().string(), getpid());
-  try {
-    make_parents();
+  make_parents();
+  unfinished_.emplace(temporary_, [&] {
     std::error_code error;
     fs::remove_all(temporary_, error);
     fs::create_directory(temporary_, error);
     if (error) refuse(target, error.message());
-  } catch (...) {
-    remove_made();
-    throw;
-  }
+  });
 }
-
-OutputFolder::~OutputFolder() { remove_made(); }
 
 void OutputFolder::make_parents() {
   std::vector<fs::path> missing;
@@ -110,22 +105,21 @@ void OutputFolder::make_parents() {
     missing.push_back(parent);
   }
   for (auto parent = missing.rbegin(); parent != missing.rend(); ++parent) {
-    fs::create_directory(*parent, error);
-    if (error) refuse(target_, error.message());
-    made_parents_.push_back(*parent);
+    const auto make = [&] {
+      fs::create_directory(*parent, error);
+      if (error) refuse(target_, error.message());
+    };
+    made_parents_.folders.emplace_back(*parent, make, UnfinishedOutput::Kind::EmptyOnly);
   }
-}
-
-/// Removes the temporary folder, and the parents that hold nothing else.
-void OutputFolder::remove_made() {
-  std::error_code ignored;
-  fs::remove_all(temporary_, ignored);
-  for (auto parent = made_parents_.rbegin(); parent != made_parents_.rend(); ++parent) fs::remove(*parent, ignored);
 }
 
 void OutputFolder::write(const std::string& name, std::string_view bytes) const { write_whole_file(path(name), bytes); }
 
 void OutputFolder::commit() {
+  unfinished_->put_in_place(target_, [this] { put_in_place(); });
+}
+
+void OutputFolder::put_in_place() const {
   if (rename(temporary_.c_str(), target_.c_str()) == 0) return;  // no earlier result, or an empty folder
   if (errno != EEXIST && errno != ENOTEMPTY) refuse(target_, std::strerror(errno));
   // Exchanged in one step: at no moment is there neither the old result nor the new one. The old one is then removed.

@@ -1,9 +1,13 @@
 #pragma once
 
+#include <deque>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "core/base/unfinished_output.h"
 
 namespace dwell {
 
@@ -29,7 +33,6 @@ class OutputFolder {
   /// of the kind, or if its parent cannot be written. Checks before any work is done; creates the temporary folder.
   /// A link to a folder stays: what it points to is replaced.
   OutputFolder(const std::filesystem::path& target, const ResultFiles& files);
-  ~OutputFolder();
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;
 
@@ -39,11 +42,24 @@ class OutputFolder {
   void commit();
 
  private:
+  /// The folders that were made to hold the target; those in which nothing is go again, the innermost first.
+  struct MadeParents {
+    std::deque<UnfinishedOutput> folders;  // outermost first
+
+    MadeParents() = default;
+    MadeParents(const MadeParents&) = delete;
+    MadeParents& operator=(const MadeParents&) = delete;
+    ~MadeParents() {
+      while (!folders.empty()) folders.pop_back();
+    }
+  };
+
   void make_parents();
-  void remove_made();
+  void put_in_place() const;
 
   std::filesystem::path target_, temporary_;
-  std::vector<std::filesystem::path> made_parents_;  // outermost first
+  MadeParents made_parents_;
+  std::optional<UnfinishedOutput> unfinished_;
 };
 
 }  // namespace dwell
