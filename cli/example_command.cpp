@@ -21,7 +21,9 @@ int run_example(ExampleArguments& arguments) {
   arguments.mirror.shape = arguments.shape == "round" ? ExampleOptions::Shape::Round : ExampleOptions::Shape::Rectangle;
   arguments.json.check({}, arguments.out);
   OutputFolder folder(arguments.out, example_files());
-  const Example example = write_example(folder.path(""), arguments.mirror, arguments.tif);
+  const Progress progress = terminal_progress();
+  const Example example = write_example(folder.path(""), arguments.mirror, arguments.tif, progress);
+  finish_progress();
   folder.commit();
   arguments.json.deliver(
       example_json(example, arguments.mirror.seed),

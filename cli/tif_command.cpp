@@ -44,7 +44,8 @@ int run_tif(const TifArguments& arguments) {
   job.job.tif = arguments.tif;
   if (!arguments.fit_png.empty() && job.fits.empty()) throw InputError("--fit-png: needs --fit");
   check_outputs(arguments, job.job);
-  const TifResult result = make_tif(job);
+  const TifResult result = make_tif(job, terminal_progress());
+  finish_progress();
   PendingFiles files;
   files.add_map(arguments.write, result.rates);
   files.add(arguments.png, [&] { return tif_picture(result, figure_format_of_file(arguments.png)); });

@@ -104,7 +104,8 @@ ParetoSweep sweep_weights(const JobOptions& options, const ParetoRanges& ranges,
   sweep.job = load_job(options, progress);
   sweep.laid = lay_job_path(sweep.job, progress);
   if (auto file = path_input(options)) sweep.job.inputs.push_back(std::move(*file));
-  PlanProblem problem(*sweep.job.part, sweep.laid, dwell_options(options));
+  progress.step("setting up the removal operator");
+  PlanProblem problem(*sweep.job.part, sweep.laid, dwell_options(options), progress);
   sweep.ranges = completed(ranges, problem.highest_price());
   const std::size_t rows = sweep.ranges.smoothnesses.size(), columns = sweep.ranges.time_prices.size();
   sweep.points.resize(rows * columns);

@@ -90,11 +90,13 @@ double bump(const ExampleOptions& o, Point p) {
 // Sum of cosines of random direction and phase at frequencies spaced evenly in log f. The band of one mode has the
 // power C(f) 2 pi f df, and df is proportional to f: hence amplitude^2 ~ f^(slope + 2). Along a row each cosine is
 // the real part of a phasor that turns by a fixed angle.
-std::vector<double> roughness(const ExampleOptions& o, const Grid& grid, RandomNumbers& random) {
+std::vector<double> roughness(const ExampleOptions& o, const Grid& grid, RandomNumbers& random,
+                              const Progress& progress) {
   std::vector<double> sum(static_cast<std::size_t>(grid.size()), 0.0);
   const double lowest = 1.0 / std::max(grid.width(), grid.height());
   const double highest = 0.5 / o.pitch;
   for (int m = 0; m < kModes; ++m) {
+    progress.step(fmt::format("roughness: {} of {} waves", m, kModes));
     const double f = lowest * std::pow(highest / lowest, (m + random.uniform()) / kModes);
     const double direction = 2.0 * kPi * random.uniform();
     const double phase = 2.0 * kPi * random.uniform();
@@ -161,7 +163,7 @@ double spot(const ExampleTifOptions& o, Point d) {
 
 }  // namespace
 
-HeightMap example_mirror(const ExampleOptions& options) {
+HeightMap example_mirror(const ExampleOptions& options, const Progress& progress) {
   check(options);
   const bool round = options.shape == ExampleOptions::Shape::Round;
   HeightMap map(centred_grid(options.width, round ? options.width : options.height, options.pitch));
@@ -182,7 +184,7 @@ HeightMap example_mirror(const ExampleOptions& options) {
   RandomNumbers random(options.seed);
   std::vector<double> rough(map.values.size(), 0.0);
   if (options.roughness_rms > 0.0) {
-    rough = roughness(options, map.grid, random);
+    rough = roughness(options, map.grid, random, progress);
     normalise(rough, pixels, options.roughness_rms);
   }
   for (const Index i : pixels) {

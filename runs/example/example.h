@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "core/base/progress.h"
 #include "core/map/height_map.h"
 
 namespace dwell {
@@ -42,8 +43,8 @@ struct ExampleOptions {
 
 /// The mirror, centred on (0, 0); NaN outside it. The same options give the same map on every platform, to rounding
 /// of the mathematical library. Throws InputError naming the field, its value, and what is accepted.
-/// Cost O(400 pixels).
-HeightMap example_mirror(const ExampleOptions& options = {});
+/// Throws Interrupted. Cost O(400 pixels).
+HeightMap example_mirror(const ExampleOptions& options = {}, const Progress& progress = {});
 
 /// A made-up spot as a measurement gives it. Rates [nm/s], lengths [mm].
 struct ExampleTifOptions {

@@ -29,12 +29,15 @@ const ResultFiles& example_files() {
   return kFiles;
 }
 
-Example write_example(const std::filesystem::path& folder, const ExampleOptions& mirror, const ExampleTifOptions& tif) {
-  Example example{rounded(example_mirror(mirror)), rounded(example_tif(tif))};
+Example write_example(const std::filesystem::path& folder, const ExampleOptions& mirror, const ExampleTifOptions& tif,
+                      const Progress& progress) {
+  Example example{rounded(example_mirror(mirror, progress)), rounded(example_tif(tif))};
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw InputError(fmt::format("--out: cannot make the folder '{}': {}", folder.string(), error.message()));
+  progress.step("writing mirror.csv");
   write_map(folder / "mirror.csv", example.mirror);
+  progress.check();
   write_map(folder / "tif.csv", example.tif);
 
   JobOptions job;

@@ -19,8 +19,9 @@ struct Example {
 
 /// Writes an example job into `folder` (made if it is not there): mirror.csv, tif.csv, demo.toml and a MANIFEST that
 /// says what made them. Values are rounded to 1e-4 nm, so that the files do not depend on the mathematical library.
-/// Throws InputError if the folder cannot be written.
-Example write_example(const std::filesystem::path& folder, const ExampleOptions& mirror, const ExampleTifOptions& tif);
+/// Throws InputError if the folder cannot be written, Interrupted.
+Example write_example(const std::filesystem::path& folder, const ExampleOptions& mirror, const ExampleTifOptions& tif,
+                      const Progress& progress = {});
 
 /// As JSON text (docs/json.md), units in the keys. `seed` is that of the mirror.
 std::string example_json(const Example& example, std::uint64_t seed);

@@ -26,8 +26,8 @@ void collect_limits(DwellPlan& plan, const DwellOptions& options) {
 DwellPlan find_dwell(const Part& part, const LaidPath& laid, const DwellOptions& options, const Progress& progress) {
   DwellPlan plan;
   if (weights_are_searched(options)) plan.search.emplace();
-  progress.step("solve: removal operator, target and form");
-  PlanProblem problem(part, laid, options);
+  progress.step("solve: setting up the removal operator");
+  PlanProblem problem(part, laid, options, progress.of_part("solve"));
   progress.check();
   WeightedDwell found = plan.search ? choose_weights(problem, options, progress, *plan.search)
                                     : problem.solve({options.smoothness.value, options.time_price.value}, {},

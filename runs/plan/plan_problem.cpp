@@ -32,16 +32,19 @@ Vector target_of(const Part& part, const LaidPath& laid, const std::vector<Index
 
 }  // namespace
 
-PlanProblem::PlanProblem(const Part& part, const LaidPath& laid, const DwellOptions& options)
+PlanProblem::PlanProblem(const Part& part, const LaidPath& laid, const DwellOptions& options, const Progress& progress)
     : grid_(part.map.grid),
       energy_(part.kernel.energy),
       kind_(options.solver),
       geometry_(geometry_of(part, laid)),
       removal_(make_removal_operator(*geometry_)) {
   const FeedLimits limits = options.machine.feed_limits();
+  progress.step("setting up the target");
   problem_.removal = removal_.get();
   problem_.target = target_of(part, laid, geometry_->pixels, limits.max_feed);
+  progress.step("setting up the form terms");
   problem_.form = form_basis(grid_, geometry_->pixels, part.form, {}, part.threads);
+  progress.step("setting up the smoothness along the path");
   problem_.parts = {{geometry_, path_smoothness(laid.path, laid.strokes, part.threads)}};
   problem_.lower = minimum_dwell(laid.strokes, limits);
 }

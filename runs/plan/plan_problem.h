@@ -26,7 +26,7 @@ struct WeightedDwell {
 class PlanProblem {
  public:
   /// Cost: the removal operator's setup, and with halting motion one simulation.
-  PlanProblem(const Part& part, const LaidPath& laid, const DwellOptions& options);
+  PlanProblem(const Part& part, const LaidPath& laid, const DwellOptions& options, const Progress& progress = {});
 
   /// Solves from `start` (empty = lower bound; `auto` always starts there), for at most `max_seconds`, reporting as
   /// `stage`. Throws Interrupted if the progress say stop, std::runtime_error if the solver fails. Cost: the solve and

@@ -50,18 +50,20 @@ void refuse_unused(const TifJob& job) {
        "a file of rates (for --spot and --trench: --map-pixel, --map-unit, --centre)");
 }
 
-HeightMap read_heights(const std::string& file, const TifJob& job, const char* role, std::vector<InputFile>& inputs) {
+HeightMap read_heights(const std::string& file, const TifJob& job, const char* role, std::vector<InputFile>& inputs,
+                       const Progress& progress) {
   JobOptions options = job.job;
   options.map = file;
-  HeightMap map = load_map(options, inputs);
+  HeightMap map = load_map(options, inputs, progress);
   inputs.back().role = role;
   return map;
 }
 
-HeightMap read_depth(const std::string& file, const TifJob& job, std::vector<InputFile>& inputs) {
-  HeightMap after = read_heights(file, job, "after", inputs);
+HeightMap read_depth(const std::string& file, const TifJob& job, std::vector<InputFile>& inputs,
+                     const Progress& progress) {
+  HeightMap after = read_heights(file, job, "after", inputs, progress);
   if (!job.before.empty()) {
-    HeightMap depth = removed_depth(read_heights(job.before, job, "before", inputs), after);
+    HeightMap depth = removed_depth(read_heights(job.before, job, "before", inputs, progress), after);
     depth.history.push_back(fmt::format("tif: {} minus {}", job.before, file));
     return depth;
   }
@@ -114,9 +116,9 @@ TrenchOptions trench_options(const TifJob& job) {
 }
 
 /// The rates of the job, before it is turned.
-RemovalFunction find_removal(const TifJob& job, TifResult& result) {
+RemovalFunction find_removal(const TifJob& job, TifResult& result, const Progress& progress) {
   if (!job.spot.empty()) {
-    const HeightMap depth = read_depth(job.spot, job, result.inputs);
+    const HeightMap depth = read_depth(job.spot, job, result.inputs, progress);
     result.source = "spot";
     try {
       result.spots = calibrate_spots(depth, spot_options(job));
@@ -125,7 +127,7 @@ RemovalFunction find_removal(const TifJob& job, TifResult& result) {
       throw InputError(fmt::format("{}: {}", job.spot, error.what()));
     }
   }
-  const HeightMap depth = read_depth(job.trench, job, result.inputs);
+  const HeightMap depth = read_depth(job.trench, job, result.inputs, progress);
   result.source = "trench";
   try {
     result.trench = calibrate_trench(depth, trench_options(job));
@@ -172,13 +174,13 @@ std::vector<std::string> unfinished_fits(const TifResult& result) {
   return limits;
 }
 
-TifResult make_tif(const TifJob& job) {
+TifResult make_tif(const TifJob& job, const Progress& progress) {
   refuse_unused(job);
   const std::vector<FitRequest> requests = parse_fits(job.fits, job.robust);
   if (job.robust && requests.empty()) throw InputError("--robust: accepted only with --fit");
   TifResult result;
   if (job.job.tif.empty()) {
-    const RemovalFunction tif = find_removal(job, result);
+    const RemovalFunction tif = find_removal(job, result, progress);
     result.tif = oriented(tif, {job.job.tif_angle_deg, job.job.tif_flip});
     result.rates = result.tif.samples;
   } else {
@@ -187,9 +189,12 @@ TifResult make_tif(const TifJob& job) {
     result.rates = removal_samples(result.tif);
   }
   result.rates.quantity = MapQuantity::Rate;
+  progress.step("analysing the removal function");
   result.analysis = analyse_removal(result.rates, thread_count(job.job.threads));
   for (const FitRequest& request : requests) {
-    result.fits.push_back(fit_removal(result.rates, removal_model(request.model), request.options));
+    const Progress own = progress.of_part("fit of " + request.model);
+    own.step("starting");
+    result.fits.push_back(fit_removal(result.rates, removal_model(request.model), request.options, own));
   }
   std::stable_sort(result.fits.begin(), result.fits.end(),
                    [](const RemovalFit& a, const RemovalFit& b) { return a.bic < b.bic; });

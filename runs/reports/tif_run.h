@@ -43,8 +43,8 @@ struct TifResult {
   std::vector<InputFile> inputs;
 };
 
-/// Reads, calibrates, turns, analyses and fits. Throws InputError naming the option or file.
-TifResult make_tif(const TifJob& job);
+/// Reads, calibrates, turns, analyses and fits. Throws InputError naming the option or file, Interrupted.
+TifResult make_tif(const TifJob& job, const Progress& progress = {});
 
 /// A sentence for each fit that ended before it converged; not empty = exit code 3.
 std::vector<std::string> unfinished_fits(const TifResult& result);

@@ -198,6 +198,7 @@ class Run {
   }
 
   void smooth_level(StackedSmoothDwell& dwell, CoarseFactor factor, Vector& s) {
+    say_level("smooth dwell", factor);
     SmoothDwellHessian hessian(p_, dwell, factor);
     set_product_cost(hessian.relative_cost(), kSmoothWork * static_cast<double>(dwell.size()));
     const Vector lower = Vector::Zero(dwell.size()), upper = dwell.largest(p_);
@@ -251,6 +252,7 @@ class Run {
   /// Returns when stopped, or when the model's promise and the full problem's gain differ too much; and then whether it
   /// had the exact gradient.
   bool points_level(BoundedLbfgs& lbfgs, CoarseFactor factor, bool exact) {
+    say_level("dwell points", factor);
     ResolutionMatchedHessian hessian(p_, factor);
     set_product_cost(hessian.relative_cost(), kPointWork * static_cast<double>(p_.points()));
     lbfgs.forget();
@@ -285,6 +287,11 @@ class Run {
       }
     }
     return exact;
+  }
+
+  /// Setting up a model of a large map takes seconds.
+  void say_level(const char* variables, CoarseFactor factor) const {
+    o_.progress.report(fmt::format("setting up the model of {} on {} x {} pixels", variables, factor.x, factor.y));
   }
 
   double gradient_norm(const QuadraticPoint& point) const { return projected_gradient_norm(p_.lower, p_.upper, point); }
