@@ -11,6 +11,7 @@
 #include "core/base/spec_text.h"
 #include "core/base/version.h"
 #include "core/base/whole_file.h"
+#include "core/tif/models/removal_models.h"
 #include "runs/map_steps/map_steps.h"
 
 namespace dwell {
@@ -74,10 +75,7 @@ void check_schema(const toml::node& node, const std::string& file) {
 }
 
 /// Whether the value of a file option names a file: a removal function may be a formula.
-bool names_a_file(const std::string& value) {
-  const std::string kind = split_kind(value).first;
-  return kind != "gaussian" && kind != "disc";
-}
+bool names_a_file(const std::string& value) { return !is_removal_model(split_kind(value).first); }
 
 /// The value with its file name taken relative to the job file's folder.
 std::string rebased(const JobOptionRecord& record, const std::string& value, const std::filesystem::path& folder,

@@ -10,6 +10,7 @@
 #include "core/map/aperture.h"
 #include "core/map/value_units.h"
 #include "core/motion/motion.h"
+#include "core/tif/models/removal_models.h"
 #include "core/tif/removal_orientation.h"
 #include "paths/path_catalogue.h"
 #include "runs/drawing/figure_format.h"
@@ -65,6 +66,16 @@ std::string solver_words() {
 
 using Options = JobOptions;
 
+/// The removal models besides the two that the help shows with their keys.
+std::string other_models() {
+  std::string names;
+  for (const RemovalModel& model : removal_models()) {
+    if (model.name == "gaussian" || model.name == "disc") continue;
+    names += (names.empty() ? "" : ", ") + model.name;
+  }
+  return names;
+}
+
 std::vector<JobOptionRecord> make_table() {
   return {
       {"map", "map", "FILE", "height-error map: a file in any map format; NaN = outside the part", true, false,
@@ -84,10 +95,9 @@ std::vector<JobOptionRecord> make_table() {
        false, false, [](Options& o, const std::string& t) { parse_map_steps(t), o.map_steps = t; },
        [](const Options& o) { return o.map_steps; }, false, true},
       {"tif", "tif", "TIF",
-       "removal function: FILE (as the map), gaussian:peak=NM/S,fwhm=MM[,radius=MM] (or sigma=MM), "
-       "disc:slope=NM/S/MM,radius=MM, or another model (elliptic-gaussian, super-gaussian, planetary, mrf, bonnet) "
-       "with "
-       "its keys",
+       fmt::format("removal function: FILE (as the map), gaussian:peak=NM/S,fwhm=MM[,radius=MM] (or sigma=MM), "
+                   "disc:slope=NM/S/MM,radius=MM, or another model ({}) with its keys",
+                   other_models()),
        true, false, [](Options& o, const std::string& t) { o.tif = t; }, [](const Options& o) { return o.tif; }},
       {"tif-pixel", "tif_pixel_mm", "MM", "pixel pitch of the removal function's file, for formats that carry none",
        false, true, [](Options& o, const std::string& t) { o.tif_pixel_mm = positive(t); },
@@ -173,7 +183,8 @@ std::vector<JobOptionRecord> make_table() {
        "its own alone",
        false, false, [](Options& o, const std::string& t) { o.figure_range = parse_figure_range(t); },
        [](const Options& o) { return std::string(to_string(o.figure_range)); }},
-      {"out", "out", "FOLDER", "where the plan is written; replaced whole if it holds an earlier plan", true, false,
+      {"out", "out", "FOLDER",
+       "where the result is written; replaced whole if it holds an earlier one of the same kind", true, false,
        [](Options& o, const std::string& t) { o.out = t; }, [](const Options& o) { return o.out; }},
   };
 }
@@ -191,7 +202,10 @@ void set_job_option(JobOptions& options, const JobOptionRecord& record, const st
   try {
     record.set(options, text);
   } catch (const InputError& error) {
-    throw InputError(fmt::format("{}: {}", source, error.what()));
+    const std::string message = fmt::format("{}: {}", source, error.what());
+    // With its parts, for whoever shows the value and what is accepted in another way than as a sentence.
+    if (error.field().empty()) throw InputError(message);
+    throw InputError(source, error.value(), error.accepted(), message);
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/tif/models/removal_models.h"
 #include "runs/job/place_option.h"
 #include "tests/core/base/expect_error.h"
 #include "tests/core/base/temporary_folder.h"
@@ -49,6 +50,15 @@ JobOptions unusual() {
   o.figure_range = FigureRange::Own;
   o.out = "/tmp/plan";
   return o;
+}
+
+TEST(JobFile, TakesNoModelOfARemovalFunctionForAFile) {
+  const TemporaryFolder folder;
+  for (const RemovalModel& model : removal_models()) {
+    const std::string formula = model.name + ":radius=5";
+    EXPECT_EQ(read(folder, "tif = '" + formula + "'\n").tif, formula);
+  }
+  EXPECT_EQ(read(folder, "tif = 'mrf.csv'\n").tif, (folder.path() / "mrf.csv").string());
 }
 
 TEST(JobFile, WrittenTextReadsBackEqualForEveryOption) {
