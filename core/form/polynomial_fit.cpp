@@ -1,10 +1,11 @@
 #include "core/form/polynomial_fit.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include <cmath>
 
 #include "core/numerics/chebyshev_sums.h"
+#include "core/numerics/dense_solve.h"
 
 namespace dwell {
 namespace {
@@ -24,16 +25,16 @@ double condition_of(const Eigen::MatrixXd& r) {
   if (r.cols() == 0) return 1.0;
   Eigen::MatrixXd scaled = r;
   for (Index k = 0; k < r.cols(); ++k) scaled.col(k) /= r.col(k).norm();
-  const Eigen::VectorXd singular = Eigen::JacobiSVD<Eigen::MatrixXd>(scaled).singularValues();
+  const Eigen::VectorXd singular = singular_values(scaled);
   return singular[0] / singular[singular.size() - 1];
 }
 
 /// With gram = V L V', the columns of L^(1/2) V' terms have the inner products of the terms over the pixels.
 Factor orthonormalise(const Eigen::MatrixXd& gram, const Eigen::MatrixXd& terms) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(gram);
-  const double noise = kNoise * solver.eigenvalues().maxCoeff();
-  const Eigen::VectorXd root = (solver.eigenvalues().array() > noise).select(solver.eigenvalues(), 0.0).cwiseSqrt();
-  const Eigen::MatrixXd columns = root.asDiagonal() * (solver.eigenvectors().transpose() * terms);
+  const SymmetricEigen eigen = symmetric_eigen(gram);
+  const double noise = kNoise * eigen.values.maxCoeff();
+  const Eigen::VectorXd root = (eigen.values.array() > noise).select(eigen.values, 0.0).cwiseSqrt();
+  const Eigen::MatrixXd columns = root.asDiagonal() * (eigen.vectors.transpose() * terms);
   Eigen::MatrixXd q(columns.rows(), columns.cols()), r = Eigen::MatrixXd::Zero(columns.cols(), columns.cols());
   Factor factor;
   for (Index k = 0; k < columns.cols(); ++k) {

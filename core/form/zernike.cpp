@@ -1,6 +1,6 @@
 #include "core/form/zernike.h"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 #include <fmt/format.h>
 
 #include <array>
@@ -9,6 +9,8 @@
 #include <cstdlib>
 #include <stdexcept>
 #include <utility>
+
+#include "core/numerics/dense_solve.h"
 
 namespace dwell {
 namespace {
@@ -42,10 +44,10 @@ std::pair<Eigen::ArrayXd, Eigen::ArrayXd> gauss_legendre(int count, double lower
   for (int k = 1; k < count; ++k) {
     jacobi(k, k - 1) = jacobi(k - 1, k) = k / std::sqrt(4.0 * k * k - 1.0);
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(jacobi);
+  const SymmetricEigen eigen = symmetric_eigen(jacobi);
   const double half = 0.5 * (upper - lower);
-  const Eigen::ArrayXd first = solver.eigenvectors().row(0).transpose().array();
-  return {lower + half * (1.0 + solver.eigenvalues().array()), 2.0 * half * first.square()};
+  const Eigen::ArrayXd first = eigen.vectors.row(0).transpose().array();
+  return {lower + half * (1.0 + eigen.values.array()), 2.0 * half * first.square()};
 }
 
 }  // namespace

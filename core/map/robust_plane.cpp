@@ -1,10 +1,12 @@
 #include "core/map/robust_plane.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+
+#include "core/numerics/dense_solve.h"
 
 namespace dwell {
 namespace {
@@ -43,9 +45,7 @@ Eigen::Vector3d weighted_fit(const std::vector<Sample>& samples, const Eigen::Ve
     right += w * s.z * row;
   }
   // Smallest solution where the pixels leave the slope open; x and y are of size one.
-  Eigen::CompleteOrthogonalDecomposition<Eigen::Matrix3d> decomposition;
-  decomposition.setThreshold(1e-9);
-  return decomposition.compute(normal).solve(right);
+  return least_squares(normal, right, 1e-9).x;
 }
 
 }  // namespace

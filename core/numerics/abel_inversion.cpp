@@ -1,11 +1,13 @@
 #include "core/numerics/abel_inversion.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+
+#include "core/numerics/dense_solve.h"
 
 namespace dwell {
 namespace {
@@ -67,16 +69,17 @@ RadialProfile abel_inversion(const std::vector<LineIntegral>& integrals, double 
     y[i] = root * line.value;
   }
   const Eigen::MatrixXd normal = a.transpose() * a, d = second_differences(count), rough = d.transpose() * d;
-  const Eigen::VectorXd right = a.transpose() * y;
+  Eigen::MatrixXd both(count, count + 1);  // right-hand side and what the trace of the influence is of
+  both << a.transpose() * y, normal;
   const double unit = normal.trace() / count;
   RadialProfile best{step, {}, 0.0, 0.0};
   double best_score = std::numeric_limits<double>::infinity();
   for (int k = 0; k < 40; ++k) {
     const double weight = unit * std::pow(10.0, -8.0 + 12.0 * k / 39.0);
-    const Eigen::LDLT<Eigen::MatrixXd> factor(normal + weight * rough);
-    const Eigen::VectorXd b = factor.solve(right);
+    const Eigen::MatrixXd solved = solve_symmetric(normal + weight * rough, both);
+    const Eigen::VectorXd b = solved.col(0);
     const double misfit = (a * b - y).squaredNorm() / static_cast<double>(m);
-    const double free = 1.0 - factor.solve(normal).trace() / static_cast<double>(m);
+    const double free = 1.0 - solved.rightCols(count).trace() / static_cast<double>(m);
     const double score = misfit / (free * free);
     if (!(free > 1e-6) || !(score < best_score)) continue;
     best_score = score;

@@ -1,28 +1,27 @@
 #include "core/numerics/point_fit.h"
 
-#include <Eigen/QR>
+#include <Eigen/Core>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "core/base/errors.h"
+#include "core/numerics/dense_solve.h"
 
 namespace dwell {
 namespace {
 
 PlaneTransform affine(const std::vector<PointPair>& centred) {
-  Eigen::MatrixX2d from(static_cast<Eigen::Index>(centred.size()), 2), to(from.rows(), 2);
+  Eigen::MatrixXd from(static_cast<Eigen::Index>(centred.size()), 2), to(from.rows(), 2);
   for (Eigen::Index i = 0; i < from.rows(); ++i) {
     const PointPair& pair = centred[static_cast<std::size_t>(i)];
     from.row(i) << pair.from.x, pair.from.y;
     to.row(i) << pair.to.x, pair.to.y;
   }
-  Eigen::ColPivHouseholderQR<Eigen::MatrixX2d> qr(from);
-  qr.setThreshold(1e-9);
-  if (qr.rank() < 2) throw InputError("the points lie on one line; an affine fit requires three that do not");
-  const Eigen::Matrix2d solution = qr.solve(to);
-  return {solution(0, 0), solution(1, 0), solution(0, 1), solution(1, 1), {}};
+  const LeastSquares fit = least_squares(from, to, 1e-9);
+  if (fit.rank < 2) throw InputError("the points lie on one line; an affine fit requires three that do not");
+  return {fit.x(0, 0), fit.x(1, 0), fit.x(0, 1), fit.x(1, 1), {}};
 }
 
 /// Rotation and, with `scaled`, scale that bring `from` onto `to`, both about their centroids.

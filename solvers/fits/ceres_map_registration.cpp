@@ -1,8 +1,6 @@
 #include "solvers/fits/ceres_map_registration.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
-#include <Eigen/Eigenvalues>
 #include <ceres/ceres.h>
 #include <fmt/format.h>
 
@@ -22,6 +20,7 @@
 #include "core/map/map_outliers.h"
 #include "core/map/map_sampler.h"
 #include "core/map/robust_plane.h"
+#include "core/numerics/dense_solve.h"
 #include "solvers/fits/stop_callback.h"
 
 namespace dwell {
@@ -207,17 +206,17 @@ class RegistrationFit {
     // In steps that move heights by alike: what a shift of a pixel, and of the rim by one, changes.
     const Eigen::VectorXd step = natural_steps()(free_);
     const Eigen::MatrixXd natural = step.asDiagonal() * normal * step.asDiagonal();
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(natural);
+    const SymmetricEigen eigen = symmetric_eigen(natural);
     constexpr double kLeastInformation = 1e-8;  // a slope of 1e-4 of the largest
-    if (!(eigen.info() == Eigen::Success && eigen.eigenvalues().maxCoeff() > 0.0 &&
-          eigen.eigenvalues().minCoeff() > kLeastInformation * eigen.eigenvalues().maxCoeff())) {
+    if (!(eigen.converged && eigen.values.maxCoeff() > 0.0 &&
+          eigen.values.minCoeff() > kLeastInformation * eigen.values.maxCoeff())) {
       throw InputError(
           "registration: the maps do not say how they lie (flat, or alike after some shift, rotation or scale); fewer "
           "free numbers or maps with more structure are required");
     }
     const auto spare = static_cast<double>(static_cast<Index>(pixels.size()) - static_cast<Index>(free_.size()));
     const double variance = squares / spare;  // enough_pixels sees to it that there are more
-    const Eigen::MatrixXd covariance = normal.ldlt().solve(Eigen::MatrixXd::Identity(normal.rows(), normal.cols()));
+    const Eigen::MatrixXd covariance = solve_symmetric(normal, Eigen::MatrixXd::Identity(normal.rows(), normal.cols()));
     Parameters errors{};
     for (std::size_t k = 0; k < free_.size(); ++k) {
       const auto i = static_cast<Eigen::Index>(k);

@@ -1,6 +1,6 @@
 #include "solvers/fits/ceres_removal_fit.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <ceres/ceres.h>
 #include <fmt/format.h>
 
@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "core/base/errors.h"
+#include "core/numerics/dense_solve.h"
 #include "solvers/fits/removal_fit_starts.h"
 #include "solvers/fits/stop_callback.h"
 
@@ -247,12 +248,12 @@ class ModelFit {
     Eigen::VectorXd size = normal.diagonal().cwiseSqrt();
     for (double& s : size) s = s > 0.0 ? s : 1.0;
     const Eigen::VectorXd per_size = size.cwiseInverse();
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(per_size.asDiagonal() * normal * per_size.asDiagonal());
+    const SymmetricEigen eigen = symmetric_eigen(per_size.asDiagonal() * normal * per_size.asDiagonal());
     const double variance = noise_variance(r, p);
     for (Eigen::Index j = 0; j < p; ++j) {
       double sum = 0.0;
       for (Eigen::Index e = 0; e < p; ++e) {
-        const double share = std::pow(eigen.eigenvectors()(j, e), 2), value = eigen.eigenvalues()[e];
+        const double share = std::pow(eigen.vectors(j, e), 2), value = eigen.values[e];
         if (value > 1e-9) {
           sum += share / value;
         } else if (share > 1e-6) {

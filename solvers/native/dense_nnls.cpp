@@ -1,12 +1,13 @@
 #include "solvers/native/dense_nnls.h"
 
-#include <Eigen/Cholesky>
+#include <Eigen/Core>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "core/base/errors.h"
+#include "core/numerics/dense_solve.h"
 #include "solvers/problem/stopping_rules.h"
 
 namespace dwell {
@@ -137,7 +138,7 @@ class ActiveSet {
       h(a, a) += ridge_;
       rhs[a] = -g[free_[static_cast<std::size_t>(a)]];
     }
-    return h.ldlt().solve(rhs);
+    return solve_symmetric(h, rhs);
   }
 
   void minimise_over_free() {

@@ -1,6 +1,6 @@
 #include "core/tif/calibration/spot_calibration.h"
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "core/base/errors.h"
+#include "core/numerics/dense_solve.h"
 #include "core/tif/calibration/spot_finder.h"
 
 namespace dwell {
@@ -131,7 +132,7 @@ Point apex(const HeightMap& map, double peak, double radius) {
     normal += (v - 0.7) * row * row.transpose();
     right += (v - 0.7) * v * row;
   }
-  const Eigen::Matrix<double, 6, 1> c = normal.completeOrthogonalDecomposition().solve(right);
+  const Eigen::VectorXd c = least_squares(normal, right).x;
   Eigen::Matrix2d curvature;
   curvature << 2.0 * c[3], c[4], c[4], 2.0 * c[5];
   const Eigen::Vector2d at = -curvature.inverse() * Eigen::Vector2d(c[1], c[2]);

@@ -1,10 +1,12 @@
 #include "core/tif/calibration/spot_registration.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+
+#include "core/numerics/dense_solve.h"
 
 namespace dwell {
 namespace {
@@ -54,7 +56,7 @@ Point shift_of(const SpotPatch& patch, const HeightMap& reference, double radius
       normal += slope * slope.transpose();
       right += (reference.values[static_cast<std::size_t>(i)] - patch.surface(at)) * slope;
     }
-    const Eigen::Vector2d d = normal.completeOrthogonalDecomposition().solve(right);
+    const Eigen::Vector2d d = least_squares(normal, right).x;
     shift = shift + Point{d.x(), d.y()};
     if (d.norm() < 1e-6 * std::min(g.pitch_x, g.pitch_y)) break;
   }

@@ -1,12 +1,13 @@
 #include "core/form/form.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numeric>
 
 #include "tests/core/base/expect_error.h"
+#include "tests/oracle/dense_algebra.h"
 
 namespace dwell {
 namespace {
@@ -32,8 +33,7 @@ Eigen::VectorXd residual_by_normal_equations(const Grid& grid, const std::vector
   if (terms.astigmatism) add([](Point p) { return p.x * p.y; });
   Eigen::MatrixXd b(m, static_cast<Index>(columns.size()));
   for (std::size_t k = 0; k < columns.size(); ++k) b.col(static_cast<Index>(k)) = columns[k];
-  const Eigen::MatrixXd normal = b.transpose() * b;
-  return v - b * normal.ldlt().solve(b.transpose() * v);
+  return v - b * oracle::least_squares_by_qr(b, v);
 }
 
 struct Case {

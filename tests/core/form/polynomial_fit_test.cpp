@@ -1,12 +1,13 @@
 #include "core/form/polynomial_fit.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "core/form/map_statistics.h"
 #include "tests/core/base/expect_error.h"
+#include "tests/oracle/dense_algebra.h"
 
 namespace dwell {
 namespace {
@@ -48,15 +49,14 @@ Dense dense_fit(const HeightMap& map, const PolynomialSpec& spec) {
       b(i, k) = polynomials[static_cast<std::size_t>(k)].value(map.grid.centre(pixel));
     }
   }
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(b);
+  const auto [q, r] = oracle::thin_qr(b);
   Dense dense;
-  dense.coefficients = qr.solve(z);
-  const Eigen::MatrixXd r = qr.matrixQR().topRows(b.cols()).triangularView<Eigen::Upper>();
+  dense.coefficients = oracle::solve_by_elimination(r, q.transpose() * z);
   dense.contributions =
       r.diagonal().cwiseSign().cwiseProduct(r * dense.coefficients) / std::sqrt(static_cast<double>(b.rows()));
   dense.residual = z - b * dense.coefficients;
   const Eigen::MatrixXd scaled = b * b.colwise().norm().cwiseInverse().asDiagonal();
-  const Eigen::VectorXd s = Eigen::BDCSVD<Eigen::MatrixXd>(scaled).singularValues();
+  const Eigen::VectorXd s = oracle::singular_values_by_eigenvalues(scaled);
   dense.condition = s[0] / s[s.size() - 1];
   return dense;
 }

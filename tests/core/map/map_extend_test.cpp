@@ -119,7 +119,7 @@ TEST(Extend, GerchbergContinuesABandLimitedSurface) {
   options.iterations = 20000;
   options.tolerance = 1e-9;
   ExtendSummary summary;
-  const HeightMap wide = extended(map, options, summary, 2);
+  const HeightMap wide = extended(map, options, summary);
   EXPECT_EQ(wide.grid.rows, 48);
   EXPECT_EQ(wide.grid.cols, 60);
   double worst = 0.0, by_nearest = 0.0;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include <cmath>
 #include <functional>
@@ -8,6 +8,7 @@
 
 #include "core/map/height_map.h"
 #include "core/motion/tool_path.h"
+#include "tests/oracle/dense_algebra.h"
 
 /// The slow oracle of every removal operator: the definition written as a double loop. Shares no code with the
 /// library: the spline is found by dense linear algebra, evaluated from B3's own formula, and averaged along the
@@ -27,8 +28,8 @@ class DirectKernel {
   DirectKernel(const Eigen::MatrixXd& samples, double hx, double hy, int margin = 4) : hx_(hx), hy_(hy) {
     Eigen::MatrixXd padded = Eigen::MatrixXd::Zero(samples.rows() + 2 * margin, samples.cols() + 2 * margin);
     padded.block(margin, margin, samples.rows(), samples.cols()) = samples;
-    c_ = collocation(padded.rows()).fullPivLu().solve(padded);
-    c_ = collocation(padded.cols()).fullPivLu().solve(c_.transpose()).transpose().eval();
+    c_ = solve_by_elimination(collocation(padded.rows()), padded);
+    c_ = solve_by_elimination(collocation(padded.cols()), c_.transpose()).transpose().eval();
   }
 
   double rate(double dx, double dy) const {

@@ -1,4 +1,4 @@
-#include <Eigen/QR>
+#include <Eigen/Core>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,6 +11,7 @@
 #include "paths/feed/depth_feed.h"
 #include "paths/lines/multi_pitch.h"
 #include "paths/metrics/ripple.h"
+#include "tests/oracle/dense_algebra.h"
 #include "tests/paths/domain/path_test_util.h"
 
 // Hou, Liao, Wang 2017, "Development of multi-pitch tool path in computer-controlled optical surfacing processes"
@@ -63,7 +64,7 @@ double knee(const TrackProfile& line, double to) {
       basis.row(static_cast<Index>(i)) << 1.0, x[i], std::max(0.0, x[i] - bend);
     }
     const Eigen::Map<const Eigen::VectorXd> values(y.data(), static_cast<Index>(y.size()));
-    const Eigen::VectorXd fit = basis.colPivHouseholderQr().solve(values);
+    const Eigen::VectorXd fit = oracle::least_squares_by_qr(basis, values);
     const double error = (basis * fit - values).squaredNorm();
     if (error < best) best = error, at = bend;
   }

@@ -1,6 +1,6 @@
 #include "runs/example/example.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,6 +11,7 @@
 
 #include "core/base/errors.h"
 #include "runs/example/random_numbers.h"
+#include "tests/oracle/dense_algebra.h"
 
 namespace dwell {
 namespace {
@@ -58,7 +59,7 @@ double rms_without_piston_and_tilt(const HeightMap& map) {
     basis.row(static_cast<Index>(k)) << 1.0, p.x, p.y;
     z[static_cast<Index>(k)] = map.values[static_cast<std::size_t>(pixels[k])];
   }
-  const Eigen::VectorXd rest = z - basis * basis.colPivHouseholderQr().solve(z);
+  const Eigen::VectorXd rest = z - basis * oracle::least_squares_by_qr(basis, z);
   return std::sqrt(rest.squaredNorm() / static_cast<double>(pixels.size()));
 }
 
@@ -98,7 +99,7 @@ double psd_slope(const HeightMap& map) {
     line.row(b) << 1.0, 0.5 * static_cast<double>(b);
     level[b] = std::log2(sum[i] / count[i]);
   }
-  return line.colPivHouseholderQr().solve(level)[1];
+  return oracle::least_squares_by_qr(line, level)(1, 0);
 }
 
 TEST(ExampleMirror, DefaultIsTheDemoMirror) {

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "core/base/numbers.h"
+#include "tests/oracle/dense_algebra.h"
 
 namespace dwell::test {
 namespace {
@@ -100,7 +101,7 @@ SmallProblem random_problem(const Recipe& recipe, unsigned seed) {
     p.weights[i] = i % 7 == 0 ? 0.0 : 0.5 + u(random);
     form.row(i) << p.weights[i], p.weights[i] * x, p.weights[i] * x * x;
   }
-  p.form = Eigen::MatrixXd(form.householderQr().householderQ() * Eigen::MatrixXd::Identity(m, 3));
+  p.form = oracle::thin_qr(form).q;
   std::vector<double> lengths;
   std::vector<char> joined;
   for (Index j = 0; j < n; ++j) {
@@ -134,9 +135,9 @@ Vector minimise_by_enumeration(const SmallProblem& small) {
     }
     if (!sensible) continue;
     if (!free.empty()) {
-      const Eigen::FullPivLU<Eigen::MatrixXd> lu(q.h(free, free));
-      if (!lu.isInvertible()) continue;
-      t(free) += lu.solve(-q.gradient(t)(free)).eval();
+      const Eigen::MatrixXd step = oracle::solve_by_elimination(q.h(free, free), -q.gradient(t)(free));
+      if (step.size() == 0) continue;
+      t(free) += step;
     }
     for (Index j = 0; j < n; ++j)
       sensible = sensible && t[j] >= small.problem.lower[j] && t[j] <= small.problem.upper_at(j);
