@@ -4,6 +4,7 @@
 
 #include "cli/commands.h"
 #include "cli/json_option.h"
+#include "cli/progress_line.h"
 #include "cli/terminal.h"
 #include "runs/example/example_files.h"
 

@@ -9,6 +9,7 @@
 #include "cli/commands.h"
 #include "cli/json_option.h"
 #include "cli/memory.h"
+#include "cli/progress_line.h"
 #include "cli/quiet_threads.h"
 #include "cli/terminal.h"
 #include "core/base/errors.h"

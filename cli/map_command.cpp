@@ -9,6 +9,7 @@
 #include "cli/job_arguments.h"
 #include "cli/json_option.h"
 #include "cli/output_files.h"
+#include "cli/progress_line.h"
 #include "cli/terminal.h"
 #include "core/base/errors.h"
 #include "core/base/threads.h"

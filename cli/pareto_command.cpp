@@ -6,6 +6,7 @@
 #include "cli/commands.h"
 #include "cli/job_arguments.h"
 #include "cli/json_option.h"
+#include "cli/progress_line.h"
 #include "cli/terminal.h"
 #include "runs/campaigns/pareto_output.h"
 

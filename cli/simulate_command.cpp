@@ -7,6 +7,7 @@
 #include "cli/job_arguments.h"
 #include "cli/json_option.h"
 #include "cli/output_files.h"
+#include "cli/progress_line.h"
 #include "cli/terminal.h"
 #include "core/formats/map_formats.h"
 #include "runs/drawing/picture.h"

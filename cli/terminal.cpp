@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "cli/progress_line.h"
 #include "core/base/errors.h"
 #include "core/base/unfinished_output.h"
 
@@ -19,7 +20,6 @@ namespace {
 
 volatile std::sig_atomic_t interrupted = 0;
 sem_t interrupt_asked;
-std::atomic<bool> line_open = false;
 std::atomic_flag interrupt_said;
 
 extern "C" void on_signal(int) {
@@ -31,7 +31,7 @@ extern "C" void on_signal(int) {
 /// setting up of its coarse models, does not ask for seconds, and no user waits that long. Nothing is left of what was
 /// being written.
 void end_if_unanswered() {
-  constexpr auto kPatience = std::chrono::milliseconds(300);  // of the half second in which a command ends
+  constexpr auto kPatience = std::chrono::milliseconds(100);  // a process of 8 GB takes most of a second to go
   while (sem_wait(&interrupt_asked) != 0) continue;
   std::this_thread::sleep_for(kPatience);
   if (!give_up_outputs()) return;  // the results are in place: the command ends by itself
@@ -50,32 +50,15 @@ void catch_interrupts() {
 
 void say_interrupted() {
   if (interrupt_said.test_and_set()) return;
-  const std::string words = fmt::format("{}dwell: {}\n", line_open ? "\r\x1b[K" : "", Interrupted().what());
+  const std::string words =
+      fmt::format("{}dwell: {}\n", progress_line_is_open() ? "\r\x1b[K" : "", Interrupted().what());
   // Not by the stream, which may be held by another thread that will not let go of it.
   if (::write(STDERR_FILENO, words.data(), words.size()) < 0) return;  // nobody to tell
 }
 
-void finish_progress() {
-  if (line_open) fmt::print(stderr, "\r\x1b[K");
-  line_open = false;
-}
-
 Progress terminal_progress() {
-  using Clock = std::chrono::steady_clock;
   Progress progress;
-  const bool in_place = isatty(STDERR_FILENO) != 0;
-  progress.show = [in_place, next = Clock::now() + std::chrono::seconds(1)](const std::string& line) mutable {
-    const auto now = Clock::now();
-    if (now < next) return;
-    next = now + std::chrono::seconds(1);
-    if (in_place) {
-      fmt::print(stderr, "\r\x1b[K{}", line);
-      line_open = true;
-    } else {
-      fmt::print(stderr, "{}\n", line);
-    }
-    std::fflush(stderr);
-  };
+  progress.show = [line = progress_line()](const std::string& news) { line->show(news); };
   progress.stop = [] { return interrupted != 0; };
   return progress;
 }

@@ -10,18 +10,14 @@ namespace dwell::cli {
 /// Exit codes of the program (docs/formats.md, "Exit codes").
 enum ExitCode : int { kDone = 0, kInternalFault = 1, kBadInput = 2, kLimitReached = 3, kInterrupted = 130 };
 
-/// Progress on standard error, from the second second on, one line a second (one line in place on a terminal); stops on
-/// SIGINT and SIGTERM.
+/// Progress on standard error (progress_line.h); stops on SIGINT and SIGTERM.
 Progress terminal_progress();
-
-/// Ends the line in place, if one is shown.
-void finish_progress();
 
 /// Says on standard error that the run was interrupted, once however often it is called.
 void say_interrupted();
 
 /// Installs the handlers that make a run stop cleanly: what works is asked to stop (Progress), and if the process has
-/// not ended 0.3 s later it is ended, with nothing left of what was not yet a result.
+/// not ended 0.1 s later it is ended, with nothing left of what was not yet a result.
 void catch_interrupts();
 
 /// Says on standard error which limits were reached. Gives back the exit code of the command.
