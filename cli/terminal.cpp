@@ -44,8 +44,11 @@ void end_if_unanswered() {
 void catch_interrupts() {
   if (sem_init(&interrupt_asked, 0, 0) != 0) throw std::runtime_error("no semaphore for interrupts");
   std::thread(end_if_unanswered).detach();
-  std::signal(SIGINT, on_signal);
-  std::signal(SIGTERM, on_signal);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    if (std::signal(signal, on_signal) == SIG_IGN) std::signal(signal, SIG_IGN);  // as nohup asks for
+  }
+  // A reader that goes away (a closed terminal, `| head`) ends nothing: what is unfinished would stay behind.
+  std::signal(SIGPIPE, SIG_IGN);
 }
 
 void say_interrupted() {

@@ -10,7 +10,7 @@ namespace dwell::cli {
 /// Exit codes of the program (docs/formats.md, "Exit codes").
 enum ExitCode : int { kDone = 0, kInternalFault = 1, kBadInput = 2, kLimitReached = 3, kInterrupted = 130 };
 
-/// Progress on standard error (progress_line.h); stops on SIGINT and SIGTERM.
+/// Progress on standard error (progress_line.h); stops on SIGINT, SIGTERM and SIGHUP.
 Progress terminal_progress();
 
 /// Says on standard error that the run was interrupted, once however often it is called.
