@@ -11,6 +11,7 @@
 #include "cli/memory.h"
 #include "cli/progress_line.h"
 #include "cli/quiet_threads.h"
+#include "cli/standard_streams.h"
 #include "cli/terminal.h"
 #include "core/base/errors.h"
 #include "core/base/version.h"
@@ -59,7 +60,7 @@ int run(int argc, char** argv) {
 
 int fail(int exit_code, const char* prefix, const std::exception& error) {
   dwell::cli::finish_progress();
-  fmt::print(stderr, "dwell: {}{}\n", prefix, error.what());
+  dwell::cli::say(fmt::format("dwell: {}{}\n", prefix, error.what()));
   return exit_code;
 }
 
@@ -68,10 +69,12 @@ int fail(int exit_code, const char* prefix, const std::exception& error) {
 int main(int argc, char** argv) {
   using namespace dwell::cli;
   start_with_quiet_threads(argv);
+  hold_standard_streams();
   keep_freed_memory();
   try {
     catch_interrupts();
-    return run(argc, argv);
+    const int exit_code = run(argc, argv);
+    return finish_output() ? exit_code : kInternalFault;
   } catch (const dwell::InputError& error) {
     return fail(kBadInput, "", dwell::with_flags(error));
   } catch (const dwell::Interrupted&) {

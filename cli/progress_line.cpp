@@ -4,7 +4,8 @@
 #include <unistd.h>
 
 #include <atomic>
-#include <cstdio>
+
+#include "cli/standard_streams.h"
 
 namespace dwell::cli {
 namespace {
@@ -48,8 +49,7 @@ void ProgressLine::show(const std::string& line) {
 void ProgressLine::clear() {
   const std::scoped_lock lock(mutex_);
   line_.clear();
-  if (open_) fmt::print(stderr, "\r\x1b[K");
-  std::fflush(stderr);
+  if (open_) say("\r\x1b[K");
   open_ = line_open = false;
 }
 
@@ -63,12 +63,7 @@ void ProgressLine::print_if_due(Clock::time_point now) {
   if (line_.empty() || now - last_ < patience) return;
   const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(now - since_).count();
   const std::string text = seconds > 0 && shown_ ? fmt::format("{} ({} s)", line_, seconds) : line_;
-  if (in_place_) {
-    fmt::print(stderr, "\r\x1b[K{}", text);
-  } else {
-    fmt::print(stderr, "{}\n", text);
-  }
-  std::fflush(stderr);
+  say(in_place_ ? "\r\x1b[K" + text : text + "\n");
   open_ = line_open = in_place_;
   shown_ = true;
   last_ = now;

@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "cli/progress_line.h"
+#include "cli/standard_streams.h"
 #include "core/base/errors.h"
 #include "core/base/unfinished_output.h"
 
@@ -44,19 +45,16 @@ void end_if_unanswered() {
 void catch_interrupts() {
   if (sem_init(&interrupt_asked, 0, 0) != 0) throw std::runtime_error("no semaphore for interrupts");
   std::thread(end_if_unanswered).detach();
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
-    if (std::signal(signal, on_signal) == SIG_IGN) std::signal(signal, SIG_IGN);  // as nohup asks for
-  }
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+  if (std::signal(SIGHUP, on_signal) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // as nohup asks for
   // A reader that goes away (a closed terminal, `| head`) ends nothing: what is unfinished would stay behind.
   std::signal(SIGPIPE, SIG_IGN);
 }
 
 void say_interrupted() {
   if (interrupt_said.test_and_set()) return;
-  const std::string words =
-      fmt::format("{}dwell: {}\n", progress_line_is_open() ? "\r\x1b[K" : "", Interrupted().what());
-  // Not by the stream, which may be held by another thread that will not let go of it.
-  if (::write(STDERR_FILENO, words.data(), words.size()) < 0) return;  // nobody to tell
+  say(fmt::format("{}dwell: {}\n", progress_line_is_open() ? "\r\x1b[K" : "", Interrupted().what()));
 }
 
 Progress terminal_progress() {
@@ -67,7 +65,7 @@ Progress terminal_progress() {
 }
 
 int say_limits(const std::vector<std::string>& limits) {
-  for (const std::string& limit : limits) fmt::print(stderr, "dwell: limit reached: {}\n", limit);
+  for (const std::string& limit : limits) say(fmt::format("dwell: limit reached: {}\n", limit));
   return limits.empty() ? kDone : kLimitReached;
 }
 

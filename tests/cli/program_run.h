@@ -53,8 +53,9 @@ class ProgramRun {
     std::filesystem::remove_all(capture_, ignored);
   }
 
-  void interrupt() const {
-    if (pid_ > 0) kill(pid_, SIGINT);  // 0 would be the whole process group
+  void interrupt() const { signal(SIGINT); }
+  void signal(int number) const {
+    if (pid_ > 0) kill(pid_, number);  // 0 would be the whole process group
   }
   /// What has been written to standard error so far.
   std::string err() const { return text_of("err"); }

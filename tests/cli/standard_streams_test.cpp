@@ -1,0 +1,81 @@
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+
+#include "core/base/whole_file.h"
+#include "tests/cli/small_inputs.h"
+
+namespace dwell {
+namespace {
+
+using test::expect_has;
+using test::SmallInputs;
+
+/// The exit code of the program with arguments and redirections as a shell takes them, in the inputs' folder. What it
+/// says goes to said.txt unless redirected.
+int exit_of(const SmallInputs& inputs, const std::string& words) {
+  const std::string command =
+      "cd '" + inputs.folder.path().string() + "' && exec 2>said.txt; '" + DWELL_PROGRAM + "' " + words;
+  const int status = std::system(command.c_str());
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+TEST(StandardStreams, AnswerThatCannotBeWrittenIsAFault) {
+  const SmallInputs inputs;
+  for (const char* words : {"map map.csv --map-pixel 0.5", "map map.csv --map-pixel 0.5 --json", "--help", "--version",
+                            "plan --map map.csv --tif tif.csv --path raster:pitch=1 --write-job"}) {
+    EXPECT_EQ(exit_of(inputs, std::string(words) + " >/dev/full"), 1) << words;
+    expect_has(read_whole_file(inputs / "said.txt"), "cannot write the answer to standard output");
+    EXPECT_EQ(exit_of(inputs, std::string(words) + " >&-"), 1) << words;
+    expect_has(read_whole_file(inputs / "said.txt"), "cannot write the answer to standard output");
+    EXPECT_EQ(exit_of(inputs, std::string(words) + " >/dev/null"), 0) << words;
+  }
+}
+
+TEST(StandardStreams, ThatAreClosedTakeNothingFromTheFilesThatAreWritten) {
+  const SmallInputs inputs;
+  ASSERT_EQ(exit_of(inputs, "map map.csv --map-pixel 0.5 --write a.npy"), 0);
+  EXPECT_EQ(exit_of(inputs, "map map.csv --map-pixel 0.5 --write b.npy <&- >&- 2>&-"), 1);
+  EXPECT_EQ(read_whole_file(inputs / "b.npy"), read_whole_file(inputs / "a.npy"));
+  // A fault that nobody reads of is still told by the exit code.
+  EXPECT_EQ(exit_of(inputs, "map none.csv --map-pixel 0.5 2>&-"), 2);
+}
+
+TEST(StandardStreams, ThatNobodyReadsEndNothing) {
+  const SmallInputs inputs;
+  const auto before = test::names_in(inputs.folder.path());
+  std::string words;
+  for (const std::string& word : SmallInputs::plan()) words += "'" + word + "' ";
+  // The reader of both streams is gone at once.
+  exit_of(inputs, "--version; ('" DWELL_PROGRAM "' " + words + "; echo $? >code.txt) 2>&1 | true; sleep 0.1");
+  for (int k = 0; k < 200 && !std::filesystem::exists(inputs / "code.txt"); ++k) usleep(50'000);
+  std::set<std::string> after = test::names_in(inputs.folder.path());
+  EXPECT_EQ(read_whole_file(inputs / "code.txt"), "1\n");  // the plan is there, the answer is lost
+  EXPECT_EQ(after.erase("plan"), 1u);
+  after.erase("code.txt");
+  after.erase("said.txt");
+  EXPECT_EQ(after, before);
+}
+
+TEST(StandardStreams, HangUpEndsACommandAsAnInterruptDoes) {
+  const SmallInputs inputs;
+  const auto before = test::names_in(inputs.folder.path());
+  HeightMap rough(Grid{1000, 1000, 0.1, 0.1, {}});
+  unsigned noise = 1;
+  for (double& z : rough.values) z = static_cast<double>((noise = noise * 1664525u + 1013904223u) >> 16) / 655.36;
+  write_map(inputs / "rough.npy", rough);
+  test::ProgramRun run(inputs.folder.path(),
+                       {"plan", "--map", "rough.npy", "--map-pixel", "0.1", "--tif",
+                        "gaussian:peak=10,fwhm=1,radius=1.5", "--path", "raster:pitch=0.3,angle=10", "--smoothness",
+                        "0", "--solver", "projected-cg", "--threads", "1", "--out", "plan"});
+  while (!run.ended() && run.err().find("solve:") == std::string::npos) usleep(20'000);
+  ASSERT_FALSE(run.ended()) << run.err();
+  run.signal(SIGHUP);
+  EXPECT_EQ(run.wait().exit_code, 130);
+  for (const char* name : {"rough.npy", "rough.npy.json"}) std::filesystem::remove(inputs / name);
+  EXPECT_EQ(test::names_in(inputs.folder.path()), before);
+}
+
+}  // namespace
+}  // namespace dwell
