@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "bench/json_access.h"
@@ -20,18 +21,19 @@ using Json = nlohmann::json;
 constexpr Index kPixels = 512;
 constexpr int kRepetitions = 3;
 
-/// What makes about one point a pitch^2.
-constexpr const char* kCases[] = {"raster:pitch={0}",
-                                  "raster:pitch={0},turn=arc",
-                                  "random-raster:pitch={0}",
-                                  "cross-hatch:pitch={1}",
-                                  "spiral:pitch={0}",
-                                  "circles:pitch={0}",
-                                  "fibonacci:pitch={0}",
-                                  "hilbert:pitch={0}",
-                                  "peano:pitch={0}",
-                                  "random:pitch={0}",
-                                  "multi-pitch:pitches={2}/{0}/{3},step={0}"};
+/// What makes about one point a pitch^2. Every planner of the catalogue that takes a pitch has a case; that of
+/// cross-hatch is wider, because it covers the part twice.
+std::vector<std::string> cases(double pitch) {
+  std::vector<std::string> texts;
+  for (const PathRecord& record : path_catalogue()) {
+    if (record.spacing != "pitch") continue;  // cells of nearest neighbours: run_planners
+    const bool crosses = record.name == "cross-hatch";
+    texts.push_back(fmt::format("{}:pitch={}", record.name, crosses ? std::sqrt(2.0) * pitch : pitch));
+    if (record.name == "raster") texts.push_back(fmt::format("raster:pitch={},turn=arc", pitch));
+  }
+  texts.push_back(fmt::format("multi-pitch:pitches={}/{}/{},step={}", 1.5 * pitch, pitch, 0.75 * pitch, pitch));
+  return texts;
+}
 
 Json run_case(const std::string& text, const PathJob& job, double pitch) {
   const PathSpec spec = parse_path_spec(text);
@@ -99,9 +101,7 @@ Json run_planners(bool quick, const Budget& budget, double share) {
       results.push_back({{"path", text}, {"skipped", "no time left"}});
     }
   };
-  for (const char* planner : kCases) {
-    add(fmt::format(fmt::runtime(planner), pitch, std::sqrt(2.0) * pitch, 1.5 * pitch, 0.75 * pitch), job, pitch);
-  }
+  for (const std::string& text : cases(pitch)) add(text, job, pitch);
   // Its cells are no smaller than the pixels.
   const HeightMap cells = kept_cells(quick ? 316 : 1000);
   add("nearest:cell=1,critical=-inf", {cells, tif, 50.0}, 1.0);

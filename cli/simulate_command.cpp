@@ -11,6 +11,7 @@
 #include "cli/terminal.h"
 #include "core/formats/map_formats.h"
 #include "runs/drawing/picture.h"
+#include "runs/programs/program_formats.h"
 #include "runs/reports/simulation.h"
 
 namespace dwell::cli {
@@ -64,13 +65,20 @@ int run_simulate(const SimulateArguments& arguments) {
   return kDone;
 }
 
+/// "feed.csv or program.nc".
+std::string program_files() {
+  std::string names;
+  for (const ProgramFormat& format : program_formats()) names += (names.empty() ? "" : " or ") + format.file;
+  return names;
+}
+
 }  // namespace
 
 void add_simulate_command(CLI::App& program, int& exit_code) {
   CLI::App* command =
       program.add_subcommand("simulate", "predict the surface that a feed table or G-code program leaves");
   auto arguments = std::make_shared<SimulateArguments>();
-  command->add_option("--program", arguments->program, "feed.csv or program.nc")->type_name("FILE")->required();
+  command->add_option("--program", arguments->program, program_files())->type_name("FILE")->required();
   const std::vector<std::string> flags{"map",       "map-pixel", "map-unit", "map-origin",     "map-steps",
                                        "tif",       "tif-pixel", "tif-unit", "tif-dwell-time", "tif-centre",
                                        "tif-angle", "tif-flip",  "remove",   "aperture",       "threads"};
