@@ -64,7 +64,7 @@ class PathFileReader {
 
  private:
   void take_line(std::string_view line) {
-    if (line.empty() || line.front() == '#') return;
+    if (line.empty() || (line.front() == '#' && !starts_with_spreadsheet_error(line))) return;
     split_fields(line, fields_);
     if (columns_ == 0) {
       take_header(line);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -71,11 +72,31 @@ std::optional<double> finite_number(std::string_view text) {
   return parsed.value;
 }
 
+bool starts_with_spreadsheet_error(std::string_view line) {
+  line = trim(line);
+  if (line.starts_with('"')) line.remove_prefix(1);
+  constexpr std::array<std::string_view, 11> kErrors{"#N/A",   "#DIV/0!", "#NUM!",  "#VALUE!",       "#NULL!", "#REF!",
+                                                     "#NAME?", "#SPILL!", "#CALC!", "#GETTING_DATA", "#FIELD!"};
+  return std::any_of(kErrors.begin(), kErrors.end(), [&](std::string_view error) { return line.starts_with(error); });
+}
+
+namespace {
+
+/// What spreadsheets and R write where a value is missing or has no number. #REF! and #NAME? are a broken formula.
+bool means_no_value(std::string_view text) {
+  constexpr std::array<std::string_view, 8> kWords{"no data", "#n/a",  "n/a",     "na",
+                                                   "#div/0!", "#num!", "#value!", "#null!"};
+  return std::find(kWords.begin(), kWords.end(), lower_case(text)) != kWords.end();
+}
+
+}  // namespace
+
 std::optional<double> height_number(std::string_view text) {
   text = trim(text);
+  if (text.size() >= 2 && text.starts_with('"') && text.ends_with('"')) text = trim(text.substr(1, text.size() - 2));
   const Parsed parsed = parse(text);
   if (parsed.whole && std::isfinite(parsed.value)) return parsed.value;
-  const bool no_data = text.empty() || (parsed.whole && std::isnan(parsed.value)) || lower_case(text) == "no data";
+  const bool no_data = text.empty() || (parsed.whole && std::isnan(parsed.value)) || means_no_value(text);
   if (no_data) return std::numeric_limits<double>::quiet_NaN();
   return std::nullopt;
 }

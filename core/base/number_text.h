@@ -23,8 +23,13 @@ std::optional<double> parse_number(std::string_view text);
 /// spells anything else (NaN and infinity included). Decimal point only, whatever the locale.
 std::optional<double> finite_number(std::string_view text);
 
-/// A height as map files write it: a finite number, or NaN for "no data" (empty, nan, No Data; any case). Nothing
-/// if it is neither.
+/// Whether a line begins with what spreadsheets write where a formula has no value (#N/A, #DIV/0!, #REF!): '#' begins
+/// no comment there.
+bool starts_with_spreadsheet_error(std::string_view line);
+
+/// A height as map files write it: a finite number, or NaN for "no data" (empty, nan, No Data, NA, N/A, and the #N/A,
+/// #DIV/0!, #NUM!, #VALUE!, #NULL! of spreadsheets; any case), in quotes or not. Nothing if it is neither: #REF! and
+/// #NAME? are a broken formula.
 std::optional<double> height_number(std::string_view text);
 
 /// The text in quotes for an error message: its first 40 characters, control characters as blanks.

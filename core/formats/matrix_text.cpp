@@ -47,22 +47,49 @@ Index read_row(std::string_view row, char separator, const std::string& where, l
   return count;
 }
 
+/// Whether a comment between rows would be a row of so many fields without its '#': a row that was struck out, or whose
+/// first value is a marker that is not known. Leaving it out would shift the map.
+bool is_a_row(std::string_view comment, char separator, Index cols) {
+  comment.remove_prefix(1);
+  Index count = 0;
+  bool more = true, numbers = true;
+  for (std::string_view field; next_field(comment, more, separator, field); ++count) {
+    numbers = numbers && (count == 0 || height_number(field));
+  }
+  return cols > 1 && count == cols && numbers;
+}
+
 }  // namespace
 
 MapSource parse_matrix_text(std::string_view text, const std::string& where) {
   MapSource matrix;
   char separator = ' ';
-  long first_line = 0;
+  long first_line = 0, blank_line = 0;  // the latter: between rows, 0 = none
   for (TextLines lines(text); lines.next();) {
     // A trailing tab is an empty field where tabs separate, so only blanks are trimmed here.
     std::string_view row = lines.line();
     const std::string_view trimmed = trim(row);
     // A line of tabs alone is a row without data where tabs separate; skipping it would shift the map.
     const bool tabs_alone = trimmed.empty() && row.find('\t') != std::string_view::npos;
-    if (trimmed.empty() && !(tabs_alone && (separator == '\t' || matrix.rows == 0))) continue;
-    if (trimmed.starts_with('#')) {
+    if (trimmed.empty() && !(tabs_alone && (separator == '\t' || matrix.rows == 0))) {
+      if (matrix.rows > 0 && blank_line == 0) blank_line = lines.number();
+      continue;
+    }
+    if (trimmed.starts_with('#') && !starts_with_spreadsheet_error(trimmed)) {
+      if (matrix.rows > 0 && is_a_row(trimmed, separator, matrix.cols)) {
+        throw InputError(
+            fmt::format("{}, line {}: {} has as many numbers as a row, but begins with '#'; a row, or a comment before "
+                        "the first row or without numbers, is required",
+                        where, lines.number(), in_quotes(trimmed)));
+      }
       read_header_line(trimmed, fmt::format("{}, line {}", where, lines.number()), matrix.header);
       continue;
+    }
+    if (blank_line > 0) {
+      throw InputError(fmt::format(
+          "{}, line {}: blank, and rows follow in line {}: is this a second block? One block of rows without "
+          "blank lines is required",
+          where, blank_line, lines.number()));
     }
     if (matrix.rows == 0) {
       separator = separator_of(tabs_alone ? row : trimmed);

@@ -112,7 +112,7 @@ XyzText parse_xyz_text(std::string_view text, const std::string& where) {
   for (TextLines lines(text); lines.next();) {
     const std::string_view line = trim(lines.line());
     if (line.empty()) continue;
-    const bool comment = line.front() == '#';
+    const bool comment = line.front() == '#' && !starts_with_spreadsheet_error(line);
     if (comment || (xyz.points.empty() && !starts_like_number(line))) {
       const std::string place = fmt::format("{}, line {}", where, lines.number());
       const auto units = column_units(line);

@@ -72,6 +72,7 @@ TEST_F(PathFile, RefusesBadLines) {
   EXPECT_EQ(message("x_mm,y_mm\n1,2,3\n"), "line 2 has 3 columns; the header has 2");
   EXPECT_EQ(message("x_mm,y_mm\n1,two\n"), "line 2: y_mm = \"two\"; required: a finite number");
   EXPECT_EQ(message("x_mm,y_mm\nnan,2\n"), "line 2: x_mm = \"nan\"; required: a finite number");
+  EXPECT_EQ(message("x_mm,y_mm\n1,2\n#N/A,2\n"), "line 3: x_mm = \"#N/A\"; required: a finite number");
   EXPECT_EQ(message("x_mm,y_mm\n1,-inf\n"), "line 2: y_mm = \"-inf\"; required: a finite number");
   EXPECT_EQ(message("x_mm,y_mm\n,2\n"), "line 2: x_mm = \"\"; required: a finite number");
   EXPECT_EQ(message("x_mm,y_mm,lift\n1,2,0\n\n1,2,yes\n"), "line 4: lift = \"yes\"; required: 0 or 1");

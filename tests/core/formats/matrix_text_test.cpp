@@ -33,6 +33,39 @@ TEST(MatrixText, EmptyFieldsAndNanAreNoData) {
   for (std::size_t i = 0; i < 9; ++i) EXPECT_EQ(std::isnan(matrix.values[i]), i != 3) << i;
 }
 
+TEST(MatrixText, WordsOfSpreadsheetsAreNoDataWhereverTheyStand) {
+  // Excel's export of a round part: the first row, and the first of every row, has no value.
+  const MapSource matrix = parse_matrix_text(
+      "# pitch_mm: 0.5\n#N/A,#N/A,1,#N/A\n#DIV/0!,2,3,#NUM!\n  #VALUE!,4,n/a,NA\n\"#N/A\",\"5\",#NULL!,6\n",
+      "map a.csv");
+  ASSERT_EQ(matrix.rows, 4);
+  ASSERT_EQ(matrix.cols, 4);
+  const double none = std::nan("");
+  const std::vector<double> expected{none, none, 1, none, none, 2, 3, none, none, 4, none, none, none, 5, none, 6};
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    EXPECT_EQ(std::isnan(matrix.values[i]), std::isnan(expected[i])) << i;
+    if (!std::isnan(expected[i])) {
+      EXPECT_EQ(matrix.values[i], expected[i]) << i;
+    }
+  }
+}
+
+TEST(MatrixText, LeavesOutNoRow) {
+  const auto refused = [](const std::string& text, std::initializer_list<std::string> words) {
+    test::expect_input_error([&] { parse_matrix_text(text, "map a.csv"); }, words);
+  };
+  // A broken formula is no missing pixel.
+  refused("#REF!,2\n3,4\n", {"line 1, column 1", "'#REF!'"});
+  refused("1,2\n#NAME?,4\n", {"line 2, column 1", "'#NAME?'"});
+  // A row that was struck out, or begins with a marker that nobody knows.
+  refused("1,2,3\n#4,5,6\n7,8,9\n", {"line 2", "'#4,5,6'", "as many numbers as a row"});
+  refused("1 2 3\n####### 5 6\n7 8 9\n", {"line 2", "as many numbers as a row"});
+  EXPECT_EQ(parse_matrix_text("# 7,8\n1,2\n# second half, later\n3,4\n", "map a.csv").rows, 2);
+  // Two blocks, as programs write several maps into one file.
+  refused("1 2\n3 4\n\n\n5 6\n", {"line 3", "line 5", "second block"});
+  EXPECT_EQ(parse_matrix_text("\n\n1 2\n3 4\n\n\n", "map a.csv").rows, 2);
+}
+
 TEST(MatrixText, ARowOfTabsIsARowWithoutData) {
   const MapSource matrix = parse_matrix_text("\t\n1\t2\n\t\n\t3\n", "map a.txt");
   ASSERT_EQ(matrix.rows, 4);
@@ -48,7 +81,7 @@ TEST(MatrixText, NamesLineAndColumnOfWhatItRefuses) {
     test::expect_input_error([&] { parse_matrix_text(text, "map a.csv"); }, words);
   };
   refused("1,2\n3\n", {"map a.csv", "line 2", "1 columns", "line 1 has 2"});
-  refused("# c\n1,2\n\n3,4,5\n", {"line 4", "3 columns", "line 2 has 2"});
+  refused("# c\n1,2\n3,4,5\n", {"line 3", "3 columns", "line 2 has 2"});
   refused("1,2\n3,x4\n", {"line 2, column 2", "'x4'", "not a number"});
   refused("1,2\n3,4 5\n", {"line 2, column 2", "'4 5'"});
   refused("1,inf\n", {"line 1, column 2", "infinite"});

@@ -67,6 +67,7 @@ TEST(XyzText, NamesTheLineItRefuses) {
   expect_refused("0 0 1\n1 0 3 4\n", {"line 2, column 3", "'3 4'"});
   expect_refused("0 0 1\n1,5 2,5 3,5\n", {"line 2"});
   expect_refused("# nothing\n", {"no point"});
+  expect_refused("0 0 1\n#N/A 0 3\n", {"line 2", "'#N/A 0 3'"});
   expect_refused("hello\n0 0 1\n", {"line 1", "'hello'"});
   expect_refused("x_um y_um z\n0 0 1\n", {"line 1", "'um'", "mm"});
   expect_refused("# unit: nm\nx y z_um\n0 0 1\n", {"line 2", "'um'", "'nm'"});
