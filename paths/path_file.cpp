@@ -11,6 +11,7 @@
 #include "core/base/errors.h"
 #include "core/base/number_text.h"
 #include "core/base/poll.h"
+#include "core/base/text_lines.h"
 #include "core/base/whole_file.h"
 
 namespace dwell {
@@ -42,8 +43,7 @@ class PathFileReader {
 
   ToolPath read(std::string_view text, const Progress& progress) {
     Poll poll(progress, 8192);
-    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-    if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+    text = without_byte_order_mark(text);
     while (!text.empty()) {
       poll.step();
       const std::size_t end = text.find('\n');

@@ -4,13 +4,17 @@
 
 namespace dwell {
 
+/// The text without the byte-order mark that editors of some systems put before UTF-8.
+inline std::string_view without_byte_order_mark(std::string_view text) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+  return text;
+}
+
 /// Walks the lines of a text: ends at LF or CR LF, numbers from 1, a byte-order mark of UTF-8 skipped.
 class TextLines {
  public:
-  explicit TextLines(std::string_view text) : rest_(text) {
-    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-    if (rest_.starts_with(kByteOrderMark)) rest_.remove_prefix(kByteOrderMark.size());
-  }
+  explicit TextLines(std::string_view text) : rest_(without_byte_order_mark(text)) {}
 
   /// Moves to the next line; false at the end.
   bool next() {

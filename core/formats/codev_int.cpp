@@ -87,10 +87,11 @@ class DataLineReader {
 
   void take_field() {
     const std::string_view field = word_;
-    if (field == "NNR") return;  // how Code V interpolates
+    if (field == "NNB" || field == "NNR") return;  // how Code V interpolates
     if (field == "WVL")
       return take(
-          data_.wavelength_um, field, [](double v) { return v > 0.0; }, "finite, > 0 [um]");
+          data_.wavelength_um, field, [](double v) { return v >= 0.1 && v <= 20.0; },
+          "from 0.1 to 20 [um]; 632.8 nm are 0.6328");
     if (field == "SSZ")
       return take(
           data_.scale, field, [](double v) { return v != 0.0; }, "finite, not 0");
@@ -101,7 +102,7 @@ class DataLineReader {
       return take(
           data_.x_scale, field, [](double v) { return v == 1.0; }, "1, as pixels must be square here");
     }
-    refuse("field", field, "WVL, SSZ, NDA, XSC or NNR");
+    refuse("field", field, "WVL, SSZ, NDA, XSC or NNB");
   }
 
   template <class Accept>

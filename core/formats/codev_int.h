@@ -15,7 +15,7 @@ bool is_codev_int(std::string_view text);
 ///
 ///   ! comment lines
 ///   title
-///   GRD columns rows SUR WVL wavelength_um [NNR] SSZ scale [NDA no_data] [XSC 1]
+///   GRD columns rows SUR WVL wavelength_um [NNB] SSZ scale [NDA no_data] [XSC 1]
 ///   values
 ///
 /// height [nm] = value * wavelength / scale; the first value is at the smallest x and the largest y, then along x. A

@@ -7,6 +7,7 @@
 
 #include "core/base/errors.h"
 #include "core/base/poll.h"
+#include "core/base/text_lines.h"
 #include "core/base/units.h"
 #include "core/base/whole_file.h"
 #include "paths/feed/plan_program.h"
@@ -221,7 +222,7 @@ class FeedTableReader {
 }  // namespace
 
 FeedTable parse_feed_table(std::string_view text, const std::string& file, const Progress& progress) {
-  return FeedTableReader(file, text, progress).read();
+  return FeedTableReader(file, without_byte_order_mark(text), progress).read();
 }
 
 FeedTable read_feed_table(const std::filesystem::path& file, const Progress& progress) {

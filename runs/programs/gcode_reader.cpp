@@ -7,6 +7,7 @@
 
 #include "core/base/errors.h"
 #include "core/base/poll.h"
+#include "core/base/text_lines.h"
 #include "core/base/units.h"
 #include "runs/programs/gcode_words.h"
 
@@ -277,7 +278,7 @@ class GcodeInterpreter {
 
 Program read_gcode(std::string_view text, const std::string& file, std::optional<GcodeDialect> dialect,
                    const Progress& progress) {
-  return GcodeInterpreter(file, dialect).run(text, progress);
+  return GcodeInterpreter(file, dialect).run(without_byte_order_mark(text), progress);
 }
 
 }  // namespace dwell

@@ -1,5 +1,6 @@
 #include "runs/programs/program_formats.h"
 
+#include "core/base/text_lines.h"
 #include "runs/programs/gcode.h"
 #include "runs/programs/gcode_reader.h"
 
@@ -45,6 +46,7 @@ const std::vector<ProgramFormat>& program_formats() {
 }
 
 const ProgramFormat* program_format_of(std::string_view text) {
+  text = without_byte_order_mark(text);
   const std::size_t begin = text.find_first_not_of(" \t\r\n");
   if (begin == std::string_view::npos) return nullptr;
   for (const ProgramFormat& format : program_formats()) {

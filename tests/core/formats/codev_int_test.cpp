@@ -40,6 +40,7 @@ TEST(CodevInt, ReadsWhatTheFieldsSay) {
             (std::vector<double>{-6000, -65534000}));
   EXPECT_TRUE(std::isnan(values("t\nGRD 2 1 SUR WVL 1 SSZ 4 NDA -9\n-9 0\n")[0]));
   EXPECT_EQ(values("GRD 1 1 SUR WVL 1 SSZ 1\n2\n"), std::vector<double>{2000});  // no title
+  EXPECT_EQ(values("t\nGRD 1 1 SUR WVL 1 NNB SSZ 1\n2\n"), std::vector<double>{2000});
   EXPECT_EQ(values("GRD of my own\nGRD 1 1 SUR WVL 1 SSZ 1\n2\n"), std::vector<double>{2000});
   EXPECT_EQ(values("\n!\nGRD 1 1 SUR WVL 1 SSZ 1\n! more\n2 ! of it\n"), std::vector<double>{2000});  // empty title
 }
@@ -58,14 +59,15 @@ TEST(CodevInt, NamesWhatItRefuses) {
   refused("t\nGRD 2\n1 2\n", {"number of rows = ''"});
   refused("t\nGRD 2 1 SUR SSZ 1\n1 2\n", {"WVL", "missing"});
   refused("t\nGRD 2 1 SUR WVL 1\n1 2\n", {"SSZ", "missing"});
-  refused("t\nGRD 2 1 SUR WVL 0 SSZ 1\n1 2\n", {"WVL = '0'", "> 0"});
+  refused("t\nGRD 2 1 SUR WVL 0 SSZ 1\n1 2\n", {"WVL = '0'", "from 0.1 to 20"});
   refused("t\nGRD 2 1 SUR WVL nan SSZ 1\n1 2\n", {"WVL = 'nan'"});
   refused("t\nGRD 2 1 SUR WVL 1 SSZ 0\n1 2\n", {"SSZ = '0'", "not 0"});
-  refused("t\nGRD 2 1 SUR WVL 1e300 SSZ 1e-300\n1 2\n", {"WVL / SSZ"});
+  refused("t\nGRD 2 1 SUR WVL 632.8 SSZ 1\n1 2\n", {"WVL = '632.8'", "[um]", "0.6328"});
+  refused("t\nGRD 2 1 SUR WVL 1 SSZ 1e-309\n1 2\n", {"WVL / SSZ"});
   refused("t\nGRD 2 1 SUR WVL 1 SSZ 1 NDA\n1 2\n", {"NDA = ''"});
   refused("t\nGRD 2 1 SUR WVL 1 SSZ 1 XSC 1.5\n1 2\n", {"XSC = '1.5'", "square"});
   refused("t\nGRD 2 1 SUR WVL 1 WVL 1 SSZ 1\n1 2\n", {"'WVL'", "once"});
-  refused("t\nGRD 2 1 SUR WVL 1 SSZ 1 ABC 1\n1 2\n", {"'ABC'", "NNR"});
+  refused("t\nGRD 2 1 SUR WVL 1 SSZ 1 ABC 1\n1 2\n", {"'ABC'", "NNB"});
   refused("t\nGRD 2 2 SUR WVL 1 SSZ 1\n1 2\n3\n", {"truncated", "after 3 values", "2 rows of 2"});
   refused("t\nGRD 9999999999 9999999999 SUR WVL 1 SSZ 1\n1 2\n", {"truncated", "9999999999 rows"});
   refused("t\nGRD 2 1 SUR WVL 1 SSZ 1\n1 1e400\n", {"line 3", "'1e400'", "value 2 of row 1"});

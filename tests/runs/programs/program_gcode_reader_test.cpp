@@ -186,6 +186,18 @@ TEST(ProgramReader, TellsAFeedTableFromGcodeByContent) {
                   "is a feed table, for which a G-code dialect (g94) has no meaning");
 }
 
+TEST(ProgramReader, SkipsAByteOrderMark) {
+  const std::string mark = "\xEF\xBB\xBF", gcode = "G21 G90 G94\nG0 Z5\nG0 X0 Y0\nG0 Z0\nG1 X2 F60\nM2\n";
+  const ToolPath path{"file", {{0, 0}, {2, 0}}, {1, 0}};
+  const std::string feed = feed_table_text(feed_table_of(path, {1.0, 3.0}, Motion::Moving, 3000.0));
+  for (const std::string& text : {gcode, feed}) {
+    const TestFile plain("plain", text), marked("marked", mark + text);
+    const Program expected = read_program(plain.path()), found = read_program(marked.path());
+    ASSERT_EQ(found.steps.size(), expected.steps.size());
+    EXPECT_EQ(found.total_seconds(), expected.total_seconds());
+  }
+}
+
 TEST(ProgramReader, RefusesOtherFiles) {
   const TestFile empty("empty", " \n\n");
   expect_contains(input_error([&] { read_program(empty.path()); }), "is empty; accepted: a feed table");
