@@ -49,7 +49,7 @@ void ProgressLine::show(const std::string& line) {
 void ProgressLine::clear() {
   const std::scoped_lock lock(mutex_);
   line_.clear();
-  if (open_) say("\r\x1b[K");
+  if (open_) say("\r\x1b[K", 0);
   open_ = line_open = false;
 }
 
@@ -63,7 +63,7 @@ void ProgressLine::print_if_due(Clock::time_point now) {
   if (line_.empty() || now - last_ < patience) return;
   const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(now - since_).count();
   const std::string text = seconds > 0 && shown_ ? fmt::format("{} ({} s)", line_, seconds) : line_;
-  say(in_place_ ? "\r\x1b[K" + text : text + "\n");
+  say(in_place_ ? "\r\x1b[K" + text : text + "\n", 0);
   open_ = line_open = in_place_;
   shown_ = true;
   last_ = now;

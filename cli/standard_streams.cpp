@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -20,7 +21,9 @@ void hold_standard_streams() {
   ::close(number);
 }
 
-void say(const std::string& text) {
+void say(const std::string& text, int patience_ms) {
+  pollfd error{STDERR_FILENO, POLLOUT, 0};
+  if (patience_ms >= 0 && ::poll(&error, 1, patience_ms) == 0) return;
   // Not by the stream, which may be held by another thread that will not let go of it.
   if (::write(STDERR_FILENO, text.data(), text.size()) < 0) return;  // nobody to tell
 }

@@ -8,8 +8,9 @@ namespace dwell::cli {
 /// go into the first file that is written. Writing to them fails as before. At the start of the program.
 void hold_standard_streams();
 
-/// Says something on standard error, and nothing where nobody reads. From any thread.
-void say(const std::string& text);
+/// Says something on standard error, and nothing where nobody reads. From any thread. Waits for a reader that has
+/// stalled (a full pipe) for so many milliseconds at most, -1 for ever.
+void say(const std::string& text, int patience_ms = -1);
 
 /// Sends off what was printed to standard output. False, and said on standard error, if it could not all be written
 /// (a full device, closed): then the answer is lost. For the end of the program.

@@ -35,7 +35,12 @@ void end_if_unanswered() {
   constexpr auto kPatience = std::chrono::milliseconds(100);  // a process of 8 GB takes most of a second to go
   while (sem_wait(&interrupt_asked) != 0) continue;
   std::this_thread::sleep_for(kPatience);
-  if (!give_up_outputs()) return;  // the results are in place: the command ends by itself
+  if (!give_up_outputs()) {
+    // The results are in place and the command ends by itself, unless it hangs: the next signal ends it at once.
+    std::signal(SIGINT, SIG_DFL);
+    std::signal(SIGTERM, SIG_DFL);
+    return;
+  }
   say_interrupted();
   _exit(kInterrupted);
 }
@@ -54,7 +59,7 @@ void catch_interrupts() {
 
 void say_interrupted() {
   if (interrupt_said.test_and_set()) return;
-  say(fmt::format("{}dwell: {}\n", progress_line_is_open() ? "\r\x1b[K" : "", Interrupted().what()));
+  say(fmt::format("{}dwell: {}\n", progress_line_is_open() ? "\r\x1b[K" : "", Interrupted().what()), 100);
 }
 
 Progress terminal_progress() {

@@ -75,17 +75,22 @@ std::optional<double> finite_number(std::string_view text) {
 bool starts_with_spreadsheet_error(std::string_view line) {
   line = trim(line);
   if (line.starts_with('"')) line.remove_prefix(1);
-  constexpr std::array<std::string_view, 11> kErrors{"#N/A",   "#DIV/0!", "#NUM!",  "#VALUE!",       "#NULL!", "#REF!",
-                                                     "#NAME?", "#SPILL!", "#CALC!", "#GETTING_DATA", "#FIELD!"};
-  return std::any_of(kErrors.begin(), kErrors.end(), [&](std::string_view error) { return line.starts_with(error); });
+  // In English, German and French.
+  constexpr std::array<std::string_view, 19> kErrors{
+      "#n/a",    "#div/0!", "#num!", "#value!", "#null!", "#ref!",   "#name?",   "#spill!",  "#calc!", "#getting_data",
+      "#field!", "#busy!",  "#nv",   "#zahl!",  "#wert!", "#bezug!", "#nombre!", "#valeur!", "#nul!"};
+  const std::string lower = lower_case(line.substr(0, 16));
+  return std::any_of(kErrors.begin(), kErrors.end(), [&](std::string_view error) { return lower.starts_with(error); });
 }
 
 namespace {
 
-/// What spreadsheets and R write where a value is missing or has no number. #REF! and #NAME? are a broken formula.
+/// What spreadsheets (English, German, French) and R write where a value is missing or has no number. #REF! and #NAME?
+/// are a broken formula.
 bool means_no_value(std::string_view text) {
-  constexpr std::array<std::string_view, 8> kWords{"no data", "#n/a",  "n/a",     "na",
-                                                   "#div/0!", "#num!", "#value!", "#null!"};
+  constexpr std::array<std::string_view, 14> kWords{"no data", "n/a",      "na",       "#n/a", "#div/0!",
+                                                    "#num!",   "#value!",  "#null!",   "#nv",  "#zahl!",
+                                                    "#wert!",  "#nombre!", "#valeur!", "#nul!"};
   return std::find(kWords.begin(), kWords.end(), lower_case(text)) != kWords.end();
 }
 

@@ -47,6 +47,15 @@ Index read_row(std::string_view row, char separator, const std::string& where, l
   return count;
 }
 
+/// Whether a comment before the first row has a second field that begins with '#', as a row of markers that are not
+/// known.
+bool starts_like_markers(std::string_view comment) {
+  for (const char* next : {",#", ";#", "\t#"}) {
+    if (comment.find(next) != std::string_view::npos) return true;
+  }
+  return false;
+}
+
 /// Whether a comment between rows would be a row of so many fields without its '#': a row that was struck out, or whose
 /// first value is a marker that is not known. Leaving it out would shift the map.
 bool is_a_row(std::string_view comment, char separator, Index cols) {
@@ -54,7 +63,8 @@ bool is_a_row(std::string_view comment, char separator, Index cols) {
   Index count = 0;
   bool more = true, numbers = true;
   for (std::string_view field; next_field(comment, more, separator, field); ++count) {
-    numbers = numbers && (count == 0 || height_number(field));
+    field = trim(field);
+    numbers = numbers && (count == 0 || field.starts_with('#') || height_number(field));
   }
   return cols > 1 && count == cols && numbers;
 }
@@ -82,6 +92,12 @@ MapSource parse_matrix_text(std::string_view text, const std::string& where) {
                         "the first row or without numbers, is required",
                         where, lines.number(), in_quotes(trimmed)));
       }
+      if (matrix.rows == 0 && starts_like_markers(trimmed)) {
+        throw InputError(fmt::format(
+            "{}, line {}: {} begins with '#' more than once; a comment, or a row of numbers with nan for no data, is "
+            "required",
+            where, lines.number(), in_quotes(trimmed)));
+      }
       read_header_line(trimmed, fmt::format("{}, line {}", where, lines.number()), matrix.header);
       continue;
     }
@@ -93,6 +109,9 @@ MapSource parse_matrix_text(std::string_view text, const std::string& where) {
     }
     if (matrix.rows == 0) {
       separator = separator_of(tabs_alone ? row : trimmed);
+      // One value between tabs, as at the top of a round part.
+      if (separator == ' ' && trimmed.find(' ') == std::string_view::npos && row.find('\t') != std::string_view::npos)
+        separator = '\t';
       first_line = lines.number();
     }
     if (separator == ' ') row = trimmed;

@@ -60,6 +60,10 @@ TEST(MatrixText, LeavesOutNoRow) {
   // A row that was struck out, or begins with a marker that nobody knows.
   refused("1,2,3\n#4,5,6\n7,8,9\n", {"line 2", "'#4,5,6'", "as many numbers as a row"});
   refused("1 2 3\n####### 5 6\n7 8 9\n", {"line 2", "as many numbers as a row"});
+  refused("#XX;#XX;5\n1;2;3\n", {"line 1", "more than once"});
+  refused("1;2;3\n#XX;#XX;5\n", {"line 2", "as many numbers as a row"});
+  EXPECT_EQ(parse_matrix_text("#n/a;#NV;5\n1;2;3\n", "map a.csv").rows, 2);
+  EXPECT_EQ(parse_matrix_text("\t5\t\n1\t2\t3\n", "map a.csv").cols, 3);
   EXPECT_EQ(parse_matrix_text("# 7,8\n1,2\n# second half, later\n3,4\n", "map a.csv").rows, 2);
   // Two blocks, as programs write several maps into one file.
   refused("1 2\n3 4\n\n\n5 6\n", {"line 3", "line 5", "second block"});
