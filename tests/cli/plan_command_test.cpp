@@ -177,23 +177,15 @@ TEST(PlanCommand, InterruptedLeavesTheEarlierResultAndNothingElse) {
   ASSERT_EQ(inputs.run(SmallInputs::plan()).exit_code, 0);
   const std::string earlier = read_whole_file(inputs / "plan/summary.json");
   const auto before = names_in(inputs.folder.path());
-  HeightMap rough(Grid{1000, 1000, 0.1, 0.1, {}});  // seconds of solving: rough, without smoothness, off the lattice
-  unsigned noise = 1;
-  for (double& z : rough.values) z = static_cast<double>((noise = noise * 1664525u + 1013904223u) >> 16) / 655.36;
-  write_map(inputs / "plan-rough.npy", rough);
-  test::ProgramRun run(inputs.folder.path(),
-                       {"plan", "--map", "plan-rough.npy", "--map-pixel", "0.1", "--tif",
-                        "gaussian:peak=10,fwhm=1,radius=1.5", "--path", "raster:pitch=0.3,angle=10", "--smoothness",
-                        "0", "--solver", "projected-cg", "--threads", "1", "--out", "plan"});
-  while (!run.ended() && run.err().find("solve:") == std::string::npos) usleep(20'000);
-  ASSERT_FALSE(run.ended()) << run.err();
-  run.interrupt();
-  const ProgramResult result = run.wait();
+  const auto run = inputs.start_long_plan();
+  ASSERT_FALSE(run->ended()) << run->err();
+  run->interrupt();
+  const ProgramResult result = run->wait();
   EXPECT_EQ(result.exit_code, 130) << result.err;
   expect_has(result.err, "interrupted");
   EXPECT_EQ(result.out, "");
   EXPECT_EQ(read_whole_file(inputs / "plan/summary.json"), earlier);
-  for (const char* name : {"plan-rough.npy", "plan-rough.npy.json"}) std::filesystem::remove(inputs / name);
+  inputs.remove_long_plan();
   EXPECT_EQ(names_in(inputs.folder.path()), before);
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <memory>
 #include <set>
 #include <string>
 #include <utility>
@@ -59,6 +60,25 @@ struct SmallInputs {
     }
     words.insert(words.end(), more.begin(), more.end());
     return words;
+  }
+
+  /// Starts a plan of seconds of solving (rough, without smoothness, off the lattice) into plan/ and comes back when it
+  /// solves. Its map, plan-rough.npy, is removed by remove_long_plan().
+  std::unique_ptr<ProgramRun> start_long_plan() const {
+    HeightMap rough(Grid{1000, 1000, 0.1, 0.1, {}});
+    unsigned noise = 1;
+    for (double& z : rough.values) z = static_cast<double>((noise = noise * 1664525u + 1013904223u) >> 16) / 655.36;
+    write_map(*this / "plan-rough.npy", rough);
+    auto run = std::make_unique<ProgramRun>(
+        folder.path(),
+        std::vector<std::string>{"plan", "--map", "plan-rough.npy", "--map-pixel", "0.1", "--tif",
+                                 "gaussian:peak=10,fwhm=1,radius=1.5", "--path", "raster:pitch=0.3,angle=10",
+                                 "--smoothness", "0", "--solver", "projected-cg", "--threads", "1", "--out", "plan"});
+    while (!run->ended() && run->err().find("solve:") == std::string::npos) usleep(20'000);
+    return run;
+  }
+  void remove_long_plan() const {
+    for (const char* name : {"plan-rough.npy", "plan-rough.npy.json"}) std::filesystem::remove(*this / name);
   }
 
   ProgramResult run(const std::vector<std::string>& arguments) const { return run_program(folder.path(), arguments); }

@@ -61,19 +61,11 @@ TEST(StandardStreams, ThatNobodyReadsEndNothing) {
 TEST(StandardStreams, HangUpEndsACommandAsAnInterruptDoes) {
   const SmallInputs inputs;
   const auto before = test::names_in(inputs.folder.path());
-  HeightMap rough(Grid{1000, 1000, 0.1, 0.1, {}});
-  unsigned noise = 1;
-  for (double& z : rough.values) z = static_cast<double>((noise = noise * 1664525u + 1013904223u) >> 16) / 655.36;
-  write_map(inputs / "rough.npy", rough);
-  test::ProgramRun run(inputs.folder.path(),
-                       {"plan", "--map", "rough.npy", "--map-pixel", "0.1", "--tif",
-                        "gaussian:peak=10,fwhm=1,radius=1.5", "--path", "raster:pitch=0.3,angle=10", "--smoothness",
-                        "0", "--solver", "projected-cg", "--threads", "1", "--out", "plan"});
-  while (!run.ended() && run.err().find("solve:") == std::string::npos) usleep(20'000);
-  ASSERT_FALSE(run.ended()) << run.err();
-  run.signal(SIGHUP);
-  EXPECT_EQ(run.wait().exit_code, 130);
-  for (const char* name : {"rough.npy", "rough.npy.json"}) std::filesystem::remove(inputs / name);
+  const auto run = inputs.start_long_plan();
+  ASSERT_FALSE(run->ended()) << run->err();
+  run->signal(SIGHUP);
+  EXPECT_EQ(run->wait().exit_code, 130);
+  inputs.remove_long_plan();
   EXPECT_EQ(test::names_in(inputs.folder.path()), before);
 }
 
