@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <new>
 
 #include "cli/standard_streams.h"
 
@@ -55,7 +56,13 @@ void ProgressLine::clear() {
 
 void ProgressLine::watch() {
   std::unique_lock lock(mutex_);
-  while (!ended_.wait_for(lock, kLook, [this] { return end_; })) print_if_due(Clock::now());
+  while (!ended_.wait_for(lock, kLook, [this] { return end_; })) {
+    try {
+      print_if_due(Clock::now());
+    } catch (const std::bad_alloc&) {
+      // Out of memory is for the thread that works to tell: a line less.
+    }
+  }
 }
 
 void ProgressLine::print_if_due(Clock::time_point now) {

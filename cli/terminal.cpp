@@ -7,7 +7,7 @@
 #include <atomic>
 #include <chrono>
 #include <csignal>
-#include <cstdio>
+#include <new>
 #include <stdexcept>
 #include <thread>
 
@@ -41,7 +41,11 @@ void end_if_unanswered() {
     std::signal(SIGTERM, SIG_DFL);
     return;
   }
-  say_interrupted();
+  try {
+    say_interrupted();
+  } catch (const std::bad_alloc&) {
+    _exit(kInterrupted);  // without words
+  }
   _exit(kInterrupted);
 }
 
