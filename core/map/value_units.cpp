@@ -2,40 +2,139 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <iterator>
 #include <span>
 #include <string_view>
-#include <vector>
 
 #include "core/base/errors.h"
+#include "core/base/number_text.h"
 #include "core/base/units.h"
 
 namespace dwell {
 namespace {
 
-struct Unit {
-  std::string_view name;
-  double factor;
+struct UnitWord {
+  std::string_view word;  // in lower case, words of length in the singular
+  double factor;          // to nm, or to s
 };
 
-constexpr Unit kHeights[] = {{"nm", 1.0}, {"um", units::kNmPerUm}, {"mm", units::kNmPerMm}, {"m", units::kNmPerM}};
-constexpr Unit kRates[] = {{"nm/s", 1.0},
-                           {"um/s", units::kNmPerUm},
-                           {"um/min", units::kNmPerUm / units::kSecondsPerMinute},
-                           {"m/s", units::kNmPerM}};
+constexpr UnitWord kLengthWords[] = {
+    {"nm", 1.0},
+    {"nanometer", 1.0},
+    {"nanometre", 1.0},
+    {"um", units::kNmPerUm},
+    {"\xc2\xb5m", units::kNmPerUm},  // the micro sign
+    {"\xce\xbcm", units::kNmPerUm},  // the Greek letter
+    {"\xb5m", units::kNmPerUm},      // the micro sign in Latin-1
+    {"micron", units::kNmPerUm},
+    {"micrometer", units::kNmPerUm},
+    {"micrometre", units::kNmPerUm},
+    {"mm", units::kNmPerMm},
+    {"millimeter", units::kNmPerMm},
+    {"millimetre", units::kNmPerMm},
+    {"cm", 10.0 * units::kNmPerMm},
+    {"centimeter", 10.0 * units::kNmPerMm},
+    {"centimetre", 10.0 * units::kNmPerMm},
+    {"m", units::kNmPerM},
+    {"meter", units::kNmPerM},
+    {"metre", units::kNmPerM},
+    {"pm", 1e-3},
+    {"picometer", 1e-3},
+    {"picometre", 1e-3},
+    {"angstrom", 0.1},
+    {"\xc3\x85", 0.1},      // the letter A with a ring
+    {"\xc3\xa5", 0.1},      // the same in lower case
+    {"\xe2\x84\xab", 0.1},  // the angstrom sign
+    {"in", 25.4 * units::kNmPerMm},
+    {"inch", 25.4 * units::kNmPerMm},
+    {"inches", 25.4 * units::kNmPerMm},
+};
 
-double factor_of(const std::string& unit, std::span<const Unit> accepted) {
-  std::string names;
-  for (const Unit& known : accepted) {
-    if (unit == known.name) return known.factor;
-    names += fmt::format("{}{}", names.empty() ? "" : ", ", known.name);
+constexpr UnitWord kTimeWords[] = {{"s", 1.0},
+                                   {"sec", 1.0},
+                                   {"second", 1.0},
+                                   {"min", units::kSecondsPerMinute},
+                                   {"minute", units::kSecondsPerMinute},
+                                   {"h", 60.0 * units::kSecondsPerMinute},
+                                   {"hr", 60.0 * units::kSecondsPerMinute},
+                                   {"hour", 60.0 * units::kSecondsPerMinute}};
+
+constexpr const char* kAcceptedHeights = "nm, um, mm, m";
+constexpr const char* kAcceptedRates = "nm/s, um/s, um/min, m/s";
+
+/// Without blanks, brackets and quotes around it.
+std::string_view bare(std::string_view text) {
+  for (text = trim(text); text.size() >= 2; text = trim(text.substr(1, text.size() - 2))) {
+    constexpr std::array<std::array<char, 2>, 4> kPairs = {{{'(', ')'}, {'[', ']'}, {'"', '"'}, {'\'', '\''}}};
+    const auto encloses = [&](std::array<char, 2> pair) { return text.front() == pair[0] && text.back() == pair[1]; };
+    if (std::none_of(kPairs.begin(), kPairs.end(), encloses)) break;
   }
-  throw InputError(fmt::format("'{}'; accepted: {}", unit, names));
+  return text;
+}
+
+/// The factor of a word, which may be in the plural ("microns").
+std::optional<double> find_factor(std::string_view word, std::span<const UnitWord> known) {
+  const auto factor_of_word = [&](std::string_view wanted) -> std::optional<double> {
+    const auto* const end = std::to_address(known.end());
+    const auto* const found =
+        std::find_if(known.data(), end, [&](const UnitWord& unit) { return unit.word == wanted; });
+    return found == end ? std::nullopt : std::optional(found->factor);
+  };
+  if (const auto factor = factor_of_word(word)) return factor;
+  const bool plural = word.size() > 4 && word.ends_with('s');
+  return plural ? factor_of_word(word.substr(0, word.size() - 1)) : std::nullopt;
+}
+
+/// Cuts "-1", "^-1", "**-1" or "^(-1)" off the end; false if there is none.
+bool cut_inverse(std::string_view& text) {
+  for (const std::string_view ending : {"^(-1)", "**-1", "^-1", "-1"}) {
+    if (!text.ends_with(ending)) continue;
+    text.remove_suffix(ending.size());
+    return true;
+  }
+  return false;
+}
+
+/// "um/min" -> "um" and "min"; nothing of a text that is no quotient.
+std::optional<std::array<std::string_view, 2>> split_quotient(std::string_view text) {
+  for (const std::string_view sign : {"/", " per "}) {
+    const std::size_t at = text.find(sign);
+    if (at != std::string_view::npos) return std::array{text.substr(0, at), text.substr(at + sign.size())};
+  }
+  if (!cut_inverse(text)) return std::nullopt;
+  const std::size_t at = text.find_last_of(" *.");
+  if (at == std::string_view::npos) return std::nullopt;
+  return std::array{text.substr(0, at), text.substr(at + 1)};
 }
 
 }  // namespace
 
-double height_unit_nm(const std::string& unit) { return factor_of(unit, kHeights); }
-double rate_unit_nm_per_s(const std::string& unit) { return factor_of(unit, kRates); }
+std::optional<double> known_length_unit(std::string_view text) {
+  return find_factor(lower_case(bare(text)), kLengthWords);
+}
+
+std::optional<double> known_rate_unit(std::string_view text) {
+  const std::string lower = lower_case(bare(text));
+  const auto parts = split_quotient(lower);
+  if (!parts) return std::nullopt;
+  const std::optional<double> length = known_length_unit((*parts)[0]),
+                              time = find_factor(trim((*parts)[1]), kTimeWords);
+  return length && time ? std::optional(*length / *time) : std::nullopt;
+}
+
+double height_unit_nm(const std::string& unit) {
+  if (const auto factor = known_length_unit(unit)) return *factor;
+  throw InputError(fmt::format("'{}'{}; accepted: {}", unit, known_rate_unit(unit) ? " is a rate, not a height" : "",
+                               kAcceptedHeights));
+}
+
+double rate_unit_nm_per_s(const std::string& unit) {
+  if (const auto factor = known_rate_unit(unit)) return *factor;
+  throw InputError(fmt::format("'{}'{}; accepted: {}", unit, known_length_unit(unit) ? " is a height, not a rate" : "",
+                               kAcceptedRates));
+}
 
 double unit_factor(const std::string& unit, MapQuantity quantity) {
   return quantity == MapQuantity::Rate ? rate_unit_nm_per_s(unit) : height_unit_nm(unit);

@@ -1,15 +1,27 @@
 #pragma once
 
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include "core/map/height_map.h"
 
 namespace dwell {
 
-/// Factor from a unit of height ("nm", "um", "mm", "m") to nm. Throws InputError naming the accepted ones.
+/// The nm in one of the unit of length that the text names: nm, um, mm, cm, m, pm, angstrom, inch, each by its sign or
+/// its word, British or American, one or many ("µm" with either mu and in Latin-1 too, "micron", "Micrometres"), in any
+/// case, in brackets or quotes or not. Nothing if it names none.
+std::optional<double> known_length_unit(std::string_view text);
+
+/// The nm/s in one of the unit of rate that the text names: a length per second, minute or hour, written "um/min",
+/// "microns per minute", "nm s-1" or "nm*s^-1". Nothing if it names none.
+std::optional<double> known_rate_unit(std::string_view text);
+
+/// Factor from a unit of height (known_length_unit) to nm. Throws InputError naming accepted ones, and saying so of a
+/// rate.
 double height_unit_nm(const std::string& unit);
 
-/// Factor from a unit of removal rate ("nm/s", "um/s", "um/min", "m/s") to nm/s. Throws InputError likewise.
+/// Factor from a unit of removal rate (known_rate_unit) to nm/s. Throws InputError likewise.
 double rate_unit_nm_per_s(const std::string& unit);
 
 /// The one of the two that the quantity asks for.

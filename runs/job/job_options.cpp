@@ -39,7 +39,7 @@ double not_negative(const std::string& text) {
 }
 
 void check_height_or_rate_unit(const std::string& unit) {
-  unit_factor(unit, unit.find('/') == std::string::npos ? MapQuantity::Height : MapQuantity::Rate);
+  unit_factor(unit, known_rate_unit(unit) ? MapQuantity::Rate : MapQuantity::Height);
 }
 
 double any_angle(const std::string& text) {

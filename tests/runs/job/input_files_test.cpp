@@ -7,7 +7,6 @@
 
 #include "core/base/whole_file.h"
 #include "core/formats/map_io.h"
-#include "core/map/value_units.h"
 #include "runs/job/place_option.h"
 #include "runs/plan/part.h"
 #include "tests/core/base/expect_error.h"
@@ -24,19 +23,6 @@ RemovalFunction tif_of(const std::string& text) {
   options.tif = text;
   std::vector<InputFile> inputs;
   return load_removal_function(options, inputs);
-}
-
-TEST(Units, AreFactorsToNanometres) {
-  EXPECT_EQ(height_unit_nm("nm"), 1.0);
-  EXPECT_EQ(height_unit_nm("um"), 1e3);
-  EXPECT_EQ(height_unit_nm("mm"), 1e6);
-  EXPECT_EQ(height_unit_nm("m"), 1e9);
-  EXPECT_EQ(rate_unit_nm_per_s("nm/s"), 1.0);
-  EXPECT_EQ(rate_unit_nm_per_s("um/s"), 1e3);
-  EXPECT_DOUBLE_EQ(rate_unit_nm_per_s("um/min"), 1e3 / 60.0);
-  EXPECT_EQ(rate_unit_nm_per_s("m/s"), 1e9);
-  expect_input_error([] { height_unit_nm("NM"); }, {"'NM'", "nm, um, mm, m"});
-  expect_input_error([] { rate_unit_nm_per_s("nm"); }, {"'nm'", "nm/s, um/s, um/min, m/s"});
 }
 
 TEST(LoadMap, ScalesPlacesAndRecordsTheFile) {
