@@ -3,17 +3,22 @@
 
 #include <algorithm>
 #include <exception>
+#include <new>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "cli/commands.h"
 #include "cli/json_option.h"
 #include "cli/memory.h"
+#include "cli/out_of_memory.h"
 #include "cli/progress_line.h"
 #include "cli/quiet_threads.h"
 #include "cli/standard_streams.h"
+#include "cli/sudden_end.h"
 #include "cli/terminal.h"
 #include "core/base/errors.h"
+#include "core/base/memory.h"
 #include "core/base/version.h"
 #include "runs/job/option_flags.h"
 
@@ -70,16 +75,23 @@ int main(int argc, char** argv) {
   using namespace dwell::cli;
   start_with_quiet_threads(argv);
   hold_standard_streams();
+  leave_nothing_at_a_sudden_end();
   keep_freed_memory();
   try {
     catch_interrupts();
     const int exit_code = run(argc, argv);
-    return finish_output() ? exit_code : kInternalFault;
+    const bool said = finish_output();
+    ignore_interrupts();
+    return said ? exit_code : kInternalFault;
   } catch (const dwell::InputError& error) {
     return fail(kBadInput, "", dwell::with_flags(error));
   } catch (const dwell::Interrupted&) {
     say_interrupted();
     return kInterrupted;
+  } catch (const dwell::OutOfMemory& error) {
+    return fail(kInternalFault, "", error);
+  } catch (const std::bad_alloc&) {
+    return fail(kInternalFault, "", std::runtime_error(out_of_memory_message()));
   } catch (const std::exception& error) {
     return fail(kInternalFault, "internal fault: ", error);
   }

@@ -9,8 +9,7 @@
 
 #include "core/base/errors.h"
 #include "core/base/number_text.h"
-#include "core/base/unfinished_output.h"
-#include "core/base/whole_file.h"
+#include "core/base/staged_files.h"
 #include "core/formats/map_formats.h"
 #include "core/formats/map_io.h"
 #include "core/formats/map_name.h"
@@ -115,9 +114,10 @@ void PendingFiles::add_map(const std::string& file, const HeightMap& map) {
 }
 
 void PendingFiles::write() const {
-  const OutputGroup together;
-  if (!map_file_.empty()) write_map(map_file_, *map_);
-  for (const Other& other : others_) write_whole_file(other.file, other.bytes);
+  StagedFiles files;
+  if (!map_file_.empty()) stage_map(map_file_, *map_, files);
+  for (const Other& other : others_) files.add(other.file, other.bytes);
+  files.put_in_place();
 }
 
 }  // namespace dwell::cli

@@ -26,7 +26,8 @@ struct ReadFile {
 /// what is accepted.
 void check_output_files(const std::vector<OutputFile>& outputs, const std::vector<ReadFile>& read);
 
-/// What is to be written when all of it has been computed: the map, if any, and the bytes of the other files.
+/// What a command writes when all of it has been computed: the map, if any, and the bytes of the other files. All or
+/// none of it.
 class PendingFiles {
  public:
   /// Files of an empty name are not asked for. The map must live until write().
@@ -35,7 +36,7 @@ class PendingFiles {
   void add(const std::string& file, Bytes bytes) {
     if (!file.empty()) others_.push_back({file, bytes()});
   }
-  /// The map first, for its bytes are made here. Throws InputError.
+  /// The bytes of the map are made here. Throws InputError.
   void write() const;
 
  private:

@@ -23,6 +23,17 @@ std::weak_ptr<ProgressLine>& current() {
   return line;
 }
 
+struct News {
+  std::mutex mutex;
+  std::string text;
+};
+
+/// Never destroyed: the process may end while a thread still works.
+News& newest() {
+  static auto* const kNewest = new News;
+  return *kNewest;
+}
+
 }  // namespace
 
 ProgressLine::ProgressLine()
@@ -39,6 +50,10 @@ ProgressLine::~ProgressLine() {
 }
 
 void ProgressLine::show(const std::string& line) {
+  {
+    const std::scoped_lock lock(newest().mutex);
+    newest().text = line;
+  }
   const std::scoped_lock lock(mutex_);
   const auto now = Clock::now();
   line_ = line;
@@ -78,6 +93,11 @@ void ProgressLine::print_if_due(Clock::time_point now) {
 
 void finish_progress() {
   if (const auto line = current().lock()) line->clear();
+}
+
+std::string latest_news() {
+  const std::scoped_lock lock(newest().mutex);
+  return newest().text;
 }
 
 bool progress_line_is_open() { return line_open; }

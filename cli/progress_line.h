@@ -46,6 +46,9 @@ void finish_progress();
 /// Whether a line stands on the terminal without an end.
 bool progress_line_is_open();
 
+/// What was last shown by any line, also after it has gone: what the program was at when something went wrong.
+std::string latest_news();
+
 /// The line of this process, made when first asked for; it goes with the last who holds it.
 std::shared_ptr<ProgressLine> progress_line();
 

@@ -4,9 +4,9 @@
 #include <semaphore.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <chrono>
 #include <csignal>
+#include <mutex>
 #include <new>
 #include <stdexcept>
 #include <thread>
@@ -21,7 +21,8 @@ namespace {
 
 volatile std::sig_atomic_t interrupted = 0;
 sem_t interrupt_asked;
-std::atomic_flag interrupt_said;
+std::mutex saying;
+bool interrupt_said = false;
 
 extern "C" void on_signal(int) {
   interrupted = 1;
@@ -59,10 +60,18 @@ void catch_interrupts() {
   if (std::signal(SIGHUP, on_signal) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // as nohup asks for
   // A reader that goes away (a closed terminal, `| head`) ends nothing: what is unfinished would stay behind.
   std::signal(SIGPIPE, SIG_IGN);
+  // A limit of the file size is a failed write, with its reason, like a full disk.
+  std::signal(SIGXFSZ, SIG_IGN);
+}
+
+void ignore_interrupts() {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_IGN);
 }
 
 void say_interrupted() {
-  if (interrupt_said.test_and_set()) return;
+  const std::scoped_lock lock(saying);  // whoever comes second may end the process, so waits for the words
+  if (interrupt_said) return;
+  interrupt_said = true;
   say(fmt::format("{}dwell: {}\n", progress_line_is_open() ? "\r\x1b[K" : "", Interrupted().what()), 100);
 }
 

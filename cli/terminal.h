@@ -20,6 +20,9 @@ void say_interrupted();
 /// not ended 0.1 s later it is ended, with nothing left of what was not yet a result.
 void catch_interrupts();
 
+/// From here on an interrupt changes nothing: the answer is out, and all that is left is to end.
+void ignore_interrupts();
+
 /// Says on standard error which limits were reached. Gives back the exit code of the command.
 int say_limits(const std::vector<std::string>& limits);
 

@@ -17,17 +17,14 @@
 #include <system_error>
 #include <utility>
 
+#include "core/base/descriptor.h"
+
 namespace dwell {
 namespace {
 
 [[noreturn]] void fail(const char* what) {
   throw std::runtime_error(fmt::format("cannot {}: {}", what, std::generic_category().message(errno)));
 }
-
-struct MemoryFile {
-  int number;
-  ~MemoryFile() { ::close(number); }
-};
 
 bool write_all(int descriptor, const char* bytes, std::size_t size) {
   while (size > 0) {
@@ -63,6 +60,9 @@ std::size_t address_space() {
 void be_quiet(const ChildLimits& limits) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   for (const int signal : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGXCPU}) std::signal(signal, SIG_DFL);
+  // What a terminal sends to all of a group is for the original to answer: a copy that ended of it would look like a
+  // corrupt file.
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_IGN);
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_CPU, static_cast<rlim_t>(std::max(1.0, std::round(limits.cpu_seconds))));
   if (!kSanitized) limit(RLIMIT_AS, address_space() + limits.bytes);
@@ -108,15 +108,15 @@ ChildAnswer::~ChildAnswer() {
 std::optional<ChildAnswer> output_of_child(const std::function<void(const AnswerSink&)>& work,
                                            const ChildLimits& limits) {
   // A file in memory rather than a pipe: the copy never waits for a reader, and the reader only for its end.
-  const MemoryFile answer{::memfd_create("dwell", MFD_CLOEXEC)};
-  if (answer.number < 0) fail("make a file in memory");
+  const Descriptor answer(::memfd_create("dwell", MFD_CLOEXEC));
+  if (answer.number() < 0) fail("make a file in memory");
   const pid_t child = ::fork();
   if (child < 0) fail("start a process");
-  if (child == 0) run_child(work, answer.number, limits);
+  if (child == 0) run_child(work, answer.number(), limits);
   int status = 0;
   // Nobody to wait for is no fault: the host program may have asked for its children to vanish. The answer tells.
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
-  return whole_answer(answer.number);
+  return whole_answer(answer.number());
 }
 
 }  // namespace dwell

@@ -31,10 +31,9 @@ bool lies_in(const fs::path& path, const fs::path& folder) {
 
 }  // namespace
 
-UnfinishedOutput::UnfinishedOutput(fs::path path, const std::function<void()>& make, Kind kind)
-    : path_(std::move(path)), kind_(kind) {
+UnfinishedOutput::UnfinishedOutput(Kind kind, const std::function<fs::path()>& make) : kind_(kind) {
   const std::scoped_lock lock(registry().mutex);
-  make();
+  path_ = make();
   registry().outputs.push_back(this);
 }
 
@@ -44,10 +43,11 @@ UnfinishedOutput::~UnfinishedOutput() {
   std::erase(registry().outputs, this);
 }
 
-void UnfinishedOutput::put_in_place(const fs::path& target, const std::function<void()>& rename) const {
+void UnfinishedOutput::put_in_place(const fs::path& target, const std::function<void()>& rename) {
   Registry& all = registry();
   const std::scoped_lock lock(all.mutex);
   rename();
+  gone_ = kind_ == Kind::File;
   const bool inside = std::any_of(all.outputs.begin(), all.outputs.end(),
                                   [&](const UnfinishedOutput* other) { return lies_in(target, other->path()); });
   all.result_in_place = all.result_in_place || !inside;
@@ -55,7 +55,8 @@ void UnfinishedOutput::put_in_place(const fs::path& target, const std::function<
 
 void UnfinishedOutput::remove() const {
   std::error_code ignored;
-  if (kind_ == Kind::All) {
+  if (gone_) return;
+  if (kind_ == Kind::Folder) {
     fs::remove_all(path_, ignored);
   } else {
     fs::remove(path_, ignored);

@@ -10,28 +10,30 @@ namespace dwell {
 class UnfinishedOutput {
  public:
   enum class Kind {
-    All,        // a file, or a folder with all that is in it
-    EmptyOnly,  // a folder that was made for another output: removed only if nothing is in it
+    File,
+    Folder,       // with all that is in it
+    EmptyFolder,  // made to hold another output: removed only if nothing is in it
   };
 
-  /// Makes the file or folder by calling `make`, which throws if it cannot.
-  UnfinishedOutput(std::filesystem::path path, const std::function<void()>& make, Kind kind = Kind::All);
-  /// Removes it, unless it has been put in place.
+  /// `make` makes the file or folder and gives its path; it throws if it cannot.
+  UnfinishedOutput(Kind kind, const std::function<std::filesystem::path()>& make);
+  /// Removes what is there of it, unless it was put in place.
   ~UnfinishedOutput();
   UnfinishedOutput(const UnfinishedOutput&) = delete;
   UnfinishedOutput& operator=(const UnfinishedOutput&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
   /// Calls `rename`, which puts the output under its own name in one step, and throws if it cannot. A result is on disk
-  /// then, unless `target` itself lies in an unfinished folder. What `rename` leaves under the temporary name (an
-  /// earlier result that was exchanged) is removed by the destructor as before.
-  void put_in_place(const std::filesystem::path& target, const std::function<void()>& rename) const;
+  /// then, unless `target` itself lies in an unfinished folder. The temporary name is no longer ours then, but for
+  /// a folder's: the earlier result may be under it, exchanged, and is removed by the destructor.
+  void put_in_place(const std::filesystem::path& target, const std::function<void()>& rename);
 
  private:
   void remove() const;
 
   std::filesystem::path path_;
   Kind kind_;
+  bool gone_ = false;  // nothing of ours is under path_ any more
 
   friend bool give_up_outputs();
 };

@@ -7,44 +7,24 @@
 #include <unistd.h>
 
 #include <array>
-#include <atomic>
 #include <cerrno>
 #include <memory>
 #include <stdexcept>
 #include <system_error>
 #include <vector>
 
+#include "core/base/descriptor.h"
 #include "core/base/errors.h"
-#include "core/base/unfinished_output.h"
+#include "core/base/staged_files.h"
 
 namespace dwell {
 namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void fail(const char* what, const fs::path& file, int error) {
-  throw InputError(fmt::format("cannot {} '{}': {}", what, file.string(), std::generic_category().message(error)));
+[[noreturn]] void fail_to_read(const fs::path& file) {
+  throw InputError(fmt::format("cannot read '{}': {}", file.string(), std::generic_category().message(errno)));
 }
-
-class Descriptor {
- public:
-  explicit Descriptor(int number) : number_(number) {}
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  ~Descriptor() {
-    if (number_ >= 0) ::close(number_);
-  }
-  int number() const { return number_; }
-  /// Network file systems may report a failed write only here.
-  int close() {
-    const int result = ::close(number_);
-    number_ = -1;
-    return result;
-  }
-
- private:
-  int number_;
-};
 
 /// What is neither a regular file nor a folder, for messages.
 const char* kind_of(mode_t mode) {
@@ -65,9 +45,9 @@ void require_regular(const struct stat& status, const fs::path& file) {
 template <class Take>
 void for_each_block(const fs::path& file, Take take) {
   const Descriptor descriptor(::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));  // a pipe is not waited for
-  if (descriptor.number() < 0) fail("read", file, errno);
+  if (descriptor.number() < 0) fail_to_read(file);
   struct stat status {};
-  if (::fstat(descriptor.number(), &status) != 0) fail("read", file, errno);
+  if (::fstat(descriptor.number(), &status) != 0) fail_to_read(file);
   require_regular(status, file);
   std::vector<char> block(std::size_t{1} << 20);
   for (;;) {
@@ -76,18 +56,7 @@ void for_each_block(const fs::path& file, Take take) {
     if (count > 0) {
       take(std::string_view(block.data(), static_cast<std::size_t>(count)));
     } else if (errno != EINTR) {
-      fail("read", file, errno);
-    }
-  }
-}
-
-void write_all(int descriptor, std::string_view bytes, const fs::path& file) {
-  while (!bytes.empty()) {
-    const ssize_t count = ::write(descriptor, bytes.data(), bytes.size());
-    if (count >= 0) {
-      bytes.remove_prefix(static_cast<std::size_t>(count));
-    } else if (errno != EINTR) {
-      fail("write", file, errno);
+      fail_to_read(file);
     }
   }
 }
@@ -115,11 +84,6 @@ class Sha256 {
   std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context_;
 };
 
-fs::path temporary_beside(const fs::path& file) {
-  static std::atomic<unsigned> count{0};  // threads of one process share the pid
-  return file.parent_path() / fmt::format(".{}.{}-{}.tmp", file.filename().string(), ::getpid(), count++);
-}
-
 }  // namespace
 
 std::string read_whole_file(const fs::path& file) {
@@ -132,20 +96,9 @@ std::string read_whole_file(const fs::path& file) {
 }
 
 void write_whole_file(const fs::path& file, std::string_view bytes) {
-  const fs::path path = temporary_beside(file);
-  int opened = -1;
-  const UnfinishedOutput temporary(path, [&] {
-    opened = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (opened < 0) fail("write", file, errno);
-  });
-  Descriptor descriptor(opened);
-  write_all(descriptor.number(), bytes, file);
-  // Without this, a power cut after the rename may leave an empty file under the real name.
-  if (::fsync(descriptor.number()) != 0) fail("write", file, errno);
-  if (descriptor.close() != 0) fail("write", file, errno);
-  temporary.put_in_place(file, [&] {
-    if (::rename(path.c_str(), file.c_str()) != 0) fail("write", file, errno);
-  });
+  StagedFiles files;
+  files.add(file, bytes);
+  files.put_in_place();
 }
 
 std::string sha256_of(std::string_view bytes) {

@@ -2,7 +2,6 @@
 
 #include <array>
 
-#include "core/base/whole_file.h"
 #include "core/formats/codev_int.h"
 #include "core/formats/fits.h"
 #include "core/formats/hdf5_map.h"
@@ -45,15 +44,15 @@ std::string csv_text(const HeightMap& map) { return matrix_text(map, ','); }
 std::string blank_text(const HeightMap& map) { return matrix_text(map, ' '); }
 
 template <std::string (*bytes)(const HeightMap& map)>
-void write_bytes(const std::filesystem::path& file, const HeightMap& map) {
-  write_whole_file(file, bytes(map));
+void stage_bytes(const std::filesystem::path& file, const HeightMap& map, StagedFiles& files) {
+  files.add(file, bytes(map));
 }
 
 constexpr std::array kWriters{
-    MapWriter{".csv", write_bytes<csv_text>},      MapWriter{".txt", write_bytes<blank_text>},
-    MapWriter{".xyz", write_bytes<xyz_text>},      MapWriter{".npy", write_npy_with_sidecar},
-    MapWriter{".h5", write_bytes<hdf5_map_bytes>}, MapWriter{".hdf5", write_bytes<hdf5_map_bytes>},
-    MapWriter{".fits", write_bytes<fits_bytes>},   MapWriter{".sdf", write_bytes<sdf_text>},
+    MapWriter{".csv", stage_bytes<csv_text>},      MapWriter{".txt", stage_bytes<blank_text>},
+    MapWriter{".xyz", stage_bytes<xyz_text>},      MapWriter{".npy", stage_npy_with_sidecar},
+    MapWriter{".h5", stage_bytes<hdf5_map_bytes>}, MapWriter{".hdf5", stage_bytes<hdf5_map_bytes>},
+    MapWriter{".fits", stage_bytes<fits_bytes>},   MapWriter{".sdf", stage_bytes<sdf_text>},
 };
 
 /// "a, b and c" with the last word before c.

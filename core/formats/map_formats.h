@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/base/staged_files.h"
 #include "core/formats/map_source.h"
 #include "core/map/height_map.h"
 
@@ -36,8 +37,8 @@ std::string accepted_map_formats();
 /// A format that maps are written in, by the extension of the file (lower case, with its dot).
 struct MapWriter {
   const char* extension;
-  /// Writes the file, and what belongs to it, whole or not at all.
-  void (*write)(const std::filesystem::path& file, const HeightMap& map);
+  /// Writes the file, and what belongs to it, under temporary names (core/base/staged_files.h).
+  void (*stage)(const std::filesystem::path& file, const HeightMap& map, StagedFiles& files);
 };
 
 /// The writer of an extension, or null.

@@ -190,7 +190,7 @@ HeightMap read_map(const std::filesystem::path& file, const MapReadOptions& opti
   return map;
 }
 
-void write_map(const std::filesystem::path& file, const HeightMap& map) {
+void stage_map(const std::filesystem::path& file, const HeightMap& map, StagedFiles& files) {
   if (std::any_of(map.values.begin(), map.values.end(), [](double v) { return std::isinf(v); })) {
     throw InputError(
         fmt::format("cannot write '{}': the map holds an infinite value; finite or NaN is required", file.string()));
@@ -201,7 +201,13 @@ void write_map(const std::filesystem::path& file, const HeightMap& map) {
     throw InputError(fmt::format("cannot write '{}': extension '{}' is not of a map format; {} are accepted",
                                  file.string(), extension, written_map_extensions()));
   }
-  writer->write(file, map);
+  writer->stage(file, map, files);
+}
+
+void write_map(const std::filesystem::path& file, const HeightMap& map) {
+  StagedFiles files;
+  stage_map(file, map, files);
+  files.put_in_place();
 }
 
 }  // namespace dwell

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "core/base/staged_files.h"
 #include "core/map/height_map.h"
 
 namespace dwell {
@@ -26,5 +27,8 @@ HeightMap read_map(const std::filesystem::path& file, const MapReadOptions& opti
 /// Writes a map, whole or not at all, in the format of the extension (core/formats/map_formats.h); an NPY array with
 /// its sidecar. Values are written in nm (rates in nm/s) so that they read back equal.
 void write_map(const std::filesystem::path& file, const HeightMap& map);
+
+/// The same under temporary names, to be put in place with other files.
+void stage_map(const std::filesystem::path& file, const HeightMap& map, StagedFiles& files);
 
 }  // namespace dwell

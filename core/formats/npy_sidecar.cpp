@@ -139,20 +139,20 @@ MapHeader read_npy_sidecar(const std::filesystem::path& npy_file, std::string_vi
   return parse_npy_sidecar(read_whole_file(sidecar), sha256_of(bytes), sidecar.string());
 }
 
-void write_npy_with_sidecar(const std::filesystem::path& npy_file, const HeightMap& map) {
+void stage_npy_with_sidecar(const std::filesystem::path& npy_file, const HeightMap& map, StagedFiles& files) {
   const std::filesystem::path sidecar = npy_sidecar_name(npy_file);
   const std::string npy = npy_bytes(map);
   const Json entry = entry_of(map, npy);
   constexpr int kIndent = 2;
-  const auto write = [&](const Json& json) {
-    write_whole_file(sidecar, json.dump(kIndent, ' ', false, Json::error_handler_t::replace) + "\n");
+  const auto stage = [&](const Json& json) {
+    files.add(sidecar, json.dump(kIndent, ' ', false, Json::error_handler_t::replace) + "\n");
   };
   const bool replaces = is_there(npy_file);
   Json both = entry;
   if (replaces) both["previous"] = entry_of_existing(npy_file, sidecar);
-  write(both);
-  write_whole_file(npy_file, npy);
-  if (replaces) write(entry);
+  stage(both);
+  files.add(npy_file, npy);
+  if (replaces) stage(entry);
 }
 
 }  // namespace dwell

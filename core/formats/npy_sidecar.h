@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/base/staged_files.h"
 #include "core/formats/map_header.h"
 #include "core/map/height_map.h"
 
@@ -24,8 +25,8 @@ MapHeader parse_npy_sidecar(const std::string& text, const std::string& sha256, 
 /// naming the sidecar and the field: not such a JSON object, or stale: sha256 is of other bytes.
 MapHeader read_npy_sidecar(const std::filesystem::path& npy_file, std::string_view bytes);
 
-/// Writes the map's values to `npy_file` and the rest into its sidecar. Both are renamed into place so that whenever it
-/// is interrupted the file reads with its own pitch and origin: those of the file before or of the new one.
-void write_npy_with_sidecar(const std::filesystem::path& npy_file, const HeightMap& map);
+/// Stages the map's values as `npy_file` and the rest as its sidecar, in such an order of renames that whenever these
+/// are interrupted the file reads with its own pitch and origin: those of the file before or of the new one.
+void stage_npy_with_sidecar(const std::filesystem::path& npy_file, const HeightMap& map, StagedFiles& files);
 
 }  // namespace dwell

@@ -1,5 +1,7 @@
 #include "core/removal/scattered_removal.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,6 +9,7 @@
 #include <span>
 #include <stdexcept>
 
+#include "core/base/memory.h"
 #include "core/motion/stroke_quadrature.h"
 #include "core/numerics/bspline.h"
 
@@ -152,6 +155,17 @@ void spread_all(const Grid& map, const PaddedConvolution& convolution, const std
   }
 }
 
+/// The entries of a stroke on average, from strokes evenly spread over the path.
+double entries_a_stroke(const Grid& map, const PaddedConvolution& convolution, const std::vector<Stroke>& strokes) {
+  constexpr std::size_t kSample = 2048;
+  const std::size_t step = std::max<std::size_t>(1, strokes.size() / kSample);
+  StrokeSpreader spreader(map, convolution);
+  std::vector<NodeWeight> entries;
+  std::size_t sampled = 0;
+  for (std::size_t k = 0; k < strokes.size(); k += step, ++sampled) spreader.spread(strokes[k], entries);
+  return sampled == 0 ? 0.0 : static_cast<double>(entries.size()) / static_cast<double>(sampled);
+}
+
 }  // namespace
 
 ScatteredRemoval::ScatteredRemoval(const Grid& map, const std::vector<Index>& pixels, const RemovalKernel& kernel,
@@ -160,6 +174,7 @@ ScatteredRemoval::ScatteredRemoval(const Grid& map, const std::vector<Index>& pi
       convolution_(map, pixels, kernel.surface.coefficients(), kernel.half_rows, kernel.half_cols, threads),
       threads_(threads) {
   check_size(convolution_);
+  reserve_weights(entries_a_stroke(map, convolution_, strokes) * static_cast<double>(strokes.size()));
   by_stroke_.begin.reserve(strokes.size() + 1);
   by_stroke_.begin.push_back(0);
   spread_all(map, convolution_, strokes, threads, [this](std::span<const NodeWeight> entries) {
@@ -170,6 +185,15 @@ ScatteredRemoval::ScatteredRemoval(const Grid& map, const std::vector<Index>& pi
     by_stroke_.begin.push_back(static_cast<Index>(by_stroke_.index.size()));
   });
   transpose_weights();
+}
+
+void ScatteredRemoval::reserve_weights(double expected) {
+  // In both orders. A little less is asked for than is expected, so that nothing is refused that would just fit.
+  constexpr double kBytes = 2.0 * (sizeof(std::int32_t) + sizeof(double)), kCertain = 0.95, kRoom = 1.02;
+  require_memory(kCertain * kBytes * expected, fmt::format("the removal operator of {} dwell points", cols()));
+  // A vector that grows by itself holds up to three times its values for a while.
+  by_stroke_.index.reserve(static_cast<std::size_t>(kRoom * expected));
+  by_stroke_.weight.reserve(static_cast<std::size_t>(kRoom * expected));
 }
 
 void ScatteredRemoval::transpose_weights() {

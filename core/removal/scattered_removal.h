@@ -17,6 +17,7 @@ namespace dwell {
 /// Memory: the padded arrays and 24 bytes a weight.
 class ScatteredRemoval final : public RemovalOperator {
  public:
+  /// Throws OutOfMemory before the weights are made, if these take more than the machine has.
   ScatteredRemoval(const Grid& map, const std::vector<Index>& pixels, const RemovalKernel& kernel,
                    const std::vector<Stroke>& strokes, int threads);
 
@@ -32,6 +33,7 @@ class ScatteredRemoval final : public RemovalOperator {
 
   void do_apply(const Vector& t, Vector& removal) override;
   void do_apply_adjoint(const Vector& residual, Vector& t) override;
+  void reserve_weights(double expected);
   void transpose_weights();
 
   PaddedConvolution convolution_;

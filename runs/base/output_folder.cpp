@@ -2,15 +2,16 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <system_error>
+#include <utility>
 
 #include "core/base/errors.h"
+#include "core/base/temporary_name.h"
 #include "core/base/whole_file.h"
 
 namespace dwell {
@@ -87,39 +88,25 @@ const ResultFiles& pareto_files() {
 
 OutputFolder::OutputFolder(const fs::path& target, const ResultFiles& files) : target_(normal(target, files)) {
   check_target(target_, target, files);
-  temporary_ = target_.parent_path() / fmt::format(".{}.tmp-{}", target_.filename().string(), getpid());
-  make_parents();
-  unfinished_.emplace(temporary_, [&] {
-    std::error_code error;
-    fs::remove_all(temporary_, error);
-    fs::create_directory(temporary_, error);
-    if (error) refuse(target, error.message());
+  made_parents_.make(target_.parent_path());
+  unfinished_.emplace(UnfinishedOutput::Kind::Folder, [&] {
+    try {
+      TemporaryName name = make_temporary_folder(target_);
+      held_ = std::move(name.held);
+      return temporary_ = std::move(name.path);
+    } catch (const std::system_error& error) {
+      refuse(target, error.code().message());
+    }
   });
-}
-
-void OutputFolder::make_parents() {
-  std::vector<fs::path> missing;
-  std::error_code error;
-  for (fs::path parent = target_.parent_path(); !fs::exists(parent, error) && parent.has_relative_path();
-       parent = parent.parent_path()) {
-    missing.push_back(parent);
-  }
-  for (auto parent = missing.rbegin(); parent != missing.rend(); ++parent) {
-    const auto make = [&] {
-      fs::create_directory(*parent, error);
-      if (error) refuse(target_, error.message());
-    };
-    made_parents_.folders.emplace_back(*parent, make, UnfinishedOutput::Kind::EmptyOnly);
-  }
 }
 
 void OutputFolder::write(const std::string& name, std::string_view bytes) const { write_whole_file(path(name), bytes); }
 
 void OutputFolder::commit() {
-  unfinished_->put_in_place(target_, [this] { put_in_place(); });
+  unfinished_->put_in_place(target_, [this] { exchange(); });
 }
 
-void OutputFolder::put_in_place() const {
+void OutputFolder::exchange() const {
   if (rename(temporary_.c_str(), target_.c_str()) == 0) return;  // no earlier result, or an empty folder
   if (errno != EEXIST && errno != ENOTEMPTY) refuse(target_, std::strerror(errno));
   // Exchanged in one step: at no moment is there neither the old result nor the new one. The old one is then removed.

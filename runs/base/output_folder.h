@@ -1,13 +1,14 @@
 #pragma once
 
-#include <deque>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "core/base/descriptor.h"
 #include "core/base/unfinished_output.h"
+#include "runs/base/made_folders.h"
 
 namespace dwell {
 
@@ -42,23 +43,11 @@ class OutputFolder {
   void commit();
 
  private:
-  /// The folders that were made to hold the target; those in which nothing is go again, the innermost first.
-  struct MadeParents {
-    std::deque<UnfinishedOutput> folders;  // outermost first
-
-    MadeParents() = default;
-    MadeParents(const MadeParents&) = delete;
-    MadeParents& operator=(const MadeParents&) = delete;
-    ~MadeParents() {
-      while (!folders.empty()) folders.pop_back();
-    }
-  };
-
-  void make_parents();
-  void put_in_place() const;
+  void exchange() const;
 
   std::filesystem::path target_, temporary_;
-  MadeParents made_parents_;
+  MadeFolders made_parents_;
+  Descriptor held_;  // the mark that the temporary folder is work in progress
   std::optional<UnfinishedOutput> unfinished_;
 };
 

@@ -32,9 +32,6 @@ const ResultFiles& example_files() {
 Example write_example(const std::filesystem::path& folder, const ExampleOptions& mirror, const ExampleTifOptions& tif,
                       const Progress& progress) {
   Example example{rounded(example_mirror(mirror, progress)), rounded(example_tif(tif))};
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw InputError(fmt::format("--out: cannot make the folder '{}': {}", folder.string(), error.message()));
   progress.step("writing mirror.csv");
   write_map(folder / "mirror.csv", example.mirror);
   progress.check();

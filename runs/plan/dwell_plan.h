@@ -27,7 +27,8 @@ struct DwellPlan {
   std::vector<std::string> limits;  // that were reached, one sentence each
 };
 
-/// Solves the dwell problem of a part and a path laid on it. Throws InputError for options that contradict each other
+/// Solves the dwell problem of a part and a path laid on it. Throws OutOfMemory before the work if the machine has less
+/// memory than it takes for certain, InputError for options that contradict each other
 /// (weights_are_searched), Interrupted, std::runtime_error if the solver fails. Cost: the solver's operator
 /// applications dominate (docs/math.md).
 DwellPlan find_dwell(const Part& part, const LaidPath& laid, const DwellOptions& options,

@@ -1,8 +1,11 @@
 #include "runs/plan/plan_problem.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <stdexcept>
 
+#include "core/base/memory.h"
 #include "core/base/units.h"
 #include "core/removal/removal_geometry.h"
 #include "core/removal/simulate.h"
@@ -15,6 +18,14 @@ namespace {
 std::shared_ptr<const RemovalGeometry> geometry_of(const Part& part, const LaidPath& laid) {
   return std::make_shared<const RemovalGeometry>(
       RemovalGeometry{part.map.grid, finite_pixels(part.map), part.kernel, laid.strokes, part.threads});
+}
+
+/// What any solver holds at least: of auto, 14 vectors of the dwell points, of others four; and three of the pixels.
+void require_memory_to_solve(const Part& part, const LaidPath& laid, SolverKind solver) {
+  const double points = static_cast<double>(laid.strokes.size()), pixels = static_cast<double>(part.map.valid_pixels());
+  const double vectors = (solver == SolverKind::Auto ? 14.0 : 4.0) * points + 3.0 * pixels;
+  require_memory(sizeof(double) * vectors,
+                 fmt::format("the solution for {} pixels and {} dwell points", pixels, points));
 }
 
 /// What the dwell has to remove: the map, less what the moves between halts remove on their way.
@@ -38,6 +49,7 @@ PlanProblem::PlanProblem(const Part& part, const LaidPath& laid, const DwellOpti
       kind_(options.solver),
       geometry_(geometry_of(part, laid)),
       removal_(make_removal_operator(*geometry_)) {
+  require_memory_to_solve(part, laid, kind_);
   const FeedLimits limits = options.machine.feed_limits();
   progress.step("setting up the target");
   problem_.removal = removal_.get();

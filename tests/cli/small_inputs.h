@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <set>
@@ -79,6 +80,22 @@ struct SmallInputs {
   }
   void remove_long_plan() const {
     for (const char* name : {"plan-rough.npy", "plan-rough.npy.json"}) std::filesystem::remove(*this / name);
+  }
+
+  /// The exit code of the program with arguments, redirections and `before` (limits) as a shell takes them, in the
+  /// folder. What it says goes to said.txt unless redirected.
+  int exit_of(const std::string& words, const std::string& before = "") const {
+    const std::string command =
+        "cd '" + folder.path().string() + "' && exec 2>said.txt; " + before + "'" + DWELL_PROGRAM + "' " + words;
+    const int status = std::system(command.c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  }
+
+  /// The words of plan() as a shell takes them.
+  static std::string plan_for_shell(const std::vector<std::string>& more = {}) {
+    std::string words;
+    for (const std::string& word : plan(more)) words += "'" + word + "' ";
+    return words;
   }
 
   ProgramResult run(const std::vector<std::string>& arguments) const { return run_program(folder.path(), arguments); }

@@ -1,7 +1,4 @@
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-
-#include <cstdlib>
 
 #include "core/base/whole_file.h"
 #include "tests/cli/small_inputs.h"
@@ -12,34 +9,25 @@ namespace {
 using test::expect_has;
 using test::SmallInputs;
 
-/// The exit code of the program with arguments and redirections as a shell takes them, in the inputs' folder. What it
-/// says goes to said.txt unless redirected.
-int exit_of(const SmallInputs& inputs, const std::string& words) {
-  const std::string command =
-      "cd '" + inputs.folder.path().string() + "' && exec 2>said.txt; '" + DWELL_PROGRAM + "' " + words;
-  const int status = std::system(command.c_str());
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-}
-
 TEST(StandardStreams, AnswerThatCannotBeWrittenIsAFault) {
   const SmallInputs inputs;
   for (const char* words : {"map map.csv --map-pixel 0.5", "map map.csv --map-pixel 0.5 --json", "--help", "--version",
                             "plan --map map.csv --tif tif.csv --path raster:pitch=1 --write-job"}) {
-    EXPECT_EQ(exit_of(inputs, std::string(words) + " >/dev/full"), 1) << words;
+    EXPECT_EQ(inputs.exit_of(std::string(words) + " >/dev/full"), 1) << words;
     expect_has(read_whole_file(inputs / "said.txt"), "cannot write the answer to standard output");
-    EXPECT_EQ(exit_of(inputs, std::string(words) + " >&-"), 1) << words;
+    EXPECT_EQ(inputs.exit_of(std::string(words) + " >&-"), 1) << words;
     expect_has(read_whole_file(inputs / "said.txt"), "cannot write the answer to standard output");
-    EXPECT_EQ(exit_of(inputs, std::string(words) + " >/dev/null"), 0) << words;
+    EXPECT_EQ(inputs.exit_of(std::string(words) + " >/dev/null"), 0) << words;
   }
 }
 
 TEST(StandardStreams, ThatAreClosedTakeNothingFromTheFilesThatAreWritten) {
   const SmallInputs inputs;
-  ASSERT_EQ(exit_of(inputs, "map map.csv --map-pixel 0.5 --write a.npy"), 0);
-  EXPECT_EQ(exit_of(inputs, "map map.csv --map-pixel 0.5 --write b.npy <&- >&- 2>&-"), 1);
+  ASSERT_EQ(inputs.exit_of("map map.csv --map-pixel 0.5 --write a.npy"), 0);
+  EXPECT_EQ(inputs.exit_of("map map.csv --map-pixel 0.5 --write b.npy <&- >&- 2>&-"), 1);
   EXPECT_EQ(read_whole_file(inputs / "b.npy"), read_whole_file(inputs / "a.npy"));
   // A fault that nobody reads of is still told by the exit code.
-  EXPECT_EQ(exit_of(inputs, "map none.csv --map-pixel 0.5 2>&-"), 2);
+  EXPECT_EQ(inputs.exit_of("map none.csv --map-pixel 0.5 2>&-"), 2);
 }
 
 TEST(StandardStreams, ThatNobodyReadsEndNothing) {
@@ -48,7 +36,7 @@ TEST(StandardStreams, ThatNobodyReadsEndNothing) {
   std::string words;
   for (const std::string& word : SmallInputs::plan()) words += "'" + word + "' ";
   // The reader of both streams is gone at once.
-  exit_of(inputs, "--version; ('" DWELL_PROGRAM "' " + words + "; echo $? >code.txt) 2>&1 | true; sleep 0.1");
+  inputs.exit_of("--version; ('" DWELL_PROGRAM "' " + words + "; echo $? >code.txt) 2>&1 | true; sleep 0.1");
   for (int k = 0; k < 200 && !std::filesystem::exists(inputs / "code.txt"); ++k) usleep(50'000);
   std::set<std::string> after = test::names_in(inputs.folder.path());
   EXPECT_EQ(read_whole_file(inputs / "code.txt"), "1\n");  // the plan is there, the answer is lost

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <functional>
 #include <stdexcept>
 #include <thread>
 
@@ -27,6 +28,15 @@ class GiveUpOutputs : public testing::Test {
     _exit(code);
   }
 
+  using Kind = UnfinishedOutput::Kind;
+
+  static std::function<fs::path()> made(const fs::path& folder) {
+    return [folder] {
+      fs::create_directory(folder);
+      return folder;
+    };
+  }
+
   TemporaryFolder temporary_;
   fs::path folder_ = temporary_.path() / "a", inner_ = folder_ / "b", result_ = temporary_.path() / "result";
 };
@@ -34,9 +44,8 @@ class GiveUpOutputs : public testing::Test {
 TEST_F(GiveUpOutputs, RemovesWhatIsUnfinishedFromAnotherThread) {
   EXPECT_EXIT(
       {
-        const UnfinishedOutput parent(
-            folder_, [&] { fs::create_directory(folder_); }, UnfinishedOutput::Kind::EmptyOnly);
-        const UnfinishedOutput output(inner_, [&] { fs::create_directory(inner_); });
+        const UnfinishedOutput parent(Kind::EmptyFolder, made(folder_));
+        const UnfinishedOutput output(Kind::Folder, made(inner_));
         write_whole_file(inner_ / "file", "in an unfinished folder, so not a result");
         give_up();
       },
@@ -47,8 +56,7 @@ TEST_F(GiveUpOutputs, RemovesWhatIsUnfinishedFromAnotherThread) {
 TEST_F(GiveUpOutputs, LeavesAParentThatHoldsSomethingElse) {
   EXPECT_EXIT(
       {
-        const UnfinishedOutput parent(
-            folder_, [&] { fs::create_directory(folder_); }, UnfinishedOutput::Kind::EmptyOnly);
+        const UnfinishedOutput parent(Kind::EmptyFolder, made(folder_));
         std::ofstream(folder_ / "of somebody else") << "kept";
         give_up();
       },
@@ -103,7 +111,8 @@ TEST_F(GiveUpOutputs, WaitsForAGroup) {
 TEST(UnfinishedOutput, OfWhichNothingWasMadeIsNotKnown) {
   const TemporaryFolder temporary;
   const fs::path path = temporary.path() / "a";
-  EXPECT_THROW(UnfinishedOutput(path, [] { throw std::runtime_error("full"); }), std::runtime_error);
+  const auto fail = []() -> fs::path { throw std::runtime_error("full"); };
+  EXPECT_THROW(UnfinishedOutput(UnfinishedOutput::Kind::File, fail), std::runtime_error);
   std::ofstream(path) << "made by another";
   EXPECT_EXIT(
       {
@@ -112,6 +121,18 @@ TEST(UnfinishedOutput, OfWhichNothingWasMadeIsNotKnown) {
       },
       testing::ExitedWithCode(7), "");
   EXPECT_TRUE(fs::exists(path));
+}
+
+TEST(UnfinishedOutput, LeavesAFileOfItsOldNameAloneOnceItIsInPlace) {
+  const TemporaryFolder temporary;
+  const fs::path path = temporary.path() / "a", target = temporary.path() / "result";
+  {
+    UnfinishedOutput output(UnfinishedOutput::Kind::File, [&] { return temporary.file("a", "whole"); });
+    output.put_in_place(target, [&] { fs::rename(path, target); });
+    std::ofstream(path) << "of another process";
+  }
+  EXPECT_EQ(read_whole_file(path), "of another process");
+  EXPECT_EQ(read_whole_file(target), "whole");
 }
 
 }  // namespace
