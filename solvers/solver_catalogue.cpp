@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <stdexcept>
+#include <utility>
 
 #include "core/base/errors.h"
 #include "solvers/matched/auto_solver.h"
 #include "solvers/native/dense_nnls.h"
 #include "solvers/native/projected_cg.h"
 #include "solvers/native/projected_lbfgs.h"
+#include "solvers/native/questioned_solver.h"
 #include "solvers/native/spectral_projected_gradient.h"
 #include "solvers/peers/ceres_solver.h"
 #include "solvers/peers/fourier_deconvolution.h"
@@ -97,7 +99,9 @@ SolverKind parse_solver_kind(const std::string& text) {
 
 std::unique_ptr<DwellSolver> make_solver(const SolverOptions& options) {
   validate(options);
-  return solver_record(options.kind).make(options);
+  std::unique_ptr<DwellSolver> solver = solver_record(options.kind).make(options);
+  const bool by_the_same_rule = options.kind == SolverKind::Auto || options.kind == SolverKind::ProjectedLbfgs;
+  return by_the_same_rule ? std::move(solver) : std::make_unique<QuestionedSolver>(std::move(solver), options);
 }
 
 }  // namespace dwell

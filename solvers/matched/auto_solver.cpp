@@ -22,8 +22,10 @@ constexpr double kLooseKernelTolerance = 0.03;  // for measured removal function
 // Pitch of the finer pixels and of the lattice of smooth dwell, in sigmas: smooth dwell at 0.8 leaves 2 to 9 % of the
 // objective, at 0.4 under 1.5 %.
 constexpr double kFinePitch = 0.5;
-// Finer pixels are not worth their stencils: 196 bytes a node, which at a factor of two is six vectors of the map.
-constexpr Index kFinestFactor = 3;
+// Of large maps, finer pixels are not worth their stencils: 196 bytes a node, which at a factor of two is six vectors
+// of the map. A small map has them to spare, and a removal function of six of its pixels is worth no more than a factor
+// of two.
+constexpr Index kFinestFactor = 3, kFinestOfSmallMap = 2, kSmallMap = Index{1} << 18;
 // Smooth dwell pays with so many dwell points a variable; finer levels of it only where the points are very many.
 constexpr Index kPointsPerVariable = 3;
 constexpr Index kPointsPerFinerVariable = 10;
@@ -70,6 +72,10 @@ double narrowest_sigma(const DwellProblem& problem) {
   double least = std::numeric_limits<double>::infinity();
   for (const DwellPart& part : problem.parts) least = std::min(least, equivalent_sigma(part.geometry->kernel));
   return least;
+}
+
+Index finest_factor(const DwellProblem& problem) {
+  return problem.pixels() <= kSmallMap ? kFinestOfSmallMap : kFinestFactor;
 }
 
 /// Of an operator pair of the full problem, by transform_cost.
@@ -120,6 +126,7 @@ class Run {
         rules_(problem, options, summary),
         objective_(problem),
         t_(t),
+        finest_(finest_factor(problem)),
         sigma_(narrowest_sigma(problem)),
         pair_cost_(pair_cost(problem)) {
     monitor_ = [this](const QuadraticPoint& model) { return go_on(model); };
@@ -183,7 +190,7 @@ class Run {
     std::optional<StackedSmoothDwell> dwell;
     Vector s;
     Index points_per_variable = kPointsPerVariable;
-    for (; std::min(factor.x, factor.y) >= kFinestFactor && !done(); factor = {factor.x / 2, factor.y / 2}) {
+    for (; std::min(factor.x, factor.y) >= finest_ && !done(); factor = {factor.x / 2, factor.y / 2}) {
       StackedSmoothDwell next(p_, factor);
       if (!next.has_points_for_each(points_per_variable)) break;
       s = dwell ? next.refined(*dwell, s) : Vector::Zero(next.size());
@@ -244,8 +251,7 @@ class Run {
   /// The dwell points themselves, on pixels made finer each time the model no longer leads on.
   void points_levels(CoarseFactor factor) {
     BoundedLbfgs lbfgs(p_.lower, p_.upper, p_.threads());
-    for (bool exact = false; !done() && std::min(factor.x, factor.y) >= kFinestFactor;
-         factor = {factor.x / 2, factor.y / 2})
+    for (bool exact = false; !done() && std::min(factor.x, factor.y) >= finest_; factor = {factor.x / 2, factor.y / 2})
       exact = points_level(lbfgs, factor, exact);
   }
 
@@ -257,7 +263,7 @@ class Run {
     set_product_cost(hessian.relative_cost(), kPointWork * static_cast<double>(p_.points()));
     lbfgs.forget();
     const double pitch = static_cast<double>(std::max(factor.x, factor.y));
-    const bool fine = pitch <= kFinePitch * sigma_ || std::min(factor.x, factor.y) / 2 < kFinestFactor;
+    const bool fine = pitch <= kFinePitch * sigma_ || std::min(factor.x, factor.y) / 2 < finest_;
     while (!done()) {
       model_.x = point_.x;
       model_.value = point_.value;
@@ -315,6 +321,7 @@ class Run {
   QuadraticPoint model_;  // of the dwell points; its x becomes the step to take
   Vector &d_ = model_.x, r_, image_;
   BoundedLbfgs::Monitor monitor_;
+  Index finest_;              // factor
   double sigma_, pair_cost_;  // of the narrowest removal function [pixels]; transform_cost of an operator pair
   double product_cost_ = 0.0;
 
@@ -332,7 +339,7 @@ void AutoSolver::do_solve(const DwellProblem& problem, Vector& t, SolverSummary&
   double seconds = 0.0;
   if (problem.has_geometry()) {
     const CoarseFactor factor = pixels_for(problem);
-    if (std::min(factor.x, factor.y) < kFinestFactor) {
+    if (std::min(factor.x, factor.y) < finest_factor(problem)) {
       why = "removal function too narrow to coarsen the map";
     } else {
       Run run(problem, options_, t, summary);
