@@ -1,6 +1,7 @@
 #include "bench/child.h"
 
 #include <fcntl.h>
+#include <sched.h>
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -15,11 +16,27 @@
 namespace dwell::bench {
 namespace {
 
+/// The first of those on which this process may run; outlives execv.
+bool stay_on_one_processor() {
+  cpu_set_t allowed;
+  if (sched_getaffinity(0, sizeof allowed, &allowed) != 0) return false;
+  int first = 0;
+  while (first < CPU_SETSIZE && !CPU_ISSET(first, &allowed)) ++first;
+  CPU_ZERO(&allowed);
+  CPU_SET(first, &allowed);
+  return sched_setaffinity(0, sizeof allowed, &allowed) == 0;
+}
+
+double seconds_of(const timeval& time) {
+  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+}
+
 [[noreturn]] void become(const std::filesystem::path& program, char* const* argv, const ChildOptions& options) {
   if (!options.output.empty()) {
     const int file = open(options.output.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
     if (file < 0 || dup2(file, STDOUT_FILENO) < 0 || dup2(file, STDERR_FILENO) < 0) _exit(126);
   }
+  if (options.one_processor && !stay_on_one_processor()) _exit(126);
   // An alarm outlives execv.
   if (options.limit > 0.0) alarm(static_cast<unsigned>(std::ceil(options.limit)));
   execv(program.c_str(), argv);
@@ -48,6 +65,7 @@ ChildRun run_program(const std::filesystem::path& program, const std::vector<std
   }
   ChildRun run;
   run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  run.cpu_seconds = seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime);
   run.peak_memory = 1024.0 * static_cast<double>(usage.ru_maxrss);
   if (WIFEXITED(status)) run.exit_code = WEXITSTATUS(status);
   if (run.exit_code == 0) run.end = ChildEnd::Done;

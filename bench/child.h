@@ -12,12 +12,14 @@ struct ChildOptions {
   int threads = 1;               // OMP_NUM_THREADS
   double limit = 0.0;            // ended by SIGALRM after so many seconds of wall clock, rounded up; 0 = never
   std::filesystem::path output;  // takes its standard output and error; empty = those of this process
+  bool one_processor = false;    // whatever the machine has, it may run on the first alone
 };
 
 struct ChildRun {
   ChildEnd end = ChildEnd::Failed;  // Killed: by SIGALRM
   int exit_code = -1;               // -1 if a signal ended it
   double seconds = 0.0;             // wall clock, from before it was started until it was gone
+  double cpu_seconds = 0.0;         // of all its threads, in the program and in the kernel
   double peak_memory = 0.0;         // resident, as the kernel tells on its end (ru_maxrss) [bytes]
 };
 

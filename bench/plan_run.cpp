@@ -15,13 +15,16 @@
 namespace dwell::bench {
 namespace {
 
-constexpr double kPitch = 0.1;  // [mm]
-constexpr double kRms = 100.0;  // [nm]
+constexpr double kPitch = 0.1;    // [mm]
+constexpr double kRms = 100.0;    // [nm]
+constexpr long kSmallSize = 512;  // [pixels]
 
 struct PlanCase {
   std::string name, what;
   long size = 0;  // edge of the map [pixels]; 0 = not a made-up one
   std::vector<std::string> arguments;
+  int threads = 2;
+  bool one_processor = false;
 };
 
 /// The square mirror of the scenarios, as files: tool of sigma = size / 50 pixels, dwell at every 4th pixel and up to
@@ -47,20 +50,30 @@ PlanCase udo_case(const std::filesystem::path& folder) {
            "file:" + (folder / "path_and_published_dwell.csv").string(), "--min-dwell", "0.1", "--time-price", "5e-6"}};
 }
 
+/// A plan on one processor, with so many threads.
+PlanCase one_processor_case(int threads, const std::filesystem::path& map) {
+  PlanCase plan = square_case(kSmallSize, "moving", map);
+  plan.name = fmt::format("one-processor-{}-thread{}", threads, threads == 1 ? "" : "s");
+  plan.what += ", on one processor";
+  plan.threads = threads;
+  plan.one_processor = true;
+  return plan;
+}
+
 /// What a program that failed said at last.
 std::string last_line(std::string text) {
   while (text.ends_with('\n')) text.pop_back();
   return text.substr(text.rfind('\n') + 1);
 }
 
-nlohmann::json run_case(const PlanCase& plan, int threads, double limit, const std::filesystem::path& folder) {
+nlohmann::json run_case(const PlanCase& plan, double limit, const std::filesystem::path& folder) {
   const std::filesystem::path out = folder / plan.name, words = folder / (plan.name + ".txt");
   std::vector<std::string> arguments{"plan"};
   arguments.insert(arguments.end(), plan.arguments.begin(), plan.arguments.end());
   for (const std::string& word :
-       {std::string("--threads"), std::to_string(threads), std::string("--out"), out.string()})
+       {std::string("--threads"), std::to_string(plan.threads), std::string("--out"), out.string()})
     arguments.push_back(word);
-  const ChildRun child = run_program(DWELL_PROGRAM, arguments, {threads, limit, words});
+  const ChildRun child = run_program(DWELL_PROGRAM, arguments, {plan.threads, limit, words, plan.one_processor});
   constexpr int kLimitReached = 3;  // a finished plan, with a remark
   if (child.exit_code != 0 && child.exit_code != kLimitReached) {
     const std::string why = child.end == ChildEnd::Killed ? fmt::format("not done after {:.0f} s", limit)
@@ -70,6 +83,7 @@ nlohmann::json run_case(const PlanCase& plan, int threads, double limit, const s
   const auto summary = nlohmann::json::parse(read_whole_file(out / "summary.json"));
   std::filesystem::remove_all(out);
   return {{"seconds", child.seconds},
+          {"cpu_seconds", child.cpu_seconds},
           {"peak_memory", child.peak_memory},
           {"exit_code", child.exit_code},
           {"points", summary.at("path").at("points")},
@@ -92,18 +106,22 @@ std::string plan_in_words(const nlohmann::json& result) {
 
 nlohmann::json run_plans(const PlanRunOptions& options, const Budget& budget) {
   const ScratchFolder scratch;
-  const std::filesystem::path map = scratch.path() / "map.npy", udo = options.data / "udo-raster";
+  const std::filesystem::path map = scratch.path() / "map.npy", small = scratch.path() / "small.npy",
+                              udo = options.data / "udo-raster";
   std::vector<PlanCase> cases{square_case(options.size, "stop", map), square_case(options.size, "moving", map)};
+  for (PlanCase& plan : cases) plan.threads = options.threads;
   if (std::filesystem::is_regular_file(udo / "map_nm.csv")) cases.push_back(udo_case(udo));
+  for (const int threads : {1, 2}) cases.push_back(one_processor_case(threads, small));
   write_whole_file(map, npy_bytes(noise_mirror(options.size, kPitch, kRms, 1)));
+  write_whole_file(small, npy_bytes(noise_mirror(kSmallSize, kPitch, kRms, 1)));
 
   nlohmann::json all = nlohmann::json::array();
   for (const PlanCase& plan : cases) {
     const double limit = std::min(options.longest, budget.left());
-    nlohmann::json result = limit < 1.0 ? nlohmann::json{{"skipped", "no time left"}}
-                                        : run_case(plan, options.threads, limit, scratch.path());
-    result.update({{"name", plan.name}, {"what", plan.what}, {"size", plan.size}, {"threads", options.threads}});
-    fmt::print("{:7.1f} s  plan {:20} {} threads: {}\n", budget.spent(), plan.name, options.threads,
+    nlohmann::json result =
+        limit < 1.0 ? nlohmann::json{{"skipped", "no time left"}} : run_case(plan, limit, scratch.path());
+    result.update({{"name", plan.name}, {"what", plan.what}, {"size", plan.size}, {"threads", plan.threads}});
+    fmt::print("{:7.1f} s  plan {:20} {} threads: {}\n", budget.spent(), plan.name, plan.threads,
                plan_in_words(result));
     std::fflush(stdout);
     all.push_back(std::move(result));

@@ -16,9 +16,10 @@ struct PlanRunOptions {
 };
 
 /// Times `dwell plan` as a user calls it, a process each, from files to the folder with program.nc: a made-up map in
-/// NPY with a Gaussian tool that dwells at every 4th pixel, running through and halting; and the mirror udo-raster, if
-/// `data` has it. One entry each: name, what, threads, size, and
-///   seconds, peak_memory        of the process [s], [bytes]
+/// NPY with a Gaussian tool that dwells at every 4th pixel, running through and halting; the mirror udo-raster, if
+/// `data` has it; and a small map with one thread and with two where only one processor is to be had, where threads
+/// that wait by spinning would take the processor from those that work. One entry each: name, what, threads, size, and
+///   seconds, cpu_seconds, peak_memory  of the process [s], [s], [bytes]
 ///   solver_seconds, points, status, residual_rms, exit_code  as summary.json says
 /// or "failed" or "skipped", why. Making the map is not part of it.
 nlohmann::json run_plans(const PlanRunOptions& options, const Budget& budget);

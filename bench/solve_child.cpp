@@ -5,6 +5,7 @@
 #include "bench/child.h"
 #include "bench/scratch_folder.h"
 #include "core/base/whole_file.h"
+#include "solvers/solver_catalogue.h"
 
 namespace dwell::bench {
 

@@ -18,6 +18,7 @@ constexpr double kPairsTo1Percent = 30.0, kPairsToCertificate = 150.0, kCertific
 constexpr double kOverTransform = 1.25, kThreadRatio = 1.6, kPeerRatio = 10.0;
 constexpr double kPeerPoints = 1e4;  // from so many dwell points on
 constexpr double kUdoSeconds = 0.5, kUdoPlanSeconds = 2.0;
+constexpr double kOneProcessorRatio = 1.3;
 constexpr double kUdoStep = 0.0040, kUdoResidual = 0.155, kUdoTotal = 425.0;  // [s], [nm], [s]
 constexpr double kPlanSeconds = 20.0, kPlanGib = 6.0;
 constexpr double kReadSeconds = 0.1;
@@ -201,6 +202,17 @@ TargetLine plan_line(const Json& all, const std::string& name, double seconds_li
   return line;
 }
 
+TargetLine one_processor_line(const Json& all) {
+  TargetLine line{"2 threads over 1 where one processor is to be had, CPU seconds of a plan",
+                  fmt::format("<= {:g}", kOneProcessorRatio), "", Verdict::NotMeasured};
+  const Json one = find_plan(all, "one-processor-1-thread"), two = find_plan(all, "one-processor-2-threads");
+  if (!one.contains("cpu_seconds") || !two.contains("cpu_seconds")) return line;
+  const double alone = number(one, "cpu_seconds"), both = number(two, "cpu_seconds");
+  line.seen = fmt::format("{:.2f} ({:.2f} s, {:.2f} s)", both / alone, both, alone);
+  line.verdict = at_most(both / alone, kOneProcessorRatio);
+  return line;
+}
+
 /// Fastest repetition of a micro benchmark [s].
 std::optional<double> fastest(const Json& all, const std::string& name, long size) {
   for (const Json& r : list_of(all, "micro")) {
@@ -307,6 +319,7 @@ std::vector<TargetLine> target_lines(const Json& all) {
           plan_line(all, "udo-raster", kUdoPlanSeconds, kAny),
           plan_line(all, "4096-every-4-stop", kPlanSeconds, kPlanGib),
           plan_line(all, "4096-every-4-moving", kPlanSeconds, kPlanGib),
+          one_processor_line(all),
           memory_line(all),
           planner_line(all, "raster, spiral, hilbert, multi-pitch", {"raster", "spiral", "hilbert", "multi-pitch"},
                        kPlannerRate),

@@ -223,6 +223,18 @@ TEST(Targets, UdoHasToMeetAllFour) {
   }
 }
 
+TEST(Targets, ThreadsDoNotSpinForOneProcessor) {
+  const auto of = [](const Json& one, const Json& two) {
+    return line({{"plans", {one, two}}}, "2 threads over 1").verdict;
+  };
+  const Json one{{"name", "one-processor-1-thread"}, {"cpu_seconds", 2.0}};
+  Json two{{"name", "one-processor-2-threads"}, {"cpu_seconds", 2.6}};
+  EXPECT_EQ(of(one, two), Verdict::Met);
+  two["cpu_seconds"] = 2.7;
+  EXPECT_EQ(of(one, two), Verdict::Missed);
+  EXPECT_EQ(of(one, {{"name", "one-processor-2-threads"}, {"failed", "not done"}}), Verdict::NotMeasured);
+}
+
 TEST(Targets, PlansKeepTimeAndMemory) {
   const auto of = [](const Json& plan) { return line({{"plans", {plan}}}, "4096-every-4-stop"); };
   Json plan{{"name", "4096-every-4-stop"}, {"seconds", 20.0}, {"peak_memory", 6.0 * 0x1p30}};
