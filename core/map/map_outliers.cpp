@@ -34,7 +34,8 @@ bool is_outlier(const HeightMap& map, Index row, Index col, const OutlierOptions
   const double centre = median(near);
   const double away = std::abs(map.at(row, col) - centre);
   if (!(away > options.sigmas * options.floor)) return false;
-  // Counting is cheaper than the second median: fewer than half nearer than this, and that median is no less.
+  // Counting is cheaper than the second median: if fewer than half of the values are nearer than this, that median is
+  // no less.
   const double nearer_than = away / (options.sigmas * kSigmaPerDeviation);
   const auto nearer =
       std::count_if(near.begin(), near.end(), [&](double v) { return std::abs(v - centre) < nearer_than; });
@@ -83,7 +84,7 @@ double steeper(const HeightMap& map, Index row, Index col, Index down, Index rig
 Index remove_outliers(HeightMap& map, const OutlierOptions& options, int threads, const Progress& progress) {
   check(options);
   std::vector<unsigned char> marked(map.values.size(), 0);
-  const Index at_once = 2 * std::max(threads, 1);  // rows between reports: few, for a wide window takes its time
+  const Index at_once = 2 * std::max(threads, 1);  // rows between reports: few, because a wide window takes long
   for (Index first = 0; first < map.grid.rows; first += at_once) {
     progress.step(fmt::format("outliers: row {} of {}", first, map.grid.rows));
     const Index end = std::min(first + at_once, map.grid.rows);

@@ -10,7 +10,7 @@ namespace dwell {
 namespace {
 
 constexpr Index kRings = 3;
-constexpr Index kPadding = 12;  // pixels around the map: what the spline does beyond is 0.27^12 of it here
+constexpr Index kPadding = 12;  // pixels around the map: the influence of what lies beyond falls to 0.27^12 over them
 
 HeightMap padded(const HeightMap& map, double mean) {
   const Grid& g = map.grid;
@@ -22,7 +22,7 @@ HeightMap padded(const HeightMap& map, double mean) {
   return wide;
 }
 
-/// What linear continuation from the finite pixels around gives, NaN where none is a neighbour.
+/// The height by linear continuation from the finite pixels around; NaN where no neighbour is finite.
 double continued(const HeightMap& map, Index row, Index col) {
   double linear = 0.0, constant = 0.0;
   int lines = 0, neighbours = 0;

@@ -30,7 +30,7 @@ Index target_of(GridTurn turn, const Grid& from, const Grid& to, Index row, Inde
 
 Grid turned_grid(const Grid& g, GridTurn turn, std::optional<Point> about) {
   Grid result = exchanges_axes(turn) ? Grid{g.cols, g.rows, g.pitch_y, g.pitch_x, {}} : g;
-  // About its middle, the origin of a map that keeps its axes stays to the last bit.
+  // If a map that keeps its axes is turned about its middle, its origin stays the same to the last bit.
   if (!about && !exchanges_axes(turn)) return result;
   const Point middle = middle_of(g);
   result.origin = {};

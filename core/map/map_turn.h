@@ -16,7 +16,7 @@ enum class GridTurn {
   Transpose,      // (x, y) -> (y, x)
 };
 
-/// Where a point of the part comes to lie, x and y being counted from `about`.
+/// Where a point of the part comes to lie, with x and y counted from `about`.
 Point turned(Point p, GridTurn turn, Point about);
 
 /// The map with the part turned about a point [mm]; by default about the middle of the map's pixel centres, so that the

@@ -11,8 +11,8 @@ namespace dwell {
 /// has data. Cost O(pixels of both).
 HeightMap warped(const HeightMap& map, const PlaneTransform& forward, const Grid& target, int threads = 1);
 
-/// The smallest grid of the same pitches that covers all pixel centres of `grid` moved by `forward`, its middle where
-/// theirs goes. Throws InputError if it is larger than kMaxPixels.
+/// The smallest grid of the same pitches that covers all pixel centres of `grid` moved by `forward`. Its middle lies
+/// where theirs is moved. Throws InputError if it is larger than kMaxPixels.
 Grid covering_grid(const Grid& grid, const PlaneTransform& forward);
 
 /// The map turned counter-clockwise by any angle about a point [mm], on the covering grid. For

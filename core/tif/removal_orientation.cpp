@@ -84,7 +84,7 @@ HeightMap turned(const HeightMap& rates, double angle) {
   for (const double v : rates.values) before += v;
   for (Index i = 0; i < map.grid.size(); ++i) {
     const Point p = turn.back(map.grid.centre(i));
-    // The spline rings on beyond the samples that remove something; there it removes nothing.
+    // The spline rings beyond the samples that are not zero; the removal function is zero there.
     map.values[static_cast<std::size_t>(i)] = removes_near(rates, p) ? surface(p) : 0.0;
     sum += map.values[static_cast<std::size_t>(i)];
   }

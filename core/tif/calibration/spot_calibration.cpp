@@ -15,7 +15,7 @@ namespace dwell {
 namespace {
 
 constexpr double kRadiusInExtents = 2.25;      // of 30 % of the peak: 3.5 sigma of a Gaussian
-constexpr double kLeastRadiusInExtents = 1.2;  // that edge or neighbour must leave
+constexpr double kLeastRadiusInExtents = 1.2;  // room that an edge or a neighbour must leave
 
 void check(const SpotOptions& o) {
   if (!(std::isfinite(o.dwell_time) && o.dwell_time > 0.0)) {
@@ -59,7 +59,7 @@ std::vector<FoundSpot> spots_of(const HeightMap& depth, const SpotOptions& optio
   return chosen;
 }
 
-/// As far as spots reach where the user does not say: not into a neighbour, nor over the edge.
+/// How far spots reach if the user does not say: neither into a neighbour nor over the edge.
 double radius_of(const HeightMap& depth, const std::vector<FoundSpot>& spots) {
   const Grid& g = depth.grid;
   double extent = 0.0, room = HUGE_VAL;
@@ -105,7 +105,7 @@ double half_width(const SpotPatch& patch, double radius) {
   return 2.0 * std::sqrt(static_cast<double>(above) * g.pitch_x * g.pitch_y / std::numbers::pi);
 }
 
-/// Refuses a spot that was registered away from the place given for it: it is another one, or the noise there.
+/// Refuses a spot that was registered away from the place given for it: then it is another spot, or noise.
 void refuse_jumps(const std::vector<SpotPatch>& patches, double radius, const std::vector<Point>& at) {
   for (std::size_t k = 0; k < at.size(); ++k) {
     const Point found = patches[k].centre;
@@ -119,7 +119,7 @@ void refuse_jumps(const std::vector<SpotPatch>& patches, double radius, const st
   }
 }
 
-/// The apex of the paraboloid through what is above 70 % of the peak, weighted by how far above.
+/// The apex of the paraboloid through the values above 70 % of the peak, each weighted by its excess over that level.
 Point apex(const HeightMap& map, double peak, double radius) {
   Eigen::Matrix<double, 6, 6> normal = Eigen::Matrix<double, 6, 6>::Zero();
   Eigen::Matrix<double, 6, 1> right = Eigen::Matrix<double, 6, 1>::Zero();

@@ -13,9 +13,8 @@ namespace {
 
 constexpr int kRounds = 3, kSteps = 10;
 
-/// The patch under the binomial filter 1 4 6 4 1 both ways. White noise loses part of its variance where it is
-/// interpolated between pixels, so that a least-squares shift is drawn to half pixels by it; filtered, it loses next to
-/// none.
+/// The patch under the binomial filter 1 4 6 4 1 in x and in y. Interpolation between pixels lowers the variance of
+/// white noise, which biases a least-squares shift towards half pixels; of filtered noise it lowers next to none.
 SpotPatch softened(SpotPatch patch) {
   constexpr std::array<double, 5> kFilter{1.0 / 16, 4.0 / 16, 6.0 / 16, 4.0 / 16, 1.0 / 16};
   HeightMap& map = patch.depth;
@@ -75,7 +74,7 @@ SpotMean mean_of_spots(const std::vector<SpotPatch>& patches) {
     const Point p = grid.centre(i);
     double sum = 0.0, square = 0.0;
     for (std::size_t k = 0; k < patches.size(); ++k) {
-      // The first spot's own pixels are taken as they are; the spline gives them back to rounding only.
+      // The first spot's own pixels are taken as they are, because the spline would change their last bits.
       at_pixel[k] =
           k == 0 ? patches[0].depth.values[static_cast<std::size_t>(i)] : patches[k].surface(patches[k].centre + p);
       sum += at_pixel[k];
