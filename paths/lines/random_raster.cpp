@@ -36,7 +36,7 @@ double parse_spread(const SpecText& spec, double pitch, double fallback) {
   return *percent / 100.0;
 }
 
-/// Positions of lines over a range, as many as fit, their block in its middle.
+/// Positions of as many lines as fit into a range; their block lies in the middle of it.
 std::vector<double> draw_positions(const Interval& range, const RandomRasterOptions& options, const ScanOptions& scan,
                                    double points_a_line) {
   Dice dice(options.seed);

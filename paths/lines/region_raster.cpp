@@ -95,7 +95,7 @@ class Stretches {
     }
   }
 
-  /// Adds the lattice points of pixels that have none near.
+  /// Adds the nearest lattice point for pixels that have none near.
   void rescue(const Grid& grid, const std::vector<Index>& pixels, const Progress& progress) {
     Poll poll(progress);
     const std::size_t found = stretches_.size();
@@ -148,7 +148,7 @@ class Stretches {
   double points_ = 0.0;
 };
 
-/// Runs that cross short gaps, and for each where its stretches begin.
+/// Runs, which may cross short gaps, and where the stretches of each begin.
 struct Runs {
   std::vector<LineRun> runs;
   std::vector<std::size_t> begin;

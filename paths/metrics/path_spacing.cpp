@@ -68,7 +68,7 @@ PathSpacing path_spacing(const ToolPath& path, const SpacingOptions& options, co
       const double detour = options.detour * std::sqrt(d2) * (1.0 - kRounding);
       if (station[i].piece == station[j].piece && !(std::abs(station[i].along - station[j].along) >= detour)) return;
       nearest2 = d2;
-      reach2 = std::nextafter(d2, -kInfinity);  // nothing equally near is looked for
+      reach2 = std::nextafter(d2, -kInfinity);  // points at the same distance are not searched for
     };
     tree.search(
         path.points[i], reach2, [](std::size_t) { return false; }, take);
