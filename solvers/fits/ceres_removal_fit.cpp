@@ -21,7 +21,7 @@ namespace dwell {
 namespace {
 
 constexpr std::size_t kOwn = 3;                 // x, y, peak come before the model's own parameters
-constexpr std::size_t kScreeningPixels = 4000;  // that the starts are tried on
+constexpr std::size_t kScreeningPixels = 4000;  // on which the starts are tried
 
 struct RateSample {
   Point place;
@@ -257,12 +257,12 @@ class ModelFit {
         if (value > 1e-9) {
           sum += share / value;
         } else if (share > 1e-6) {
-          sum = std::numeric_limits<double>::quiet_NaN();  // the samples leave it open
+          sum = std::numeric_limits<double>::quiet_NaN();  // the samples do not determine it
         }
       }
       FittedParameter& parameter = parameters_[free[static_cast<std::size_t>(j)]];
       parameter.error = std::sqrt(variance * sum) / size[j];
-      // No direction is known to no better than a quarter turn.
+      // A standard error of a quarter turn or more says that the direction is not known.
       if (parameter.unit == "deg" && parameter.error > 90.0) parameter.error = std::numeric_limits<double>::quiet_NaN();
     }
   }

@@ -17,7 +17,8 @@
 namespace dwell {
 namespace {
 
-/// Averaged over blocks of about `pitch` mm, plane removed: a robust one, which a smudge on one map does not tilt.
+/// The map averaged over blocks of about `pitch` mm, less its plane: a robust one, which a smudge on one map does not
+/// tilt.
 HeightMap averaged(const HeightMap& map, double pitch) {
   const auto factor = [&](double own, Index pixels) {
     return std::clamp<Index>(static_cast<Index>(std::llround(pitch / own)), 1, std::max<Index>(1, pixels / 2));
@@ -35,7 +36,7 @@ struct HeightSample {
   double height;
 };
 
-/// Mean square difference without its mean, or infinity for too little overlap.
+/// The variance of the difference, or infinity for too little overlap.
 double mismatch(const std::vector<HeightSample>& samples, const PlaneTransform& forward, const HeightMap& fixed,
                 double needed) {
   double sum = 0.0, squares = 0.0, count = 0.0;
@@ -86,7 +87,8 @@ RegistrationStart coarse_registration(const HeightMap& moving, const HeightMap& 
     return RegistrationStart{{dx, dy}, step(turns, turn_step)};
   };
   std::vector<double> score(static_cast<std::size_t>(places));
-  constexpr Index kBetweenLooks = 4096;  // places tried between two looks at whether to stop: a tenth of a second
+  // Places tried between two questions whether to stop, about a tenth of a second.
+  constexpr Index kBetweenLooks = 4096;
   for (Index begin = 0; begin < places; begin += kBetweenLooks) {
     progress.check();
     const Index end = std::min(begin + kBetweenLooks, places);

@@ -8,8 +8,8 @@
 
 namespace dwell {
 
-/// Calls body(block, begin, length) for stretches of at most kBlock of 0..n, in parallel where that pays. What is
-/// summed by block and then over the blocks in order has the same bytes for any number of threads.
+/// Calls body(block, begin, length) for stretches of at most kBlock of 0..n, in parallel where that pays. A sum taken
+/// within each block and then over the blocks in order has the same bytes for any number of threads.
 inline constexpr Index kBlock = 1024;
 
 inline Index block_count(Index n) { return (n + kBlock - 1) / kBlock; }
