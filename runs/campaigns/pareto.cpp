@@ -24,7 +24,7 @@ std::vector<double> logarithmic(double from, double to, std::size_t count) {
   return values;
 }
 
-/// The weights that the text means, in any order; none if it means nothing.
+/// The weights that the text names, in any order; none if it is not a list of weights.
 std::vector<double> weights_in(const std::string& text) {
   const std::vector<std::string_view> range = split(text, ':');
   if (range.size() == 3) {

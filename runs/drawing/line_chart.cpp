@@ -85,7 +85,7 @@ void shade_bands(Sheet& sheet, const Axes& axes, const std::vector<ChartBand>& b
   }
 }
 
-/// In two lines where the words do not fit in one; not at all where they do not fit in two.
+/// Draws the label in two lines if it does not fit in one, and not at all if it does not fit in two.
 void label_bands(Sheet& sheet, const Axes& axes, const std::vector<ChartBand>& bands) {
   const TextStyle style = anchored({11.0}, TextStyle::Anchor::Middle);
   for (const ChartBand& band : bands) {

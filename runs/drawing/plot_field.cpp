@@ -32,7 +32,7 @@ std::vector<Span> share(Index count, int size) {
   return spans;
 }
 
-// What of the blocks of one row of the figure is needed.
+// What is kept of the blocks of one row of the figure.
 struct Block {
   double sum = 0.0;
   double least = std::numeric_limits<double>::infinity();
@@ -70,7 +70,7 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-// Shows the farthest height of a block instead of its mean, where that stands out.
+// Shows the height of a block that is farthest from its mean instead of the mean, where it stands out.
 void keep_peaks(PlotField& field, const std::vector<double>& farthest) {
   std::vector<double> distances;
   double lower = std::numeric_limits<double>::infinity(), upper = -lower;

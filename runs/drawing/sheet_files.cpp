@@ -13,8 +13,8 @@
 namespace dwell {
 namespace {
 
-/// All that goes into a PNG file. C code jumps out of write_rgb on an error, so that nothing in there may need a
-/// destructor: this owns it.
+/// All that goes into a PNG file. On an error C code jumps out of write_rgb, so nothing in that function may need a
+/// destructor: this class owns it all.
 struct RgbFile {
   const PixelRows& pixels;
   std::vector<png_byte> row;
@@ -136,7 +136,7 @@ std::size_t utf8_length(std::string_view text) {
     if ((byte(i) & 0xC0U) != 0x80U) return 0;
   }
   if (length < 3) return length;
-  // Longer than needed, halves of pairs, beyond the last character.
+  // Encodings that are longer than needed, halves of surrogate pairs, and numbers beyond the last character.
   const unsigned second = byte(1);
   const bool wrong = (first == 0xE0 && second < 0xA0) || (first == 0xED && second >= 0xA0) ||
                      (first == 0xF0 && second < 0x90) || (first == 0xF4 && second >= 0x90);

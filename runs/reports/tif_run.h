@@ -31,7 +31,7 @@ struct TifJob {
   bool robust = false;
 };
 
-/// A removal function and all that was found out about it.
+/// A removal function and its analysis.
 struct TifResult {
   std::string source;   // "measured", "spot", "trench", or the name of a model
   RemovalFunction tif;  // turned as the job says
@@ -43,7 +43,7 @@ struct TifResult {
   std::vector<InputFile> inputs;
 };
 
-/// Reads, calibrates, turns, analyses and fits. Throws InputError naming the option or file, Interrupted.
+/// Reads, calibrates, orients, analyses and fits. Throws InputError naming the option or file, Interrupted.
 TifResult make_tif(const TifJob& job, const Progress& progress = {});
 
 /// A sentence for each fit that ended before it converged; not empty = exit code 3.
