@@ -11,7 +11,7 @@ namespace dwell::bench {
 namespace {
 
 constexpr double kTolerances[] = {1e-3, 1e-4, 1e-5, 1e-6};
-constexpr double kShortestProof = 2.0;  // a solve with less time than that would tell nothing [s]
+constexpr double kShortestProof = 2.0;  // a solve with less time than that would show nothing [s]
 
 /// Whether the answer passes, by the certificate alone. The bounds have to hold exactly.
 bool certified(const nlohmann::json& run, double tolerance) {
@@ -37,7 +37,7 @@ nlohmann::json run_certificates(const CertificateRunOptions& options, const Budg
   nlohmann::json all = nlohmann::json::array();
   for (const SolverKind kind : {SolverKind::Auto, SolverKind::ProjectedCg}) {
     bool go_on = true;
-    double around = 0.0;  // what a process takes besides solving
+    double around = 0.0;  // time of a process besides solving [s]
     for (const double tolerance : kTolerances) {
       nlohmann::json run;
       const double left = budget.left(share) - around;

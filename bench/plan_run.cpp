@@ -47,7 +47,7 @@ PlanCase udo_case(const std::filesystem::path& folder) {
            "file:" + (folder / "path_and_published_dwell.csv").string(), "--min-dwell", "0.1", "--time-price", "5e-6"}};
 }
 
-/// What a program that failed said at last.
+/// The last line that a failed program printed.
 std::string last_line(std::string text) {
   while (text.ends_with('\n')) text.pop_back();
   return text.substr(text.rfind('\n') + 1);

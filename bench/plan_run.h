@@ -20,7 +20,7 @@ struct PlanRunOptions {
 /// `data` has it. One entry each: name, what, threads, size, and
 ///   seconds, peak_memory        of the process [s], [bytes]
 ///   solver_seconds, points, status, residual_rms, exit_code  as summary.json says
-/// or "failed" or "skipped", why. Making the map is not part of it.
+/// or "failed" or "skipped" with the reason. The time to make the map is not included.
 nlohmann::json run_plans(const PlanRunOptions& options, const Budget& budget);
 
 }  // namespace dwell::bench
