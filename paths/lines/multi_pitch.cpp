@@ -13,12 +13,12 @@
 #include "core/base/poll.h"
 #include "paths/domain/box_mean.h"
 #include "paths/domain/feed_direction.h"
+#include "paths/domain/point_limit.h"
 #include "paths/lines/region_raster.h"
 
 namespace dwell {
 namespace {
 
-constexpr double kMostPoints = 50e6;
 constexpr int kMostRanges = 100;
 constexpr double kPositioning = 0.01;  // how finely a machine positions [mm]
 
@@ -216,7 +216,7 @@ void raster_regions(const HeightMap& map, const MultiPitchOptions& options, cons
                             anchor,
                             reaches[k],
                             link,
-                            kMostPoints - static_cast<double>(result.path.size())};
+                            kMaxPathPoints - static_cast<double>(result.path.size())};
     region.lifts = append_region(labels, map.grid, pixels[k], lines, result.path, progress);
     region.points = result.path.size() - region.first_point;
   }

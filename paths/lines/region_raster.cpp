@@ -10,13 +10,12 @@
 #include "core/base/point.h"
 #include "core/base/poll.h"
 #include "paths/domain/feed_direction.h"
+#include "paths/domain/point_limit.h"
 #include "paths/domain/rounding.h"
 #include "paths/lines/run_order.h"
 
 namespace dwell {
 namespace {
-
-constexpr double kMostPathPoints = 50e6;  // of any path
 
 /// Equidistant positions.
 struct RegionTicks {
@@ -190,7 +189,7 @@ Index append_region(const RegionLabels& labels, const Grid& grid, const std::vec
   if (!(expected <= lines.most_points)) refuse_points(lines, expected);
   // A narrow ring fills little of its box, which is looked through point by point.
   const double box = lattice.lines.count * lattice.steps.count;
-  if (!(box <= 20.0 * kMostPathPoints)) refuse_points(lines, expected);
+  if (!(box <= 20.0 * kMaxPathPoints)) refuse_points(lines, expected);
   Stretches found(labels, lattice, lines);
   found.find(progress);
   found.rescue(grid, pixels, progress);

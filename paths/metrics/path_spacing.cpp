@@ -9,13 +9,14 @@
 #include "core/base/errors.h"
 #include "core/base/numbers.h"
 #include "core/base/poll.h"
+#include "paths/domain/point_limit.h"
 #include "paths/domain/point_tree.h"
 #include "paths/domain/rounding.h"
 
 namespace dwell {
 namespace {
 
-constexpr std::size_t kMaxPoints = 50'000'000;
+constexpr auto kMaxPoints = static_cast<std::size_t>(kMaxPathPoints);
 
 /// Where a point stands on the path.
 struct Station {

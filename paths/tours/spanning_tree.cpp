@@ -10,12 +10,13 @@
 
 #include "core/base/errors.h"
 #include "core/base/poll.h"
+#include "paths/domain/point_limit.h"
 #include "paths/domain/point_tree.h"
 
 namespace dwell {
 namespace {
 
-constexpr std::size_t kMaxTreePoints = 50'000'000;
+constexpr auto kMaxTreePoints = static_cast<std::size_t>(kMaxPathPoints);
 constexpr std::int32_t kMixed = -1;
 
 void check(const std::vector<Point>& points) {

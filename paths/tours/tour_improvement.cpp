@@ -8,6 +8,7 @@
 #include <random>
 
 #include "core/base/errors.h"
+#include "paths/domain/point_limit.h"
 #include "paths/tours/tour_search.h"
 
 namespace dwell {
@@ -16,7 +17,7 @@ namespace {
 using City = TourArray::City;
 using Length = TourArray::Length;
 
-constexpr std::size_t kMaxTourPoints = 50'000'000;
+constexpr auto kMaxTourPoints = static_cast<std::size_t>(kMaxPathPoints);
 constexpr City kLongestKick = 50;    // cities of each of the two stretches
 constexpr int kDraws = 30;           // of a place for a kick
 constexpr double kDrift = 1e-12;     // of the length
