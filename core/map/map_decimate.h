@@ -10,12 +10,12 @@ namespace dwell {
 /// cannot reach half is left out. On a slope, the mean of a block that is not full is off, because it belongs to the
 /// middle of the pixels with data and not to that of the block. Throws InputError for a factor < 1 or if no block has
 /// data. Cost O(pixels).
-HeightMap decimated(const HeightMap& map, Index row_factor, Index col_factor);
+HeightMap decimate_map(const HeightMap& map, Index row_factor, Index col_factor);
 
 /// The map at other pitches [mm, in x and y]: by block average over the whole number of pixels that a new one spans in
 /// each direction, if that is more than one (anti-aliasing), then by cubic B-spline (core/map/map_sampler.h). The first
 /// pixel of the new map lies on the first one of the map, or of the averaged map, and the last one not beyond the last
 /// of it. Throws InputError unless the pitches are finite and > 0 and the result has at most kMaxPixels.
-HeightMap resampled(const HeightMap& map, Point pitch, int threads = 1);
+HeightMap resample_map(const HeightMap& map, Point pitch, int threads = 1);
 
 }  // namespace dwell

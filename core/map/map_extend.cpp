@@ -30,7 +30,7 @@ void check(const ExtendOptions& o) {
   }
 }
 
-HeightMap enlarged(const HeightMap& map, double width) {
+HeightMap enlarge_map(const HeightMap& map, double width) {
   const Grid& g = map.grid;
   constexpr double kRounding = 1e-9;  // pixels
   const double rows = std::ceil(width / g.pitch_y - kRounding), cols = std::ceil(width / g.pitch_x - kRounding);
@@ -160,10 +160,10 @@ Extension parse_extension(const std::string& text) {
   throw InputError(fmt::format("extension '{}'; accepted: zero, nearest, decay, harmonic or gerchberg", text));
 }
 
-HeightMap extended(const HeightMap& map, const ExtendOptions& options, ExtendSummary& summary, int threads,
-                   const Progress& progress) {
+HeightMap extend_map(const HeightMap& map, const ExtendOptions& options, ExtendSummary& summary, int threads,
+                     const Progress& progress) {
   check(options);
-  const HeightMap data = enlarged(map, options.width);
+  const HeightMap data = enlarge_map(map, options.width);
   const std::vector<Index> nearest = nearest_pixels(data);
   summary = {};
   HeightMap result = data;

@@ -42,7 +42,7 @@ struct ExtendSummary {
 /// (at most the map's side) lies between the data and its repetition. It converges fast for long waves only, and leaves
 /// a step at the edge where the data has shorter ones. Throws InputError for options out of range or a map without
 /// data. Cost O(pixels), Gerchberg two FFTs an iteration.
-HeightMap extended(const HeightMap& map, const ExtendOptions& options, ExtendSummary& summary, int threads = 1,
-                   const Progress& progress = {});
+HeightMap extend_map(const HeightMap& map, const ExtendOptions& options, ExtendSummary& summary, int threads = 1,
+                     const Progress& progress = {});
 
 }  // namespace dwell

@@ -34,13 +34,13 @@ Grid turned_grid(const Grid& g, GridTurn turn, std::optional<Point> about) {
   if (!about && !exchanges_axes(turn)) return result;
   const Point middle = middle_of(g);
   result.origin = {};
-  result.origin = (about ? turned(middle, turn, *about) : middle) - middle_of(result);
+  result.origin = (about ? turn_point(middle, turn, *about) : middle) - middle_of(result);
   return result;
 }
 
 }  // namespace
 
-Point turned(Point p, GridTurn turn, Point about) {
+Point turn_point(Point p, GridTurn turn, Point about) {
   const Point d = p - about;
   switch (turn) {
     case GridTurn::FlipX:
@@ -59,7 +59,7 @@ Point turned(Point p, GridTurn turn, Point about) {
   return p;
 }
 
-HeightMap turned(const HeightMap& map, GridTurn turn, std::optional<Point> about) {
+HeightMap turn_map(const HeightMap& map, GridTurn turn, std::optional<Point> about) {
   HeightMap result(turned_grid(map.grid, turn, about));
   for (Index row = 0; row < map.grid.rows; ++row) {
     for (Index col = 0; col < map.grid.cols; ++col) {

@@ -144,7 +144,7 @@ std::string note(const Rounding& plan, double radius) {
 
 }  // namespace
 
-ToolPath rounded_corners(const ToolPath& path, double radius, const Progress& progress) {
+ToolPath round_corners(const ToolPath& path, double radius, const Progress& progress) {
   if (!(std::isfinite(radius) && radius >= 0.0)) {
     throw InputError(fmt::format("{}: corner = {} mm; required finite and >= 0", path.kind, radius));
   }

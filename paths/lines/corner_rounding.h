@@ -31,6 +31,6 @@ inline constexpr double kArcTurnDeg = 24.0;
 /// radius = 0 returns the path itself. Throws InputError, which names the kind of the path, if the radius is negative
 /// or not finite or the result has more than kMaxPathPoints points; as validate() does if the path is not valid. Cost
 /// and memory O(points).
-ToolPath rounded_corners(const ToolPath& path, double radius, const Progress& progress = {});
+ToolPath round_corners(const ToolPath& path, double radius, const Progress& progress = {});
 
 }  // namespace dwell

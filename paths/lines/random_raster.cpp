@@ -97,7 +97,7 @@ ToolPath random_raster_path(const HeightMap& map, const RandomRasterOptions& opt
                options.turns, progress);
   path.notes.push_back(fmt::format("{} lines at random distances from {:.6g} to {:.6g} mm, seed {}", count,
                                    options.pitch * (1.0 - options.spread), farthest, options.seed));
-  return options.turns.corner > 0.0 ? rounded_corners(path, options.turns.corner, progress) : path;
+  return options.turns.corner > 0.0 ? round_corners(path, options.turns.corner, progress) : path;
 }
 
 }  // namespace dwell

@@ -153,7 +153,7 @@ struct Runs {
   std::vector<std::size_t> begin;
 };
 
-Runs joined(const std::vector<LineRun>& stretches, double step, double link) {
+Runs join_stretches(const std::vector<LineRun>& stretches, double step, double link) {
   Runs joined;
   for (std::size_t i = 0; i < stretches.size(); ++i) {
     const LineRun& s = stretches[i];
@@ -194,7 +194,7 @@ Index append_region(const RegionLabels& labels, const Grid& grid, const std::vec
   found.find(progress);
   found.rescue(grid, pixels, progress);
   const std::vector<LineRun>& stretches = found.stretches();
-  const Runs runs = joined(stretches, lines.step, lines.link);
+  const Runs runs = join_stretches(stretches, lines.step, lines.link);
   const std::vector<OrderedRun> order = order_runs(runs.runs, lines.pitch, lines.step, lines.link, progress);
   Index lifts = -1;
   for (const OrderedRun& next : order) {

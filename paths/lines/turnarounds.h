@@ -16,7 +16,7 @@ enum class Turnaround {
 
 struct TurnOptions {
   Turnaround turn = Turnaround::Square;
-  double corner = 0.0;  // corners are rounded with this radius [mm] (rounded_corners); finite, >= 0; 0 = not
+  double corner = 0.0;  // corners are rounded with this radius [mm] (round_corners); finite, >= 0; 0 = not
 };
 
 /// The keys "turn" and "corner" of a planner's text.

@@ -129,7 +129,7 @@ std::string spectra_picture(const PathComparison& comparison, FigureFormat forma
 }
 
 /// A field of a CSV file.
-std::string quoted(std::string text) {
+std::string quote_field(std::string text) {
   if (text.find_first_of(",\"\n") == std::string::npos) return text;
   for (std::size_t at = text.find('"'); at != std::string::npos; at = text.find('"', at + 2)) text.insert(at, 1, '"');
   return '"' + text + '"';
@@ -198,9 +198,9 @@ std::string path_table_text(const PathComparison& comparison) {
   for (const Cell& cell : cells_of({})) text += fmt::format("{},", cell.column);
   text += "failure\n";
   for (const ComparedPath& p : comparison.paths) {
-    text += fmt::format("{},{},", p.listed.name, quoted(p.listed.text));
+    text += fmt::format("{},{},", p.listed.name, quote_field(p.listed.text));
     for (const Cell& cell : cells_of(p)) text += (p.failure.empty() ? cell.text : "") + ",";
-    text += quoted(p.failure) + "\n";
+    text += quote_field(p.failure) + "\n";
   }
   return text;
 }

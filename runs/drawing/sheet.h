@@ -96,6 +96,6 @@ inline constexpr double kWidestSheet = 800.0;
 inline constexpr double kMiddleToBaseline = 0.36;
 
 /// Breaks a text at spaces into lines no longer than `room` [units]; a longer word is broken too.
-std::vector<std::string> broken_into_lines(const std::string& text, const TextStyle& style, double room);
+std::vector<std::string> break_into_lines(const std::string& text, const TextStyle& style, double room);
 
 }  // namespace dwell

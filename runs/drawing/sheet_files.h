@@ -35,7 +35,7 @@ std::string rgb_png(const PixelRows& pixels);
 /// everywhere but cannot be searched or copied: so the words are laid over them, invisible. And Cairo counts its
 /// elements through the whole life of the program: here they are numbered from 1, so that the same figure has the same
 /// bytes.
-std::string finished_svg(const std::string& svg, const std::vector<WrittenText>& texts);
+std::string finish_svg(const std::string& svg, const std::vector<WrittenText>& texts);
 
 /// The text without control characters, and with a question mark for each byte that is no UTF-8: Cairo draws nothing
 /// more after a text that it cannot read, and names of files may hold anything.

@@ -241,7 +241,7 @@ SpotCalibration calibrate_spots(const HeightMap& depth, const SpotOptions& optio
   }
   register_spots(patches, radius, options.registration);
   refuse_jumps(patches, radius, options.at);
-  SpotMean mean = mean_of_spots(patches);
+  SpotMean mean = average_spots(patches);
   double scatter = 0.0;
   for (const SpotPatch& patch : patches) {
     const Sums sums = sums_of(patch.depth, patch.centre, radius);

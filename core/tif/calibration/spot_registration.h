@@ -22,6 +22,6 @@ struct SpotMean {
   HeightMap deviation;  // standard deviation over the spots, n - 1 in the denominator [nm]; zero for one spot
 };
 
-SpotMean mean_of_spots(const std::vector<SpotPatch>& patches);
+SpotMean average_spots(const std::vector<SpotPatch>& patches);
 
 }  // namespace dwell
