@@ -8,11 +8,10 @@
 #include <vector>
 
 #include "core/base/errors.h"
+#include "core/numerics/median.h"
 
 namespace dwell {
 namespace {
-
-constexpr double kSigmaPerDeviation = 1.4826;  // standard deviation per median absolute deviation, normal distribution
 
 /// The median, of an even number the mean of the middle two. Reorders; at least one.
 double median(std::vector<double>& v) {
@@ -36,12 +35,12 @@ bool is_outlier(const HeightMap& map, Index row, Index col, const OutlierOptions
   if (!(away > options.sigmas * options.floor)) return false;
   // Counting is cheaper than the second median: if fewer than half of the values are nearer than this, that median is
   // no less.
-  const double nearer_than = away / (options.sigmas * kSigmaPerDeviation);
+  const double nearer_than = away / (options.sigmas * kSigmaPerMedianDeviation);
   const auto nearer =
       std::count_if(near.begin(), near.end(), [&](double v) { return std::abs(v - centre) < nearer_than; });
   if (nearer < static_cast<std::ptrdiff_t>(near.size() / 2)) return false;
   for (double& v : near) v = std::abs(v - centre);
-  return away > options.sigmas * std::max(kSigmaPerDeviation * median(near), options.floor);
+  return away > options.sigmas * std::max(kSigmaPerMedianDeviation * median(near), options.floor);
 }
 
 void check(const OutlierOptions& o) {

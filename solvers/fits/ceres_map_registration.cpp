@@ -21,6 +21,7 @@
 #include "core/map/map_sampler.h"
 #include "core/map/robust_plane.h"
 #include "core/numerics/dense_solve.h"
+#include "core/numerics/median.h"
 #include "solvers/fits/stop_callback.h"
 
 namespace dwell {
@@ -118,8 +119,7 @@ std::vector<double> residuals(const Pair& pair, const Parameters& q, const std::
 /// Robust standard deviation of residuals about zero.
 double robust_sigma(std::vector<double> r) {
   for (double& v : r) v = std::abs(v);
-  std::nth_element(r.begin(), r.begin() + static_cast<std::ptrdiff_t>(r.size() / 2), r.end());
-  return 1.4826 * r[r.size() / 2];
+  return kSigmaPerMedianDeviation * upper_median(std::move(r));
 }
 
 double rms(const std::vector<double>& r) {

@@ -14,6 +14,7 @@
 
 #include "core/base/errors.h"
 #include "core/numerics/dense_solve.h"
+#include "core/numerics/median.h"
 #include "solvers/fits/removal_fit_starts.h"
 #include "solvers/fits/stop_callback.h"
 
@@ -210,9 +211,8 @@ class ModelFit {
     std::vector<double> r = residuals();
     double square = 0.0;
     for (double& v : r) square += v * v, v = std::abs(v);
-    const auto middle = r.begin() + static_cast<std::ptrdiff_t>(r.size() / 2);
-    std::nth_element(r.begin(), middle, r.end());
-    return *middle > 0.0 ? 1.4826 * *middle : std::sqrt(square / static_cast<double>(r.size()));
+    const double median = upper_median(r);
+    return median > 0.0 ? kSigmaPerMedianDeviation * median : std::sqrt(square / static_cast<double>(r.size()));
   }
 
   /// The noise variance that goes with (J'J)^-1: see the header.
