@@ -178,6 +178,33 @@ double cut_noise(HeightMap& rates, double radius, double level) {
   return (before - after) / before;
 }
 
+/// Cuts out all spots. Refuses one where the surface has risen.
+std::vector<SpotPatch> cut_spots(const HeightMap& depth, const std::vector<FoundSpot>& spots, double radius,
+                                 SpotBaseline baseline) {
+  std::vector<Point> centres;
+  centres.reserve(spots.size());
+  for (const FoundSpot& s : spots) centres.push_back(s.centre);
+  std::vector<SpotPatch> patches;
+  for (const Point p : centres) {
+    patches.push_back(cut_spot(depth, p, radius, centres, baseline));
+    const Sums sums = sums_of(patches.back().depth, p, radius);
+    if (sums.volume > 0.0) continue;
+    double rise = 0.0;
+    for (const double v : patches.back().depth.values) rise = std::max(rise, -v);
+    refuse_rise(rise, sums.peak);
+  }
+  return patches;
+}
+
+void append_history(std::vector<std::string>& history, const SpotOptions& options, std::size_t spots, double radius,
+                    double level) {
+  history.push_back(fmt::format("tif: {} spot{} of {} s, baseline {} from {:.4g} to {:.4g} mm around", spots,
+                                spots > 1 ? "s averaged" : "", options.dwell_time, word(options.baseline), radius,
+                                1.6 * radius));
+  history.push_back(fmt::format("tif: rates below {:.4g} nm/s and beyond {:.4g} mm set to 0, tool axis at {}", level,
+                                radius, word(options.centre)));
+}
+
 }  // namespace
 
 SpotCentre parse_spot_centre(const std::string& text) {
@@ -225,20 +252,8 @@ SpotCalibration calibrate_spots(const HeightMap& depth, const SpotOptions& optio
   SpotCalibration result;
   result.radius = options.radius ? *options.radius : radius_of(depth, spots);
   const double radius = result.radius, per_second = 1.0 / options.dwell_time;
-  std::vector<Point> centres;
-  centres.reserve(spots.size());
-  for (const FoundSpot& s : spots) centres.push_back(s.centre);
-  std::vector<SpotPatch> patches;
-  for (const Point p : centres) {
-    patches.push_back(cut_spot(depth, p, radius, centres, options.baseline));
-    const Sums sums = sums_of(patches.back().depth, p, radius);
-    if (!(sums.volume > 0.0)) {
-      double rise = 0.0;
-      for (const double v : patches.back().depth.values) rise = std::max(rise, -v);
-      refuse_rise(rise, sums.peak);
-    }
-    result.filled_pixels += patches.back().filled_inside;
-  }
+  std::vector<SpotPatch> patches = cut_spots(depth, spots, radius, options.baseline);
+  for (const SpotPatch& patch : patches) result.filled_pixels += patch.filled_inside;
   register_spots(patches, radius, options.registration);
   refuse_jumps(patches, radius, options.at);
   SpotMean mean = average_spots(patches);
@@ -265,12 +280,7 @@ SpotCalibration calibrate_spots(const HeightMap& depth, const SpotOptions& optio
   result.rates.grid.origin = result.rates.grid.origin - axis;
   result.deviation.grid.origin = result.rates.grid.origin;
   result.rates.history = depth.history;
-  result.rates.history.push_back(fmt::format("tif: {} spot{} of {} s, baseline {} from {:.4g} to {:.4g} mm around",
-                                             patches.size(), patches.size() > 1 ? "s averaged" : "", options.dwell_time,
-                                             word(options.baseline), radius, 1.6 * radius));
-  result.rates.history.push_back(
-      fmt::format("tif: rates below {:.4g} nm/s and beyond {:.4g} mm set to 0, tool axis at {}", level, radius,
-                  word(options.centre)));
+  append_history(result.rates.history, options, patches.size(), radius, level);
   return result;
 }
 
