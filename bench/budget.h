@@ -5,7 +5,8 @@
 
 namespace dwell::bench {
 
-/// The wall clock of a whole run of the harness, started when it is made. Whoever measures asks what is left of it.
+/// The wall clock of a whole run of the harness, started when it is made. Every part of the harness asks how much of it
+/// is left.
 class Budget {
  public:
   explicit Budget(double seconds) : total_(seconds) {}

@@ -11,10 +11,10 @@ namespace dwell::bench {
 namespace {
 
 constexpr double kTolerances[] = {1e-3, 1e-4, 1e-5, 1e-6};
-constexpr double kShortestProof = 2.0;  // a solve with less time than that would tell nothing [s]
+constexpr double kShortestProof = 2.0;  // a solve with less time than that would show nothing [s]
 
 /// Whether the answer passes, by the certificate alone. The bounds have to hold exactly.
-bool certified(const nlohmann::json& run, double tolerance) {
+bool passes_certificate(const nlohmann::json& run, double tolerance) {
   if (!run.contains("certificate")) return false;
   const nlohmann::json& c = run["certificate"];
   const auto within = [&](const char* key, double most) { return c.at(key).get<double>() <= most; };
@@ -37,7 +37,7 @@ nlohmann::json run_certificates(const CertificateRunOptions& options, const Budg
   nlohmann::json all = nlohmann::json::array();
   for (const SolverKind kind : {SolverKind::Auto, SolverKind::ProjectedCg}) {
     bool go_on = true;
-    double around = 0.0;  // what a process takes besides solving
+    double around = 0.0;  // time of a process besides solving [s]
     for (const double tolerance : kTolerances) {
       nlohmann::json run;
       const double left = budget.left(share) - around;
@@ -54,7 +54,7 @@ nlohmann::json run_certificates(const CertificateRunOptions& options, const Budg
                               .gradient_tolerance = tolerance,
                               .data = options.data,
                               .references = options.references});
-        run["certified"] = certified(run, tolerance);
+        run["certified"] = passes_certificate(run, tolerance);
         go_on = run["certified"];
         if (run.contains("seconds")) around = run["process_seconds"].get<double>() - run["seconds"].get<double>();
       }

@@ -9,7 +9,7 @@ namespace dwell::bench {
 
 inline std::string text_of(const nlohmann::json& j, const char* key) { return j.at(key).get<std::string>(); }
 
-/// NaN for null: JSON has no NaN, and what was written as one comes back as null.
+/// NaN for null: JSON has no NaN, and one that was written is read back as null.
 inline double number(const nlohmann::json& j, const char* key) {
   const nlohmann::json& value = j.at(key);
   return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();

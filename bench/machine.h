@@ -4,7 +4,7 @@
 
 namespace dwell::bench {
 
-/// What a measurement was made on. Everything that can change its numbers.
+/// The machine and program that made a measurement: everything that can change its numbers.
 struct Machine {
   std::string processor;  // as the kernel names it
   int cores = 0;          // that this process may use

@@ -86,7 +86,8 @@ nlohmann::json plans(const Options& options, const Budget& budget) {
   return run_plans({size, options.quick ? 10.0 : 60.0, 2, options.data}, budget);
 }
 
-/// Only a whole run has the tables that the targets ask for; the shares leave what comes later its due.
+/// Only a whole run has all the tables that the targets need. The shares of the budget leave enough for the later
+/// parts.
 void measure(const Options& options) {
   const Budget budget(options.budget > 0.0 ? options.budget : options.quick ? kQuickBudget : kFullBudget);
   nlohmann::json all{{"machine", to_json(this_machine())}, {"budget", budget.total()}};

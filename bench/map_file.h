@@ -7,7 +7,7 @@
 
 namespace dwell::bench {
 
-/// A map file of `size` x `size` pixels of noise, a fifth of it no data, as instruments write them: "dat" (Zygo
+/// A map file as instruments write them, of `size` x `size` pixels of noise, a fifth of them without data: "dat" (Zygo
 /// MetroPro, with an intensity frame), "datx" (HDF5, fringes) or "npy" (64-bit floating point).
 class MapFile {
  public:
@@ -15,7 +15,7 @@ class MapFile {
 
   /// Reads it as a user does: the file to a checked map. The file is in the system's cache, as it is after a copy.
   void read_map() const;
-  /// Reads its bytes into memory and no more: the floor under every reader.
+  /// Only reads its bytes into memory, which takes less time than any reader can.
   void read_bytes() const;
 
  private:

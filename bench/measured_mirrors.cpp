@@ -65,7 +65,8 @@ void append_measured_mirrors(std::vector<Scenario>& all, const std::filesystem::
     all.push_back(s);
   };
   append("ibfest-70x30", "simulated mirror with noise, 80 x 412 counted pixels, dwell at every pixel", 0.1, ibfest);
-  // Its points are ten pixels apart: fewer columns overlap, and the published dwell's smoothness asks for less.
+  // Its points are ten pixels apart, so fewer columns overlap, and less smoothness is needed to match the published
+  // dwell.
   append("udo-raster", "measured mirror 168 x 985, measured spot, raster of 2,678 points, at least 0.1 s each", 1e-3,
          udo);
 }

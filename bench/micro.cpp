@@ -138,7 +138,8 @@ HeightMap measured_map(long size, bool disc) {
   return map;
 }
 
-/// Of 36 terms; the map is the same after the first call to rounding, which takes no less time.
+/// The removal of 36 terms. After the first call the map no longer changes, apart from rounding; later calls take the
+/// same time.
 void time_form(benchmark::State& state, long size, bool disc, int threads) {
   HeightMap map = measured_map(size, disc);
   const PolynomialSpec spec = parse_polynomial_spec("zernike-noll:1-36");
@@ -215,7 +216,7 @@ std::vector<Case> cases_of(const MicroOptions& options) {
   return cases;
 }
 
-constexpr const char* kLate = "late";  // counter of a repetition that found no time and measured nothing
+constexpr const char* kLate = "late";  // counter of a repetition that had no time left and measured nothing
 
 /// Keeps the single repetitions.
 class Collector : public benchmark::BenchmarkReporter {

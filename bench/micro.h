@@ -15,9 +15,9 @@ struct MicroResult {
   int repetitions = 0;
   double seconds = 0.0;  // median wall clock of a call
   double fastest = 0.0, slowest = 0.0;
-  /// Over the bare transform pair of the operator's padded size in double precision, same threads; 0 = no such pair.
-  /// The fastest repetition of both: what else the machine does only adds. A sparse matrix pads nothing: over the pair
-  /// of the scattered operator, which it stands in for.
+  /// Over the bare transform pair of the operator's padded size in double precision, same threads; 0 = no such pair. It
+  /// compares the fastest repetitions, because other work of the machine only adds time. A sparse matrix pads nothing,
+  /// so it is compared with the pair of the scattered operator, whose place it takes.
   double over_fft = 0.0;
 };
 
@@ -29,7 +29,7 @@ struct MicroOptions {
 /// Times apply and adjoint of every operator and the bare FFTW pair of their padded sizes, that pair in single
 /// precision as well, the removal of 36 form terms, the radial spectrum, the path planner, and the readers of map
 /// files. Repetitions of all are interleaved in random order, so that a slow spell of the machine hits all alike.
-/// Starts no repetition after `share` of the budget: what had none is not in the result.
+/// Starts no repetition after `share` of the budget; a benchmark without any repetition is not in the result.
 std::vector<MicroResult> run_micro(const MicroOptions& options, const Budget& budget, double share);
 
 }  // namespace dwell::bench

@@ -38,7 +38,7 @@ HeightMap noise_mirror(Index n, double pitch, double rms, std::uint64_t seed) {
     for (Index c = 0; c < half_cols; ++c) {
       const auto fy = static_cast<double>(std::min(r, size - r)), fx = static_cast<double>(c);
       const double f = std::hypot(fx, fy);
-      // Amplitude is the root of the density; the mean is nobody's error.
+      // The amplitude is the root of the density; the mean is no error and is left out.
       spectrum[static_cast<std::size_t>(r * half_cols + c)] *= f > 0.0 ? std::pow(f, 0.5 * kSlope) : 0.0;
     }
   }

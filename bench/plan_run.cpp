@@ -60,7 +60,7 @@ PlanCase one_processor_case(int threads, const std::filesystem::path& map) {
   return plan;
 }
 
-/// What a program that failed said at last.
+/// The last line that a failed program printed.
 std::string last_line(std::string text) {
   while (text.ends_with('\n')) text.pop_back();
   return text.substr(text.rfind('\n') + 1);

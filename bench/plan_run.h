@@ -21,7 +21,7 @@ struct PlanRunOptions {
 /// that wait by spinning would take the processor from those that work. One entry each: name, what, threads, size, and
 ///   seconds, cpu_seconds, peak_memory  of the process [s], [s], [bytes]
 ///   solver_seconds, points, status, residual_rms, exit_code  as summary.json says
-/// or "failed" or "skipped", why. Making the map is not part of it.
+/// or "failed" or "skipped" with the reason. The time to make the map is not included.
 nlohmann::json run_plans(const PlanRunOptions& options, const Budget& budget);
 
 }  // namespace dwell::bench

@@ -23,7 +23,7 @@ std::string machine_line(const Json& m) {
                      text_of(m, "fftw"), text_of(m, "commit"), text_of(m, "date"));
 }
 
-/// Where the time of the run went; empty for results that do not say.
+/// The parts of the run and their times; empty if the results have no times.
 std::string time_line(const Json& all) {
   if (!all.contains("seconds")) return "";
   std::string text = fmt::format("\nThe run took {:.0f} s of the {:.0f} s that it was given",
@@ -85,8 +85,8 @@ Colour solver_colour(const std::vector<std::string>& solvers, const std::string&
   return kColours[static_cast<std::size_t>(place) % kColours.size()];
 }
 
-/// Quality against time. In steps, since a solver stopped in between would return what it had; a gap below the least
-/// that is drawn, or none, lies on the lower edge.
+/// Quality against time, as steps, because a solver that is stopped between two points returns what it had at the
+/// first. A gap of zero, or below the least that is drawn, lies on the lower edge.
 ChartLine gap_line(const Json& run, double reference, const std::vector<std::string>& solvers) {
   const std::string solver = text_of(run, "solver");
   ChartLine line{solver, solver_colour(solvers, solver), {}, false};

@@ -12,7 +12,7 @@
 
 namespace dwell::bench {
 
-/// What a scenario is made of, before an operator is made of it.
+/// What a scenario consists of, before its operator is made.
 struct Parts {
   HeightMap map;
   RemovalFunction tif;
@@ -22,7 +22,8 @@ struct Parts {
 };
 
 /// A fixed dwell problem that all solvers are measured on. Piston and tilt are projected out. Two terms make it well
-/// posed (an ill-posed one has no time to quality: the residual falls for ever while the dwell grows):
+/// posed (on an ill-posed problem there is no time to a quality, because the residual falls for ever while the dwell
+/// grows):
 ///   alpha = smoothness * (sum of squared samples of the removal function)
 ///   gamma = price * (RMS of the target) * (sum of the samples of the removal function)
 /// that is, a second is worth spending as long as the tool sits on more than `price` of the RMS.

@@ -7,8 +7,8 @@
 namespace dwell::bench {
 
 /// The real transform of size x size samples and its inverse in single precision, planned as core/numerics/fft.h plans
-/// those in double: what half the memory traffic would be worth. The operators have none in single precision. All
-/// samples are zero; a transform takes the same time whatever its input.
+/// those in double precision. It shows what half the memory traffic would gain; the operators themselves have no single
+/// precision. All samples are zero; a transform takes the same time whatever its input.
 class SingleFftPair {
  public:
   SingleFftPair(Index size, int threads);

@@ -23,7 +23,8 @@ struct SolveRequest {
   std::filesystem::path references;
 };
 
-/// What solve_once tells, or "killed", why there is no answer; and "process_seconds", wall clock of the whole process.
+/// The result of solve_once, or "killed" with the reason why there is none; and "process_seconds", the wall clock of
+/// the whole process.
 nlohmann::json solve_in_child(const SolveRequest& request);
 
 }  // namespace dwell::bench

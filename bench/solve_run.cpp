@@ -114,7 +114,7 @@ double step_rms(const Vector& t) {
   return std::sqrt((t.tail(steps) - t.head(steps)).squaredNorm() / static_cast<double>(steps));
 }
 
-/// SIGALRM after so many seconds, unless who started this process wants it sooner.
+/// Raises SIGALRM after so many seconds, unless the process that started this one has set an earlier alarm.
 void end_process_after(double seconds) {
   const auto wanted = static_cast<unsigned>(std::ceil(seconds));
   const unsigned before = alarm(wanted);
@@ -164,7 +164,7 @@ nlohmann::json solve_once(const Scenario& scenario, const SolveOptions& options)
     solver.max_seconds = std::min(std::max({scenario.pairs * pair, kLeastSeconds, least}), options.max_seconds);
   }
   result["max_seconds"] = solver.max_seconds;
-  // Not every solver looks at the clock often enough: the signal ends the process.
+  // Not every solver looks at the clock often enough, so the signal ends the process.
   end_process_after(2.0 * solver.max_seconds + 3.0);
   reset_peak_memory();
   const double held = memory_field("VmRSS");
@@ -174,7 +174,7 @@ nlohmann::json solve_once(const Scenario& scenario, const SolveOptions& options)
     solver.trace = [&](const SolverProgress& p) { watch.see(p); };
     solver.progress.stop = [&] { return watch.at_target(); };
     const SolverSummary s = make_solver(solver)->solve(instance.problem, t);
-    // What a solver ends with counts as well: not every one reports on its way.
+    // The final answer counts as well, because not every solver reports on its way.
     result["peak_memory"] = memory_field("VmHWM");
     result["solve_memory"] = memory_field("VmHWM") - held;
     const double rms = certify(instance.problem, t).residual_rms;

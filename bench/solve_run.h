@@ -21,7 +21,7 @@ struct Target {
 struct SolveOptions {
   SolverKind kind = SolverKind::ProjectedCg;
   int threads = 1;
-  /// Without: the run ends at the time limit or by the solver's own certificate 1e-6.
+  /// Without a target the run ends at the time limit or by the solver's own certificate 1e-6.
   std::optional<Target> target;
   /// Ends a run that comes within `stop_gap` of the target's objective. Else it goes on to the certificate.
   bool stop_at_target = true;
@@ -30,7 +30,7 @@ struct SolveOptions {
   double max_seconds = 60.0;         // for the solve; to a target, that of the scenario if it is shorter
 };
 
-/// Solves a scenario once, from the lower bound, and tells what happened:
+/// Solves a scenario once, from the lower bound. The result has
 ///   pair_seconds   one apply and one adjoint, the fastest of five, in this process
 ///   reached        for each quality: iterations, applications, coarse_pairs and seconds when the objective
 ///   ("objective") and the
@@ -40,9 +40,8 @@ struct SolveOptions {
 ///   step_rms       of the differences between neighbours on the path [s]
 ///   build_seconds  of making the instance, which is not part of any other number here
 ///   solve_memory   peak of the process while solving less what it held before [bytes], and peak_memory, of all
-/// or "refused", the words of a solver that does not take a problem of this size. Seconds are the solver's own clock
-/// as far as the callback can see it: they start when solve() is called.
-/// A solver that takes more than twice its time limit is ended with the process, by SIGALRM.
+/// or "refused" with the message of a solver that does not take a problem of this size. Seconds are counted from the
+/// call of solve(). If a solver takes more than twice its time limit, SIGALRM ends it with the process.
 nlohmann::json solve_once(const Scenario& scenario, const SolveOptions& options);
 
 }  // namespace dwell::bench

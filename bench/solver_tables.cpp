@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "bench/json_access.h"
-#include "bench/suite.h"
 #include "solvers/solver_catalogue.h"
 
 namespace dwell::bench {
@@ -82,7 +81,7 @@ Json fastest_of_ours(const Json& all, const std::string& scenario) {
   return best;
 }
 
-/// The peer and its seconds to 1 %, or what is known of it.
+/// The peer and its seconds to 1 %, or the reason why there are none.
 std::string peer_cell(const Json& all, const Json& scenario, const std::optional<PeerRatio>& ratio) {
   if (!scenario.at("peers").get<bool>()) return "too large | ";
   if (!ratio || ratio->peer.empty()) return "none in time | ";

@@ -27,17 +27,18 @@ struct Pairs {
 };
 std::optional<Pairs> pairs_to(const nlohmann::json& run, std::size_t quality);
 
-/// How much slower than `auto` the fastest peer on two threads is within 1 %: exact, or a lower bound if those that
-/// the clock stopped may have come next.
+/// How many times as long as `auto` the fastest peer on two threads takes to within 1 %: exact, or a lower bound if a
+/// peer that the clock stopped might have been the fastest.
 struct PeerRatio {
   double ratio = 0.0;
   bool exact = true;
   std::string peer;  // the fastest; empty if none arrived
 };
-/// None if `auto` did not arrive or no peer was asked, or none that could arrive was given time.
+/// Nothing if `auto` did not reach 1 %, if no peer was run, or if no peer that could reach it was given time.
 std::optional<PeerRatio> peer_ratio(const nlohmann::json& all, const std::string& scenario);
 
-/// One thread over two, whole solve of `auto`; none unless both ended by the same rule and not by the clock.
+/// Time on one thread over time on two, whole solve of `auto`; nothing unless both ended by the same rule and not by
+/// the clock.
 std::optional<double> thread_ratio(const nlohmann::json& all, const std::string& scenario);
 
 }  // namespace dwell::bench

@@ -13,7 +13,7 @@
 namespace dwell::bench {
 namespace {
 
-/// Runs whoever has not had its turn in `round`, until that share of the budget is spent.
+/// Runs every entry that has not yet run in `round`, until that share of the budget is spent.
 struct Pass {
   std::size_t round;
   double share;
@@ -21,7 +21,7 @@ struct Pass {
 constexpr Pass kPasses[] = {{0, 0.7}, {1, 0.9}, {0, 1.0}, {2, 1.0}};
 constexpr Pass kQuickPasses[] = {{0, 1.0}, {1, 1.0}};
 
-constexpr double kShortestSolve = 1.0;  // a solve with less time than that is not worth its instance [s]
+constexpr double kShortestSolve = 1.0;  // with less time than that, a solve is not worth making its instance [s]
 
 struct Statistics {
   double median, fastest, slowest;
@@ -89,7 +89,7 @@ class Suite {
     return all;
   }
 
-  /// Where the time of the suite went: solving, and making the instances around that [s].
+  /// How long the suite spent on solving, and on starting processes and making instances around that [s].
   nlohmann::json accounting() const {
     return {{"solving", solve_seconds_}, {"around", process_seconds_ - solve_seconds_}};
   }
@@ -101,14 +101,15 @@ class Suite {
     return std::find(names.begin(), names.end(), s.name) != names.end();
   }
 
-  /// The others run on one thread only once it is known that they arrive.
+  /// The other solvers run on one thread only from round 1 on, when it is known whether they reach the reference on
+  /// two.
   static std::size_t first_turn(const Entry& entry) {
     return entry.threads == 2 || entry.kind == SolverKind::Auto ? 0 : 1;
   }
 
   void run(const Pass& pass) {
     for (Entry& entry : entries_) {
-      // Who was late for round 0 is only later, not more often.
+      // An entry whose first turn is round 1 still runs at most once a round.
       if (pass.round < first_turn(entry) || entry.runs.size() + first_turn(entry) > pass.round) continue;
       if (pass.round > 0 && !worth_repeating(entry)) continue;
       const double left = budget_.left(pass.share) - around_[entry.scenario];
@@ -117,7 +118,7 @@ class Suite {
     }
   }
 
-  /// What did not arrive in its first round is not waited for again.
+  /// A solver that did not reach the reference in its first round is not run again.
   bool worth_repeating(const Entry& entry) const {
     if (entry.kind == SolverKind::Auto) return true;
     return std::any_of(entries_.begin(), entries_.end(), [&](const Entry& e) {
@@ -192,7 +193,7 @@ class Suite {
   const Budget& budget_;
   std::vector<Scenario> all_;
   std::vector<Entry> entries_;
-  std::map<const Scenario*, double> around_;  // what a process takes besides solving: making the instance [s]
+  std::map<const Scenario*, double> around_;  // time of a process besides solving, for making the instance [s]
   double process_seconds_ = 0.0, solve_seconds_ = 0.0;
 };
 

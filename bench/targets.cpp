@@ -24,7 +24,7 @@ constexpr double kPlanSeconds = 20.0, kPlanGib = 6.0;
 constexpr double kReadSeconds = 0.1;
 constexpr double kReadRatio = 2.0;  // NPY, over its bytes: the map and its check are one more pass each
 constexpr double kVectors = 16.0;
-constexpr double kPlannerPoints = 5e5;                                       // fewer say nothing of 10^6
+constexpr double kPlannerPoints = 5e5;  // paths with fewer points say nothing about 10^6
 constexpr double kPlannerRate = 2e7, kRandomRate = 5e4, kNearestRate = 2e5;  // [points/s]
 constexpr double kTourRatio = 1.08, kTourSeconds = 60.0, kTourPoints = 1e5;
 constexpr double kLargeVector = 0x1p17;  // below so many numbers, 1 MiB, fixed memory counts for more than vectors
@@ -107,7 +107,8 @@ TargetLine operator_line(const Json& all) {
   Worst worst;
   for (const Json& r : list_of(all, "micro")) {
     const std::string name = text_of(r, "name");
-    // The matrix is for other problems than the transform; the pairs have nothing to be compared with.
+    // The sparse matrix is meant for other problems than the transform, and the bare pairs are what all others are
+    // compared with.
     const bool convolves = name.starts_with("lattice-") || name.starts_with("scattered-");
     if (!convolves || name.find("fft-pair") != std::string::npos) continue;
     const double over = number(r, "over_fft");
@@ -144,7 +145,7 @@ TargetLine peer_line(const Json& all) {
       continue;
     }
     const std::optional<PeerRatio> ratio = peer_ratio(all, name);
-    // A lower bound below the aim says nothing.
+    // A lower bound below the aim decides nothing.
     if (!ratio || (!ratio->exact && !(ratio->ratio >= kPeerRatio))) {
       open += (open.empty() ? "" : ", ") + name;
       continue;

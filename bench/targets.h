@@ -11,11 +11,11 @@ namespace dwell::bench {
 enum class Verdict { Met, Missed, NotMeasured };
 std::string to_string(Verdict verdict);
 
-/// NaN is missed, nothing is not measured.
+/// NaN counts as missed; nothing counts as not measured.
 Verdict at_most(const std::optional<double>& seen, double limit);
 Verdict at_least(const std::optional<double>& seen, double limit);
 
-/// One aim of the project against what a run has seen.
+/// One aim of the project and the value that a run has found.
 struct TargetLine {
   std::string what, target, seen;
   Verdict verdict = Verdict::NotMeasured;

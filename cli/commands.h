@@ -4,7 +4,7 @@
 
 namespace dwell::cli {
 
-/// Each adds its subcommand to the program; the command's exit code is stored in `exit_code` when it has run.
+/// Each function adds its subcommand to the program; when the command has run, its exit code is in `exit_code`.
 void add_plan_command(CLI::App& program, int& exit_code);
 void add_paths_command(CLI::App& program, int& exit_code);
 void add_pareto_command(CLI::App& program, int& exit_code);

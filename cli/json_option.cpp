@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What the command line's library makes of a flag given alone: no name of a file, which would end in .json.
+/// What CLI11 stores for a flag that is given alone. It cannot be the name of a file, which would end in .json.
 constexpr const char* kPrinted = "true";
 
 bool lies_in(const fs::path& file, const fs::path& folder) {

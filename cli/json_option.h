@@ -19,11 +19,11 @@ class JsonOption {
 
   void add_to(CLI::App& command);
 
-  /// Whether standard output is for the JSON alone.
+  /// Whether standard output holds the JSON and nothing else.
   bool printed() const;
   /// Empty unless a file is asked for.
   std::string file() const;
-  /// The file as check_output_files knows it.
+  /// The file, for check_output_files.
   OutputFile output() const { return {OutputFile::Kind::Json, "--json", file()}; }
 
   /// Refuses, before any work, a file that cannot be written, that is read, or that lies in the folder of results,

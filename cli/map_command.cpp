@@ -34,7 +34,7 @@ struct MapArguments {
   bool psd = false;
 };
 
-/// What of the map is to be told.
+/// What the report of the map shall hold.
 MapReportOptions report_options(const MapArguments& arguments, const CLI::App& command, int threads) {
   MapReportOptions options;
   options.removed = parse_polynomial_spec(arguments.remove);
@@ -147,7 +147,7 @@ int run_map(const MapArguments& arguments, const CLI::App& command) {
   return say_limits(report.broken_limits());
 }
 
-/// What is told of a map besides its size.
+/// The figures of a map besides its size.
 void add_report_options(CLI::App& command, MapArguments& arguments) {
   const auto text = [&command](const char* flag, std::string& value, const char* type, const char* help) {
     command.add_option(flag, value, help)->type_name(type)->expected(1);

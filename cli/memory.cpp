@@ -13,7 +13,8 @@ namespace dwell::cli {
 void keep_freed_memory() {
   // One heap for arrays of any size (no mapping of their own), never trimmed: see mallopt(3).
   if (mallopt(M_MMAP_MAX, 0) == 0 || mallopt(M_TRIM_THRESHOLD, -1) == 0) return;
-  // Address space only: allocated, so that the heap reaches that far, advised, and freed untouched.
+  // This takes address space only: the block is allocated, so that the heap reaches that far, marked for huge pages,
+  // and freed untouched.
   constexpr std::size_t kReserve = std::size_t{4} << 30;
   void* const reserve = std::malloc(kReserve);
   if (reserve == nullptr) return;
@@ -21,7 +22,7 @@ void keep_freed_memory() {
   void* begin = reserve;
   std::size_t room = kReserve;
   if (std::align(page, kReserve - 2 * page, begin, room) != nullptr)
-    madvise(begin, room / page * page, MADV_HUGEPAGE);  // advice: nothing is lost if it is refused
+    madvise(begin, room / page * page, MADV_HUGEPAGE);  // only advice: nothing is lost if the system refuses it
   std::free(reserve);
 }
 

@@ -2,10 +2,11 @@
 
 namespace dwell::cli {
 
-/// Sets the allocator up for a program that makes and drops arrays of the map's size all the time and then ends: what
-/// is freed is kept and used again, and the first gigabytes are backed by huge pages where the system offers them. By
-/// default each such array is new memory from the system, which clears it page by page: a third of the time of a large
-/// plan. Call once, before anything large is allocated. Changes no result; where it cannot be done nothing happens.
+/// Prepares the allocator for a program that makes and frees arrays of the map's size all the time and then ends: freed
+/// memory is kept and used again, and the first gigabytes lie on huge pages where the system offers them. By default
+/// each such array is new memory, which the system clears page by page; that takes a third of the time of a large plan.
+/// Call it once, before anything large is allocated. It changes no result, and where the system does not support it
+/// nothing happens.
 void keep_freed_memory();
 
 }  // namespace dwell::cli

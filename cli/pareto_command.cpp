@@ -19,7 +19,7 @@ struct ParetoArguments {
   JsonOption json;
 };
 
-/// What is said of the sweep to people: its front.
+/// The text for people: the front of the sweep.
 std::string front_text(const ParetoSweep& sweep) {
   std::string text;
   const auto on_front =

@@ -22,7 +22,7 @@ struct PlanArguments {
   bool write_job = false;
 };
 
-/// What is said of the plan to people.
+/// The text for people.
 std::string plan_text(const PlannedJob& plan, const WrittenPlan& written) {
   std::string text;
   const Grid& g = plan.part().map.grid;

@@ -9,7 +9,7 @@ namespace dwell::cli {
 void start_with_quiet_threads(char** argv) {
   constexpr const char* kPolicy = "OMP_WAIT_POLICY";
   if (std::getenv(kPolicy) != nullptr || std::getenv("GOMP_SPINCOUNT") != nullptr) return;
-  // Without the variable set there would be no end of starts.
+  // If the variable could not be set, the program would start itself again without end.
   if (setenv(kPolicy, "passive", 1) != 0 || std::getenv(kPolicy) == nullptr) return;
   execv("/proc/self/exe", argv);
 }

@@ -32,7 +32,7 @@ void check_outputs(const SimulateArguments& a, const JobOptions& options) {
       read);
 }
 
-std::string told(const Simulation& s) {
+std::string simulation_text(const Simulation& s) {
   const std::string exact = s.spline_error
                                 ? fmt::format(
                                       "exact     the spline on the map's pixels would differ by RMS {:.3g} nm, at most "
@@ -61,7 +61,7 @@ int run_simulate(const SimulateArguments& arguments) {
     return map_picture(s.residual, {title, "nm", true, {}, {}}, figure_format_of_file(arguments.png));
   });
   files.write();
-  arguments.json.deliver(simulation_json(s), told(s));
+  arguments.json.deliver(simulation_json(s), simulation_text(s));
   return kDone;
 }
 

@@ -24,8 +24,8 @@ void hold_standard_streams() {
 void say(const std::string& text, int patience_ms) {
   pollfd error{STDERR_FILENO, POLLOUT, 0};
   if (patience_ms >= 0 && ::poll(&error, 1, patience_ms) == 0) return;
-  // Not by the stream, which may be held by another thread that will not let go of it.
-  if (::write(STDERR_FILENO, text.data(), text.size()) < 0) return;  // nobody to tell
+  // This writes past std::cerr, because a thread that is stuck may hold the stream for ever.
+  if (::write(STDERR_FILENO, text.data(), text.size()) < 0) return;  // nobody reads it
 }
 
 bool finish_output() {

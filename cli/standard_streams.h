@@ -4,16 +4,17 @@
 
 namespace dwell::cli {
 
-/// Keeps the numbers of standard streams that are closed from the files that are opened later: what is printed would
-/// go into the first file that is written. Writing to them fails as before. At the start of the program.
+/// Occupies the numbers of standard streams that are closed. Otherwise the first file to be opened would get such a
+/// number, and what the program prints would go into that file. Writing to these streams fails as before. Call it at
+/// the start of the program.
 void hold_standard_streams();
 
-/// Says something on standard error, and nothing where nobody reads. From any thread. Waits for a reader that has
-/// stalled (a full pipe) for so many milliseconds at most, -1 for ever.
+/// Writes a text to standard error, or nothing if nobody reads there. May be called from any thread. Waits for a reader
+/// that has stalled (a full pipe) for at most `patience_ms` milliseconds; -1 is for ever.
 void say(const std::string& text, int patience_ms = -1);
 
-/// Sends off what was printed to standard output. False, and said on standard error, if it could not all be written
-/// (a full device, closed): then the answer is lost. For the end of the program.
+/// Flushes standard output, at the end of the program. If not all of it could be written (a full device, a closed
+/// stream), the answer is lost: it says so on standard error and returns false.
 bool finish_output();
 
 }  // namespace dwell::cli

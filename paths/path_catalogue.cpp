@@ -63,14 +63,14 @@ void refuse_outside(const ToolPath& path, const PathJob& job, const std::string&
 /// Refuses tracks or dwell points farther apart than the tool is wide.
 void check_distance(const PathDistance& distance, const PathJob& job) {
   const double width = 2.0 * job.tif.radius;
-  if (!(distance.value > width)) return;  // whatever else is wrong with it, the planner says
+  if (!(distance.value > width)) return;  // the planner itself reports other faults of the value
   throw InputError(fmt::format(
       "path: {} = {:.6g} mm; required at most {:.6g} mm, the removal function's diameter: farther apart, there are "
       "places that the tool never touches",
       distance.option, distance.value, width));
 }
 
-/// Says of moves over the part that are longer than the tool is wide and made with it down.
+/// A note about moves over the part that are longer than the tool is wide and made with it down.
 void note_long_moves(ToolPath& path, const PathJob& job) {
   const double width = 2.0 * job.tif.radius;
   Index moves = 0;
@@ -114,7 +114,7 @@ ToolPath plan_multi_pitch(const MultiPitchOptions& options, const PathJob& job) 
   return std::move(planned.path);
 }
 
-/// The planners that need nothing of the tool but how far to go beyond the part.
+/// Fits planners that need nothing of the tool but the distance to go beyond the part.
 template <auto plan>
 ToolPath with_overrun(auto options, const PathJob& job) {
   if (!options.overrun) options.overrun = job.tif.radius;
@@ -239,7 +239,7 @@ std::vector<PathRecord> make_catalogue() {
   return rows;
 }
 
-/// "file:PATH.csv" is not cut at commas: a name may hold any.
+/// "file:PATH.csv" is not split at commas, because a name may hold them.
 SpecText spec_text_of(const std::string& text) {
   const std::string kind = split_kind(text).first;
   const bool one_value = std::any_of(path_catalogue().begin(), path_catalogue().end(),

@@ -16,7 +16,7 @@ namespace dwell {
 
 /// What is known of a planner. One table of these records feeds the parser, the command line's list and shorthand, the
 /// documentation and the tests that run over all planners: a new planner is its two files and its row (docs/adding.md).
-/// Options travel as std::any: only the planner's own functions look into them.
+/// Options are passed as std::any, and only the planner's own functions look into them.
 struct PathRecord {
   std::string name;     // before the colon
   std::string usage;    // after the colon: "pitch=MM[,step=MM]..."
@@ -24,17 +24,17 @@ struct PathRecord {
   std::string spacing;  // the key that sets the distance of its tracks and must be given; empty if there is none
   /// Throws InputError as SpecText does.
   std::function<std::any(const SpecText&)> parse;
-  /// All distances that must not be wider than the tool.
+  /// All distances that must not exceed the width of the tool.
   std::function<std::vector<PathDistance>(const std::any&)> distances;
   std::function<ToolPath(const std::any&, const PathJob&)> plan;
-  /// All after the colon is one value, the name of a file, which is not cut at commas.
+  /// Whether all after the colon is one value, the name of a file, which is not split at commas.
   bool one_value = false;
 };
 
 /// Every planner, in the order of the documentation.
 const std::vector<PathRecord>& path_catalogue();
 
-/// Which planner, and its options, parsed once. Without a record it is no path yet.
+/// A planner and its options, parsed once. Without a record, no path has been chosen yet.
 struct PathSpec {
   const PathRecord* record = nullptr;  // of path_catalogue()
   std::string text;                    // as it was parsed
@@ -64,12 +64,13 @@ struct PathFromFile {
 /// the path is planned.
 PathSpec parse_path_spec(const std::string& text);
 
-/// The text that parse_path_spec makes the same path of; empty if none is given.
+/// The text from which parse_path_spec makes the same path; empty if none is given.
 std::string to_string(const PathSpec& spec);
 
-/// Runs the planner. A pitch, cell or step wider than the removal function is refused; moves longer than that with the
-/// tool down are in the notes. A path from a file that comes nowhere within the TIF's reach of a valid pixel is
-/// refused. Throws InputError as the planners do, std::logic_error if the path has no record, Interrupted.
+/// Runs the planner. Refuses a pitch, cell or step wider than the removal function, and a path from a file that nowhere
+/// comes within the TIF's reach of a valid pixel. The notes name moves that are longer than the removal function is
+/// wide and made with the tool down. Throws InputError as the planners do, std::logic_error if the path has no record,
+/// Interrupted.
 ToolPath plan_path(const PathSpec& spec, const PathJob& job);
 
 }  // namespace dwell

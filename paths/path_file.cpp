@@ -18,7 +18,7 @@ namespace dwell {
 namespace {
 
 /// Text of a file as it may be shown in a message: short and printable.
-std::string shown(std::string_view text) {
+std::string printable_text(std::string_view text) {
   constexpr std::size_t kLongest = 60;
   std::string out(text.substr(0, kLongest));
   for (char& c : out) {
@@ -82,7 +82,7 @@ class PathFileReader {
     }
     if (!x_ || !y_) {
       throw InputError(fmt::format("{}: line {}: header \"{}\"; it must name columns x_mm,y_mm[,lift]", name_,
-                                   line_number_, shown(line)));
+                                   line_number_, printable_text(line)));
     }
   }
 
@@ -117,7 +117,7 @@ class PathFileReader {
 
   [[noreturn]] void refuse(std::size_t column, const char* name, const char* required) const {
     throw InputError(fmt::format("{}: line {}: {} = \"{}\"; required: {}", name_, line_number_, name,
-                                 shown(fields_[column]), required));
+                                 printable_text(fields_[column]), required));
   }
 
   std::string name_;

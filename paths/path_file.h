@@ -14,8 +14,8 @@ namespace dwell {
 /// blank lines and lines that start with '#'. lift = 1: the move that arrives at the point is lifted; the first point
 /// always counts as lifted. Kind "file".
 ///
-/// Points that repeat the one before are accepted: a stroke has no length where its neighbours on both sides coincide
-/// with it, and is then a halt. Throws InputError naming file, line, column, value and what is accepted. Cost O(bytes).
+/// Points that repeat the one before are accepted. Where a point coincides with both its neighbours, its stroke has no
+/// length and is a halt. Throws InputError naming file, line, column, value and what is accepted. Cost O(bytes).
 ToolPath read_path_file(const std::filesystem::path& file, const Progress& progress = {});
 
 /// The same from the text of such a file; `name` begins error messages.

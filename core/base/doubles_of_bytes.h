@@ -9,8 +9,9 @@
 
 namespace dwell {
 
-/// The numbers that bytes hold in this machine's order, wherever they lie in memory; a rest of less than 8 bytes is
-/// dropped. By way of a block that stays in the cache, which is cheaper than to clear all of the memory first.
+/// Reads bytes as doubles in this machine's byte order. The bytes need no alignment; fewer than 8 left over at the end
+/// are dropped. Values pass through a block that stays in the cache, because that is cheaper than clearing the whole
+/// vector before it is filled.
 inline std::vector<double> doubles_of(std::string_view bytes) {
   std::array<double, 4096> block;
   std::vector<double> values;

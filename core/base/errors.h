@@ -9,10 +9,10 @@ namespace dwell {
 /// What a user gave (file, option, job field) cannot be used. The message names the thing, the value and what
 /// would be accepted. The command line turns it into exit code 2.
 ///
-/// Nobody below runs/job knows how the user gave a value: by a flag, a field of a job file, a keyword of Python.
+/// No code below runs/job knows how the user gave a value: by a flag, a field of a job file, a keyword of Python.
 /// Messages therefore name an option by its plain name between backquotes, as in "`map pixel` = -1 mm; required > 0",
 /// and whoever took the value from the user replaces the name by the one that the user knows: renamed(). Where one
-/// value is at fault, the error also holds its parts.
+/// value is at fault, the error also holds the name, the value and what is accepted by themselves.
 class InputError : public std::runtime_error {
  public:
   explicit InputError(const std::string& message) : std::runtime_error(message) {}

@@ -75,7 +75,7 @@ std::optional<double> finite_number(std::string_view text) {
 bool starts_with_spreadsheet_error(std::string_view line) {
   line = trim(line);
   if (line.starts_with('"')) line.remove_prefix(1);
-  // In English, German and French.
+  // As spreadsheets in English, German and French write them.
   constexpr std::array<std::string_view, 19> kErrors{
       "#n/a",    "#div/0!", "#num!", "#value!", "#null!", "#ref!",   "#name?",   "#spill!",  "#calc!", "#getting_data",
       "#field!", "#busy!",  "#nv",   "#zahl!",  "#wert!", "#bezug!", "#nombre!", "#valeur!", "#nul!"};

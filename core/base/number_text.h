@@ -7,12 +7,12 @@
 
 namespace dwell {
 
-/// Without the blanks, tabs and carriage returns at both ends.
+/// The text without the blanks, tabs and carriage returns at both ends.
 std::string_view trim(std::string_view text);
 
 std::string lower_case(std::string_view text);
 
-/// The fields between separators, untrimmed; one separator more than none gives one field more.
+/// The fields between separators, untrimmed; n separators make n + 1 fields.
 std::vector<std::string_view> split(std::string_view text, char separator);
 
 /// The number that the whole of `text` spells, blanks around it and one leading '+' allowed, whatever the locale;

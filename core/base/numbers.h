@@ -1,4 +1,4 @@
-// Numbers that many concepts name.
+// Constants that many files use.
 #pragma once
 
 #include <limits>

@@ -6,11 +6,11 @@
 
 namespace dwell {
 
-/// Asks a Progress whether to stop once in so many steps of a loop, for loops whose steps are too short to ask at each.
-/// Throws Interrupted then. Refers to the progress.
+/// Asks a Progress once in `every` steps of a loop whether to stop, and throws Interrupted if so: for loops whose steps
+/// are too short for a question at each. It holds a reference to the progress.
 class Poll {
  public:
-  /// 65,536 steps of up to a microsecond are asked after often enough (progress.h); take fewer for longer steps.
+  /// The default suits steps of up to a microsecond, of which 65,536 take 0.07 s; longer steps need a smaller number.
   explicit Poll(const Progress& progress, std::uint32_t every = 65536)
       : progress_(progress), every_(every), left_(every) {}
 

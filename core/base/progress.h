@@ -12,7 +12,8 @@ namespace dwell {
 /// readers and writers. Both functions may be empty: then nothing is shown and nothing stops. Whatever can take over
 /// two seconds asks it at least four times a second. Called by one thread at a time.
 struct Progress {
-  /// Shown how far the computation is, one line with units. Called as often as there is news: the receiver thins out.
+  /// Shown how far the computation is, one line with units. Called as often as there is news: the receiver drops what
+  /// comes too fast.
   std::function<void(const std::string& line)> show{};
   /// Whether to stop; asked often. What is stopped throws Interrupted and has written nothing.
   std::function<bool()> stop{};
@@ -21,7 +22,7 @@ struct Progress {
     if (show) show(line);
   }
   bool stop_asked() const { return stop && stop(); }
-  /// Throws Interrupted if it is to stop.
+  /// Throws Interrupted if the computation is to stop.
   void check() const {
     if (stop_asked()) throw Interrupted();
   }

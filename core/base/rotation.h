@@ -7,7 +7,7 @@
 
 namespace dwell {
 
-/// A turn by an angle [deg], counter-clockwise seen from +z with x to the right and y up.
+/// A rotation by an angle [deg], counter-clockwise seen from +z with x to the right and y up.
 class Rotation {
  public:
   explicit Rotation(double degrees)

@@ -11,7 +11,8 @@ inline std::string_view without_byte_order_mark(std::string_view text) {
   return text;
 }
 
-/// Walks the lines of a text: ends at LF or CR LF, numbers from 1, a byte-order mark of UTF-8 skipped.
+/// Walks the lines of a text. A line ends with LF or CR LF, the first one is number 1, and a UTF-8 byte-order mark is
+/// skipped.
 class TextLines {
  public:
   explicit TextLines(std::string_view text) : rest_(without_byte_order_mark(text)) {}

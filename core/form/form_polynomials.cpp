@@ -7,11 +7,12 @@
 namespace dwell {
 namespace {
 
-constexpr Index kBlock = 1 << 14;  // pixels; small enough to share among threads, large enough to keep them busy
+// Pixels: small enough to share the work among threads, large enough to keep them busy.
+constexpr Index kBlock = 1 << 14;
 
 constexpr std::size_t kRoundTerms = 4;  // piston, tilt, power
 
-/// Of the first `Terms` coefficients, 4 or 6.
+/// The value at (x, y) of the first `Terms` coefficients, 4 or 6.
 template <std::size_t Terms>
 double value_of(const FormPolynomials::Polynomial& p, double x, double y) {
   const double round = p[0] + p[1] * x + p[2] * y + p[3] * (x * x + y * y);
@@ -47,7 +48,8 @@ void FormPolynomials::visit_block(Index block, const Visit& visit) const {
   double y = 0.0;
   for (auto i = static_cast<std::size_t>(block * kBlock); i < end; ++i) {
     const Index pixel = pixels_[i];
-    if (pixel < row_begin || pixel >= row_end) {  // seldom: a division a pixel would cost more than all the rest
+    // A division for every pixel would cost more than all the rest.
+    if (pixel < row_begin || pixel >= row_end) {
       const Index row = pixel / grid_.cols;
       row_begin = row * grid_.cols;
       row_end = row_begin + grid_.cols;
@@ -116,7 +118,7 @@ void FormPolynomials::add_term(std::size_t term, double size) {
     const double v = weight(p.number) * value_of<Terms>(candidate, p.x, p.y);
     s[0] += v * v;
   })[0]);
-  // The terms are of size |w| at most; what the others leave of a dependent one is rounding.
+  // The terms are at most of the size |w|; what the others leave of a dependent term is rounding.
   if (!(norm > 1e-9 * size)) return;
   for (double& c : candidate) c /= norm;
   orthonormal_.push_back(candidate);

@@ -12,11 +12,11 @@
 namespace dwell {
 
 /// The form terms on a set of pixels as orthonormal polynomials q_k(x, y) = c_k . (1, x, y, x^2 + y^2, x^2 - y^2, 2 x
-/// y): sum over the pixels of w^2 q_j q_k = delta_jk with w the weights (empty = all one). What form_basis holds as
-/// columns, as a few coefficients; x and y are centred on the weighted centroid and scaled to at most 1, so that the
-/// terms are of one size and rounding in a far origin does not reach them. Terms that are dependent on these pixels
-/// (one pixel, one row) are left out. Sums are taken in blocks of pixels, the blocks in order: the same for any number
-/// of threads.
+/// y): sum over the pixels of w^2 q_j q_k = delta_jk with w the weights (empty = all one). A few coefficients stand
+/// here for what form_basis holds as columns. x and y are centred on the weighted centroid and scaled to at most 1, so
+/// that the terms are of one size and a distant origin costs no digits. Terms that are dependent on these pixels (one
+/// pixel, one row) are left out. Sums are taken in blocks of pixels, the blocks in order: the same for any number of
+/// threads.
 class FormPolynomials {
  public:
   static constexpr std::size_t kTerms = 6;

@@ -35,7 +35,7 @@ ValidPixels valid_pixels_of(const HeightMap& map) {
   return v;
 }
 
-/// Distance to the farthest valid pixel's centre. Only the first and last of a row can be it.
+/// Distance to the farthest valid pixel's centre. Only the first and the last valid pixel of a row can be the farthest.
 double farthest(const HeightMap& map, const ValidPixels& v, Point centre) {
   double square = 0.0;
   for (Index row = v.row0; row <= v.row1; ++row) {

@@ -9,7 +9,7 @@
 
 namespace dwell {
 
-/// Where the polynomials of a spec live on a map [mm].
+/// The area of a map on which the polynomials of a spec are defined [mm].
 struct PolynomialDomain {
   Point centre;                                   // of the circle: Zernike and form terms
   double radius = 1.0;                            // outer radius of the circle

@@ -27,13 +27,13 @@ struct PolynomialFit {
   Index pixels = 0;
 };
 
-/// Takes the least-squares form out of the map's finite pixels (all others stay) and says what it was. A term of which
-/// those before it leave less than 1e-6 of its RMS on these pixels is dropped.
+/// Takes the least-squares form out of the map's finite pixels (all others stay) and says what it was. A term is
+/// dropped if the terms before it account for all of it on these pixels but 1e-6 of its RMS.
 ///
 /// The polynomials are expanded in products of Chebyshev polynomials, whose inner products over the valid pixels follow
 /// from few sums (core/numerics/chebyshev_sums.h), and orthonormalised there; a second step on the residual takes out
-/// what rounding left (corrected seminormal equations, Bjorck 1987, Linear Algebra Appl. 88/89, 31). The same for any
-/// number of threads. Cost O(pixels * degree); the basis is never held. Throws InputError if the map has no finite
+/// what rounding has left (corrected seminormal equations, Bjorck 1987, Linear Algebra Appl. 88/89, 31). The same for
+/// any number of threads. Cost O(pixels * degree); the basis is never held. Throws InputError if the map has no finite
 /// pixel.
 PolynomialFit remove_polynomials(HeightMap& map, const PolynomialSpec& spec, int threads = 1);
 

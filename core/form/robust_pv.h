@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "core/form/polynomial_fit.h"
+#include "core/map/height_map.h"
 
 namespace dwell {
 
@@ -12,11 +12,11 @@ struct RobustPv {
   double residual_rms = 0.0;  // of what it leaves
 };
 
-/// PVr, a peak-to-valley that single pixels do not rule: PV of the fit of the first 36 Fringe Zernike polynomials plus
-/// three times the RMS of what they leave (C. J. Evans 2009, "PVr: a robust amplitude parameter for optical surface
-/// specification", Opt. Eng. 48, 043605). On parts that are not round they live on the smallest circle about the middle
-/// of the bounding box that holds the part. Nothing of fewer finite pixels than terms, which the fit would follow
-/// wherever they lie. Throws InputError if no pixel is finite.
+/// PVr, a peak-to-valley value that no single pixel decides: the PV of the fit of the first 36 Fringe Zernike
+/// polynomials plus three times the RMS of what they leave (C. J. Evans 2009, "PVr: a robust amplitude parameter for
+/// optical surface specification", Opt. Eng. 48, 043605). On parts that are not round, the polynomials are those of the
+/// smallest circle about the middle of the bounding box that holds the part. Nothing if there are fewer finite pixels
+/// than terms: the fit would then pass through every one of them. Throws InputError if no pixel is finite.
 std::optional<RobustPv> robust_pv(const HeightMap& map, int threads = 1);
 
 }  // namespace dwell

@@ -150,7 +150,7 @@ class RowTest {
   std::vector<Edge> edges_;
 };
 
-HeightMap masked(HeightMap map, const Aperture& area, bool keep_inside) {
+HeightMap mask_map(HeightMap map, const Aperture& area, bool keep_inside) {
   const Grid grid = map.grid;
   const Index with_data = map.valid_pixels();
   // The boundary is closed: a pixel centre that rounding (0.1 * 3 > 0.3) puts a hair outside belongs to it.
@@ -214,8 +214,8 @@ std::string to_string(const Aperture& area) {
   return text;
 }
 
-HeightMap within(HeightMap map, const Aperture& aperture) { return masked(std::move(map), aperture, true); }
+HeightMap within(HeightMap map, const Aperture& aperture) { return mask_map(std::move(map), aperture, true); }
 
-HeightMap outside(HeightMap map, const Aperture& aperture) { return masked(std::move(map), aperture, false); }
+HeightMap outside(HeightMap map, const Aperture& aperture) { return mask_map(std::move(map), aperture, false); }
 
 }  // namespace dwell

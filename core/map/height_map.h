@@ -16,7 +16,7 @@ struct HeightMap {
   Grid grid;
   std::vector<double> values;        // grid.size(), row-major
   std::vector<std::string> history;  // how it was made from what was measured, a step each (one line), oldest first
-  MapQuantity quantity = MapQuantity::Height;  // files say it as the unit, so that no one is read as the other
+  MapQuantity quantity = MapQuantity::Height;  // files state it as the unit, so that neither is read as the other
 
   HeightMap() = default;
   /// All pixels NaN. Throws InputError unless rows, cols >= 1 and both pitches are finite and > 0.

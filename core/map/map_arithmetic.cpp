@@ -11,7 +11,7 @@
 namespace dwell {
 namespace {
 
-std::string shown(const Grid& g) {
+std::string describe_grid(const Grid& g) {
   return fmt::format("{} x {} pixels of {} x {} mm, the first at ({}, {}) mm", g.rows, g.cols, g.pitch_x, g.pitch_y,
                      g.origin.x, g.origin.y);
 }
@@ -34,7 +34,8 @@ std::string grid_difference(const Grid& a, const Grid& b) {
       !(std::abs(a.pitch_y - b.pitch_y) > kSame * a.pitch_y)) {
     return "";
   }
-  return fmt::format("the maps lie on different grids, {} and {}; they must agree to 1e-6 pixels", shown(a), shown(b));
+  return fmt::format("the maps lie on different grids, {} and {}; they must agree to 1e-6 pixels", describe_grid(a),
+                     describe_grid(b));
 }
 
 HeightMap difference(const HeightMap& a, const HeightMap& b) {

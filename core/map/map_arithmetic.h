@@ -15,8 +15,9 @@ std::string grid_difference(const Grid& a, const Grid& b);
 HeightMap difference(const HeightMap& a, const HeightMap& b);
 
 /// The mean of the maps at every pixel, over those that have data there; NaN where fewer than `least` have. Throws
-/// InputError if the grids differ, `least` is not from 1 to their number, or no pixel has data in so many. Where maps
-/// with other piston or tilt drop out in places, the mean has steps: level them before, or ask for data in all.
+/// InputError if the grids differ, `least` is not from 1 to their number, or no pixel has data in so many. If the maps
+/// differ in piston or tilt, the mean has a step wherever one of them has no data: level them before, or require data
+/// in all.
 HeightMap mean_map(const std::vector<HeightMap>& maps, Index least);
 
 }  // namespace dwell

@@ -14,7 +14,7 @@ struct Span {
   Index first = 0, last = -1;
 };
 
-/// The pixels of a line whose centres lie in [low, high], rounding forgiven.
+/// The pixels of a line whose centres lie in [low, high], apart from rounding.
 Span span_of(double origin, double pitch, Index count, double low, double high) {
   constexpr double kRounding = 1e-9;  // pixels
   const auto end = static_cast<double>(count);

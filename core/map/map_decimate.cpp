@@ -41,7 +41,7 @@ Index span_of(double pitch, double old_pitch, Index pixels) {
 
 }  // namespace
 
-HeightMap decimated(const HeightMap& map, Index row_factor, Index col_factor) {
+HeightMap decimate_map(const HeightMap& map, Index row_factor, Index col_factor) {
   const Grid& g = map.grid;
   if (row_factor < 1 || col_factor < 1) {
     throw InputError(fmt::format("blocks of {} x {} pixels; at least 1 x 1 required", row_factor, col_factor));
@@ -70,14 +70,14 @@ HeightMap decimated(const HeightMap& map, Index row_factor, Index col_factor) {
   return result;
 }
 
-HeightMap resampled(const HeightMap& map, Point pitch, int threads) {
+HeightMap resample_map(const HeightMap& map, Point pitch, int threads) {
   if (!(std::isfinite(pitch.x) && pitch.x > 0.0 && std::isfinite(pitch.y) && pitch.y > 0.0)) {
     throw InputError(fmt::format("pitch = {} x {} mm; both must be finite and > 0", pitch.x, pitch.y));
   }
   const Index across = span_of(pitch.x, map.grid.pitch_x, map.grid.cols);
   const Index along = span_of(pitch.y, map.grid.pitch_y, map.grid.rows);
   const bool coarser = across > 1 || along > 1;
-  const HeightMap averaged = coarser ? decimated(map, along, across) : HeightMap();
+  const HeightMap averaged = coarser ? decimate_map(map, along, across) : HeightMap();
   const HeightMap& source = coarser ? averaged : map;
   constexpr double kRounding = 1e-9;  // pixels
   const auto points = [](double old_pitch, Index pixels, double new_pitch) {
@@ -86,7 +86,7 @@ HeightMap resampled(const HeightMap& map, Point pitch, int threads) {
   const Grid& g = source.grid;
   const Grid target = limited_grid(points(g.pitch_y, g.rows, pitch.y), points(g.pitch_x, g.cols, pitch.x), pitch,
                                    g.origin, fmt::format("pitch = {} x {} mm", pitch.x, pitch.y));
-  return warped(source, {}, target, threads);
+  return warp_map(source, {}, target, threads);
 }
 
 }  // namespace dwell

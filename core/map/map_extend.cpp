@@ -30,7 +30,7 @@ void check(const ExtendOptions& o) {
   }
 }
 
-HeightMap enlarged(const HeightMap& map, double width) {
+HeightMap enlarge_map(const HeightMap& map, double width) {
   const Grid& g = map.grid;
   constexpr double kRounding = 1e-9;  // pixels
   const double rows = std::ceil(width / g.pitch_y - kRounding), cols = std::ceil(width / g.pitch_x - kRounding);
@@ -60,7 +60,7 @@ class Gerchberg {
         mean_(mean_of_data(map)),
         fft_(periodic_size(map.grid.rows, map.grid.pitch_y, options),
              periodic_size(map.grid.cols, map.grid.pitch_x, options), threads) {
-    // From the nearest height: what the transform adds beyond the map continues its last row and column.
+    // The start is the nearest height everywhere: padding beyond the map continues its last row and column.
     for (Index r = 0; r < fft_.rows(); ++r) {
       for (Index c = 0; c < fft_.cols(); ++c) {
         const Index inside = map.grid.index(std::min(r, map.grid.rows - 1), std::min(c, map.grid.cols - 1));
@@ -98,8 +98,8 @@ class Gerchberg {
   }
 
  private:
-  /// Pixels of an axis of the transform: between the data at one end and, repeated, at the other lies at least one
-  /// shortest wave, so that they do not pull at each other.
+  /// Pixels of an axis of the transform. At least one shortest wave lies between the data and its periodic repetition,
+  /// so that they do not influence each other.
   static Index periodic_size(Index count, double pitch, const ExtendOptions& options) {
     const double gap = std::max(0.0, options.shortest - 2.0 * options.width) / pitch;
     return good_fft_size(count + static_cast<Index>(std::ceil(std::min(gap, static_cast<double>(count)))));
@@ -160,10 +160,10 @@ Extension parse_extension(const std::string& text) {
   throw InputError(fmt::format("extension '{}'; accepted: zero, nearest, decay, harmonic or gerchberg", text));
 }
 
-HeightMap extended(const HeightMap& map, const ExtendOptions& options, ExtendSummary& summary, int threads,
-                   const Progress& progress) {
+HeightMap extend_map(const HeightMap& map, const ExtendOptions& options, ExtendSummary& summary, int threads,
+                     const Progress& progress) {
   check(options);
-  const HeightMap data = enlarged(map, options.width);
+  const HeightMap data = enlarge_map(map, options.width);
   const std::vector<Index> nearest = nearest_pixels(data);
   summary = {};
   HeightMap result = data;

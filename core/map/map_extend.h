@@ -12,7 +12,7 @@ enum class Extension {
   Zero,       // 0
   Nearest,    // h
   Decay,      // h (1 + cos(pi d / width)) / 2: falls smoothly from h to 0 at the width
-  Harmonic,   // Laplace's equation, heights of the data held, nothing passing the outer end (core/numerics/laplace.h)
+  Harmonic,   // Laplace's equation: the data hold their heights, no flux at the outer end (core/numerics/laplace.h)
   Gerchberg,  // waves longer than `shortest` only, fitted to the data by Gerchberg's iteration
 };
 
@@ -37,12 +37,12 @@ struct ExtendSummary {
 /// The map on a grid that is larger by the width on every side (rounded up to whole pixels), with heights in every
 /// pixel without data, in holes too, whose centre is at most `width` from the centre of one with data. Pixels with data
 /// keep theirs to the last bit. Gerchberg (R. W. Gerchberg 1974, "Super-resolution through error energy reduction",
-/// Optica Acta 21, 709; Papoulis 1975): from the nearest height everywhere, in turn take out by FFT all waves shorter
-/// than `shortest` in any direction and put the data back; periodic, with at least `shortest` (at most the map's side)
-/// between the data and its repetition. It converges fast for long waves only, and leaves a step at the edge where the
-/// data has shorter ones. Throws InputError for options out of range or a map without data. Cost O(pixels), Gerchberg
-/// two FFTs an iteration.
-HeightMap extended(const HeightMap& map, const ExtendOptions& options, ExtendSummary& summary, int threads = 1,
-                   const Progress& progress = {});
+/// Optica Acta 21, 709; Papoulis 1975): it starts from the nearest height everywhere, then alternately takes out by FFT
+/// all waves shorter than `shortest` in any direction and puts the data back. The FFT is periodic; at least `shortest`
+/// (at most the map's side) lies between the data and its repetition. It converges fast for long waves only, and leaves
+/// a step at the edge where the data has shorter ones. Throws InputError for options out of range or a map without
+/// data. Cost O(pixels), Gerchberg two FFTs an iteration.
+HeightMap extend_map(const HeightMap& map, const ExtendOptions& options, ExtendSummary& summary, int threads = 1,
+                     const Progress& progress = {});
 
 }  // namespace dwell

@@ -8,11 +8,10 @@
 #include <vector>
 
 #include "core/base/errors.h"
+#include "core/numerics/median.h"
 
 namespace dwell {
 namespace {
-
-constexpr double kSigmaPerDeviation = 1.4826;  // standard deviation per median absolute deviation, normal distribution
 
 /// The median, of an even number the mean of the middle two. Reorders; at least one.
 double median(std::vector<double>& v) {
@@ -34,13 +33,14 @@ bool is_outlier(const HeightMap& map, Index row, Index col, const OutlierOptions
   const double centre = median(near);
   const double away = std::abs(map.at(row, col) - centre);
   if (!(away > options.sigmas * options.floor)) return false;
-  // Counting is cheaper than the second median: fewer than half nearer than this, and that median is no less.
-  const double nearer_than = away / (options.sigmas * kSigmaPerDeviation);
+  // Counting is cheaper than the second median: if fewer than half of the values are nearer than this, that median is
+  // no less.
+  const double nearer_than = away / (options.sigmas * kSigmaPerMedianDeviation);
   const auto nearer =
       std::count_if(near.begin(), near.end(), [&](double v) { return std::abs(v - centre) < nearer_than; });
   if (nearer < static_cast<std::ptrdiff_t>(near.size() / 2)) return false;
   for (double& v : near) v = std::abs(v - centre);
-  return away > options.sigmas * std::max(kSigmaPerDeviation * median(near), options.floor);
+  return away > options.sigmas * std::max(kSigmaPerMedianDeviation * median(near), options.floor);
 }
 
 void check(const OutlierOptions& o) {
@@ -83,7 +83,7 @@ double steeper(const HeightMap& map, Index row, Index col, Index down, Index rig
 Index remove_outliers(HeightMap& map, const OutlierOptions& options, int threads, const Progress& progress) {
   check(options);
   std::vector<unsigned char> marked(map.values.size(), 0);
-  const Index at_once = 2 * std::max(threads, 1);  // rows between reports: few, for a wide window takes its time
+  const Index at_once = 2 * std::max(threads, 1);  // rows between reports: few, because a wide window takes long
   for (Index first = 0; first < map.grid.rows; first += at_once) {
     progress.step(fmt::format("outliers: row {} of {}", first, map.grid.rows));
     const Index end = std::min(first + at_once, map.grid.rows);

@@ -28,8 +28,8 @@ struct LimitOptions {
 
 /// Sets to NaN every pixel farther than `height` from the median of the map, and every pixel with a slope above
 /// `slope`: the root of the sum of squares of the steeper of its two one-sided differences in x and in y, to finite
-/// neighbours. A lone spike so takes its four neighbours with it. All are judged on the map as it was. Returns how many
-/// were removed. Throws InputError if a limit is negative, both are zero, or nothing is left.
+/// neighbours. A lone spike therefore takes its four neighbours with it. All are judged on the map as it was. Returns
+/// how many were removed. Throws InputError if a limit is negative, both are zero, or nothing is left.
 Index remove_beyond(HeightMap& map, const LimitOptions& options);
 
 }  // namespace dwell

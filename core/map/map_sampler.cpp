@@ -10,9 +10,9 @@ namespace dwell {
 namespace {
 
 constexpr Index kRings = 3;
-constexpr Index kPadding = 12;  // pixels around the map: what the spline does beyond is 0.27^12 of it here
+constexpr Index kPadding = 12;  // pixels around the map: the influence of what lies beyond falls to 0.27^12 over them
 
-HeightMap padded(const HeightMap& map, double mean) {
+HeightMap pad_map(const HeightMap& map, double mean) {
   const Grid& g = map.grid;
   HeightMap wide(
       Grid{g.rows + 2 * kPadding, g.cols + 2 * kPadding, g.pitch_x, g.pitch_y, g.centre(-kPadding, -kPadding)});
@@ -22,8 +22,8 @@ HeightMap padded(const HeightMap& map, double mean) {
   return wide;
 }
 
-/// What linear continuation from the finite pixels around gives, NaN where none is a neighbour.
-double continued(const HeightMap& map, Index row, Index col) {
+/// The height by linear continuation from the finite pixels around; NaN where no neighbour is finite.
+double continue_linearly(const HeightMap& map, Index row, Index col) {
   double linear = 0.0, constant = 0.0;
   int lines = 0, neighbours = 0;
   for (Index dr = -1; dr <= 1; ++dr) {
@@ -51,7 +51,7 @@ void add_ring(HeightMap& map) {
   for (Index r = 0; r < map.grid.rows; ++r) {
     for (Index c = 0; c < map.grid.cols; ++c) {
       if (std::isfinite(map.at(r, c))) continue;
-      const double height = continued(map, r, c);
+      const double height = continue_linearly(map, r, c);
       if (std::isfinite(height)) ring.emplace_back(static_cast<std::size_t>(map.grid.index(r, c)), height);
     }
   }
@@ -74,7 +74,7 @@ double mean_of(const HeightMap& map) {
 MapSampler::MapSampler(const HeightMap& map) : grid_(map.grid), mean_(mean_of(map)) {
   valid_.reserve(map.values.size());
   for (const double height : map.values) valid_.push_back(std::isfinite(height) ? 1 : 0);
-  HeightMap wide = padded(map, mean_);
+  HeightMap wide = pad_map(map, mean_);
   for (Index ring = 0; ring < kRings; ++ring) add_ring(wide);
   const std::vector<Index> nearest = nearest_pixels(wide);
   for (std::size_t i = 0; i < nearest.size(); ++i) wide.values[i] = wide.values[static_cast<std::size_t>(nearest[i])];

@@ -6,16 +6,17 @@
 namespace dwell {
 
 /// A map between its pixels: the cubic B-spline that takes every finite height at its pixel
-/// (core/numerics/spline_surface.h). Pixels without data are given heights for the spline's sake: three rings of linear
-/// continuation (the mean over the eight directions of 2 h(1) - h(2)), beyond them the height of the nearest pixel.
-/// They do not count as data.
+/// (core/numerics/spline_surface.h). The spline needs heights in pixels without data too: there it takes three rings of
+/// linear continuation (the mean over the eight directions of 2 h(1) - h(2)), beyond them the height of the nearest
+/// pixel. They do not count as data.
 class MapSampler {
  public:
   /// Throws InputError if no pixel is finite. Cost and memory O(pixels).
   explicit MapSampler(const HeightMap& map);
 
   /// Whether there is data at p: every pixel that bilinear interpolation would use is finite. A pixel's own centre (to
-  /// 1e-9 pixels) needs that pixel only; a hole spoils the cells it touches; nothing is extrapolated.
+  /// 1e-9 pixels) needs that pixel only; there is no data in the cells that a hole touches, and nothing is
+  /// extrapolated.
   bool has_data(Point p) const;
 
   /// The height at p [nm], NaN where there is no data.

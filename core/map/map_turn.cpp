@@ -30,17 +30,17 @@ Index target_of(GridTurn turn, const Grid& from, const Grid& to, Index row, Inde
 
 Grid turned_grid(const Grid& g, GridTurn turn, std::optional<Point> about) {
   Grid result = exchanges_axes(turn) ? Grid{g.cols, g.rows, g.pitch_y, g.pitch_x, {}} : g;
-  // About its middle, the origin of a map that keeps its axes stays to the last bit.
+  // If a map that keeps its axes is turned about its middle, its origin stays the same to the last bit.
   if (!about && !exchanges_axes(turn)) return result;
   const Point middle = middle_of(g);
   result.origin = {};
-  result.origin = (about ? turned(middle, turn, *about) : middle) - middle_of(result);
+  result.origin = (about ? turn_point(middle, turn, *about) : middle) - middle_of(result);
   return result;
 }
 
 }  // namespace
 
-Point turned(Point p, GridTurn turn, Point about) {
+Point turn_point(Point p, GridTurn turn, Point about) {
   const Point d = p - about;
   switch (turn) {
     case GridTurn::FlipX:
@@ -59,7 +59,7 @@ Point turned(Point p, GridTurn turn, Point about) {
   return p;
 }
 
-HeightMap turned(const HeightMap& map, GridTurn turn, std::optional<Point> about) {
+HeightMap turn_map(const HeightMap& map, GridTurn turn, std::optional<Point> about) {
   HeightMap result(turned_grid(map.grid, turn, about));
   for (Index row = 0; row < map.grid.rows; ++row) {
     for (Index col = 0; col < map.grid.cols; ++col) {

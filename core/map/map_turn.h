@@ -16,12 +16,12 @@ enum class GridTurn {
   Transpose,      // (x, y) -> (y, x)
 };
 
-/// Where a point of the part comes to lie, x and y being counted from `about`.
-Point turned(Point p, GridTurn turn, Point about);
+/// Where a point of the part comes to lie, with x and y counted from `about`.
+Point turn_point(Point p, GridTurn turn, Point about);
 
 /// The map with the part turned about a point [mm]; by default about the middle of the map's pixel centres, so that the
-/// map stays where it is. Every height comes to lie where turned(Point) says, unchanged to the last bit, and so does
+/// map stays where it is. Every height comes to lie where turn_point says, unchanged to the last bit, and so does
 /// NaN. Quarter turns and transpose exchange rows and columns, and the two pitches. Cost O(pixels).
-HeightMap turned(const HeightMap& map, GridTurn turn, std::optional<Point> about = std::nullopt);
+HeightMap turn_map(const HeightMap& map, GridTurn turn, std::optional<Point> about = std::nullopt);
 
 }  // namespace dwell

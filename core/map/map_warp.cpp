@@ -11,7 +11,7 @@
 
 namespace dwell {
 
-HeightMap warped(const HeightMap& map, const PlaneTransform& forward, const Grid& target, int threads) {
+HeightMap warp_map(const HeightMap& map, const PlaneTransform& forward, const Grid& target, int threads) {
   const PlaneTransform back = forward.inverse();
   const MapSampler sampler(map);
   HeightMap result(target);
@@ -41,9 +41,9 @@ Grid covering_grid(const Grid& grid, const PlaneTransform& forward) {
   return result;
 }
 
-HeightMap rotated(const HeightMap& map, double degrees, Point about, int threads) {
+HeightMap rotate_map(const HeightMap& map, double degrees, Point about, int threads) {
   const PlaneTransform forward = similarity(about, {}, degrees, 1.0);
-  return warped(map, forward, covering_grid(map.grid, forward), threads);
+  return warp_map(map, forward, covering_grid(map.grid, forward), threads);
 }
 
 }  // namespace dwell

@@ -9,14 +9,14 @@ namespace dwell {
 /// by cubic B-spline (core/map/map_sampler.h, which says where there is no data). No averaging: where the target is
 /// coarser than the map, decimate first. Throws InputError if `forward` cannot be inverted or no pixel of the target
 /// has data. Cost O(pixels of both).
-HeightMap warped(const HeightMap& map, const PlaneTransform& forward, const Grid& target, int threads = 1);
+HeightMap warp_map(const HeightMap& map, const PlaneTransform& forward, const Grid& target, int threads = 1);
 
-/// The smallest grid of the same pitches that covers all pixel centres of `grid` moved by `forward`, its middle where
-/// theirs goes. Throws InputError if it is larger than kMaxPixels.
+/// The smallest grid of the same pitches that covers all pixel centres of `grid` moved by `forward`. Its middle lies
+/// where theirs is moved. Throws InputError if it is larger than kMaxPixels.
 Grid covering_grid(const Grid& grid, const PlaneTransform& forward);
 
 /// The map turned counter-clockwise by any angle about a point [mm], on the covering grid. For
 /// multiples of 90 degrees core/map/map_turn.h is exact.
-HeightMap rotated(const HeightMap& map, double degrees, Point about, int threads = 1);
+HeightMap rotate_map(const HeightMap& map, double degrees, Point about, int threads = 1);
 
 }  // namespace dwell

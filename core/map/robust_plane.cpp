@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "core/numerics/dense_solve.h"
+#include "core/numerics/median.h"
 
 namespace dwell {
 namespace {
@@ -18,19 +19,13 @@ struct Sample {
   double x, y, z;
 };
 
-double median_of(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 double residual(const Sample& s, const Eigen::Vector3d& c) { return s.z - c[0] - c[1] * s.x - c[2] * s.y; }
 
 double scatter_of(const std::vector<Sample>& samples, const Eigen::Vector3d& c) {
   std::vector<double> sizes;
   sizes.reserve(samples.size());
   for (const Sample& s : samples) sizes.push_back(std::abs(residual(s, c)));
-  return 1.4826 * median_of(std::move(sizes));
+  return kSigmaPerMedianDeviation * upper_median(std::move(sizes));
 }
 
 template <class Weight>
@@ -64,7 +59,7 @@ Plane robust_plane(const HeightMap& map, const std::vector<Index>& pixels, bool 
     samples.push_back({d.x / extent, d.y / extent, z});
     heights.push_back(z);
   }
-  Eigen::Vector3d c(median_of(std::move(heights)), 0.0, 0.0);
+  Eigen::Vector3d c(upper_median(std::move(heights)), 0.0, 0.0);
   for (int k = 0; k < kPasses; ++k) {
     const double floor = std::max(1e-3 * scatter_of(samples, c), 1e-300);
     c = weighted_fit(samples, c, tilt, [&](double r) { return 1.0 / std::max(std::abs(r), floor); });

@@ -7,8 +7,8 @@
 
 namespace dwell {
 
-/// One step of a machine program as the machine runs it: a straight move at constant speed (start != finish) or a
-/// halt (start == finish), taking `seconds`. `removes` is false for lifted moves.
+/// One step of a machine program as the machine runs it: a straight move at constant speed (start != finish) or a halt
+/// (start == finish). It takes `seconds`. `removes` is false for lifted moves.
 struct ProgramStep {
   Point start;
   Point finish;
@@ -28,10 +28,10 @@ struct Program {
   double removing_length() const;  // [mm]
 };
 
-/// Whether two programs remove with the same steps, as far as the rounding in their files goes: equally many, each with
-/// its ends within 1e-6 mm and its duration within 1e-6 of itself plus the time for 4e-6 mm at `max_feed` [mm/s]. A NaN
-/// is never the same. What two such programs remove differs by no more than their durations do: for a step of 0.4 mm at
-/// the maximum feed, by 1.1e-5 of it. Cost O(steps).
+/// Whether two programs remove with the same steps, apart from the rounding in their files: they have equally many, and
+/// for each the ends agree within 1e-6 mm and the durations within 1e-6 of themselves plus the time for 4e-6 mm at
+/// `max_feed` [mm/s]. A NaN never agrees. What two such programs remove differs by no more than their durations do: for
+/// a step of 0.4 mm at the maximum feed, by 1.1e-5 of it. Cost O(steps).
 bool same_removing_steps(const Program& a, const Program& b, double max_feed);
 
 }  // namespace dwell

@@ -43,7 +43,7 @@ void append_stroke_quadrature(const Stroke& stroke, const Grid& grid, std::vecto
     points.push_back({stroke.via, 1.0});
     return;
   }
-  thread_local std::vector<double> cuts;  // kept: millions of strokes would else allocate it anew
+  thread_local std::vector<double> cuts;  // kept from call to call, because millions of strokes would allocate it anew
   if (first > 0.0) append_piece(stroke.start, stroke.via, first / total, grid, cuts, points);
   if (second > 0.0) append_piece(stroke.via, stroke.finish, second / total, grid, cuts, points);
 }

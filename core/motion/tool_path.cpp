@@ -29,8 +29,9 @@ std::vector<Point> halfway_nodes(const ToolPath& path, Piece piece) {
   return nodes;
 }
 
-/// The nodes of the chain of equal steps whose midpoints the points are, or nothing. From the first straight step on,
-/// q_j = 2 p_j - q_(j-1); each further straight step gives its node anew, so that rounding does not add up.
+/// The nodes of the chain of equal steps that has these points as midpoints; nothing if there is none. From the first
+/// straight step on, q_j = 2 p_j - q_(j-1); each further straight step gives its node anew, so that rounding does not
+/// add up.
 std::vector<Point> chain_nodes(const ToolPath& path, Piece piece) {
   const auto& p = path.points;
   const std::size_t count = piece.last - piece.first;

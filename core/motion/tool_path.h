@@ -34,11 +34,11 @@ struct Stroke {
 /// in each piece, dwell point j stands for the stretch from node q_(j-1) through p_j to node q_j. n strokes, in order.
 ///
 /// Nodes lie halfway between neighbouring dwell points; at the ends of a piece the stretch is extended straight on by
-/// its other half, so that it is symmetric about its point; a point alone in its piece is a halt. One case is better
-/// known: where all points of a piece are the midpoints of a chain of equal steps (to kEqualSteps of a step), as
-/// planners that think in segments write them, the chain's own nodes are used, so that the tool turns where the chain
-/// turns and all strokes but perhaps the last are equally long. A chain does not turn by more than 120 degrees. On a
-/// straight line of equal steps the two are the same.
+/// its other half, so that it is symmetric about its point; a point alone in its piece is a halt. In one case the nodes
+/// are known exactly: where all points of a piece are the midpoints of a chain of equal steps (to kEqualSteps of a
+/// step), as planners that lay segments write them, the chain's own nodes are used, so that the tool turns where the
+/// chain turns and all strokes but perhaps the last are equally long. A chain does not turn by more than 120 degrees.
+/// On a straight line of equal steps the two are the same.
 inline constexpr double kEqualSteps = 1e-3;
 std::vector<Stroke> moving_strokes(const ToolPath& path);
 

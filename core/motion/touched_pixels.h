@@ -8,12 +8,12 @@
 
 namespace dwell {
 
-/// Pixels [first_row, last_row] x [first_col, last_col]; none if a first is behind its last.
+/// Pixels [first_row, last_row] x [first_col, last_col]; it is empty if a first exceeds its last.
 struct PixelRange {
   Index first_row, last_row, first_col, last_col;
 };
 
-/// The pixels of a map that a tool may reach from somewhere in the bounding box of a stroke, where it reaches the
+/// The pixels of a map that a tool may reach from somewhere in the bounding box of a stroke. The tool reaches the
 /// displacements [low, high] from its axis [mm]. Cost O(1).
 inline PixelRange touched_pixels(const Grid& map, const Stroke& stroke, Point low, Point high) {
   const auto range = [](double from, double to, double origin, double pitch, Index n) {

@@ -30,7 +30,7 @@ double hat_transform(int k, double step, double v) {
   return sum;
 }
 
-/// Second differences; about r = 0 the profile goes on evenly, beyond the end it is zero.
+/// Second differences; about r = 0 the profile is even, beyond the end it is zero.
 Eigen::MatrixXd second_differences(int count) {
   Eigen::MatrixXd d = Eigen::MatrixXd::Zero(count, count);
   for (int k = 0; k < count; ++k) {
@@ -69,7 +69,7 @@ RadialProfile abel_inversion(const std::vector<LineIntegral>& integrals, double 
     y[i] = root * line.value;
   }
   const Eigen::MatrixXd normal = a.transpose() * a, d = second_differences(count), rough = d.transpose() * d;
-  Eigen::MatrixXd both(count, count + 1);  // right-hand side and what the trace of the influence is of
+  Eigen::MatrixXd both(count, count + 1);  // the right-hand side, and the matrix whose trace is that of the influence
   both << a.transpose() * y, normal;
   const double unit = normal.trace() / count;
   RadialProfile best{step, {}, 0.0, 0.0};

@@ -21,12 +21,12 @@ struct LineIntegral {
   double weight = 1.0;  // 1 / variance, to any scale
 };
 
-/// The function of the radius whose Abel transform, 2 integral from |offset| of b(r) r / sqrt(r^2 - offset^2) dr, fits
-/// the line integrals: hat functions on `count` steps up to `radius`, whose transforms are known in closed form, by
-/// least squares with a weight on second differences (even about r = 0) chosen by generalised cross-validation (Golub,
-/// Heath, Wahba 1979) among 40 from 1e-8 to 1e4 of the mean diagonal. Needs no derivative of the data, which the
-/// inverse formula does. count >= 4, radius > 0, at least four integrals within the radius. Throws
-/// std::invalid_argument. Cost O(40 count^3).
+/// Finds the function b of the radius whose Abel transform, 2 integral from |offset| of b(r) r / sqrt(r^2 - offset^2)
+/// dr, fits the line integrals. b is a sum of hat functions on `count` steps up to `radius`, whose transforms are known
+/// in closed form. The fit is by least squares with a weight on the second differences of b (even about r = 0), which
+/// generalised cross-validation chooses (Golub, Heath, Wahba 1979) among 40 values from 1e-8 to 1e4 of the mean
+/// diagonal. Unlike the inverse formula, this needs no derivative of the data. count >= 4, radius > 0, at least four
+/// integrals within the radius. Throws std::invalid_argument. Cost O(40 count^3).
 RadialProfile abel_inversion(const std::vector<LineIntegral>& integrals, double radius, int count);
 
 }  // namespace dwell

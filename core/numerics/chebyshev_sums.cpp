@@ -28,7 +28,7 @@ double dot(const double* a, const double* b, Index count) {
   return sum;
 }
 
-/// The row with zeros for what is not finite, and its mask; how many are finite.
+/// Copies a row with zeros for what is not finite, and makes its mask. Returns how many values are finite.
 Index fill_row(const double* row, Index count, double* filled, double* mask) {
   double valid = 0.0;
 #pragma omp simd reduction(+ : valid)

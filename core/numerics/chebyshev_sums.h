@@ -12,9 +12,9 @@ namespace dwell {
 
 /// Polynomials on the pixels of a rectangle of a grid in products of Chebyshev polynomials, T_i(x) T_j(y) with the
 /// outer edges of the rectangle at -1 and 1. Since T_i T_k = (T_(i+k) + T_|i-k|) / 2, the inner product of any two of
-/// them over the valid pixels follows from the sums of T_a T_b alone, 2 degree + 1 multiplications a pixel however
-/// many polynomials there are. Only a row of the map is in work at a time; rows are summed in order, so that the result
-/// is the same for any number of threads.
+/// them over the valid pixels follows from the sums of T_a T_b alone, 2 degree + 1 multiplications a pixel however many
+/// polynomials there are. Only one row of the map is held at a time; rows are summed in order, so that the result is
+/// the same for any number of threads.
 class ChebyshevSums {
  public:
   /// Pixels `rows` x `cols` from (row0, col0); degrees along each axis and together. Throws std::invalid_argument

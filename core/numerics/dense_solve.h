@@ -4,8 +4,9 @@
 
 namespace dwell {
 
-// The decompositions of small dense matrices, by Eigen. They are compiled here once, because each costs a source that
-// names it 5 to 15 s; matrices that are known to be small pass through a dynamic one at no cost that matters.
+// The decompositions of small dense matrices, by Eigen. They are compiled here once, because each adds 5 to 15 s to the
+// compilation of a source that uses it. Matrices of a small fixed size are converted to dynamic ones, which costs next
+// to nothing.
 
 /// The x that minimises |a x - b|, column by column.
 struct LeastSquares {
@@ -14,7 +15,7 @@ struct LeastSquares {
 };
 
 /// Complete orthogonal decomposition. Pivots up to `tolerance` times the largest count as zero (0: rounding alone), and
-/// of the x that are open then, that of smallest norm is given. Cost O(rows cols^2).
+/// where that leaves x undetermined, the x of smallest norm is returned. Cost O(rows cols^2).
 LeastSquares least_squares(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, double tolerance = 0.0);
 
 /// x with a x = b for symmetric positive (semi)definite a, by LDL'. Cost O(rows^3).
@@ -30,7 +31,8 @@ struct SymmetricEigen {
 /// Of symmetric a, of which the lower triangle is read. Cost O(rows^3).
 SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& a);
 
-/// In decreasing order, by two-sided Jacobi rotations: the small ones as exact as the large. Cost O(rows^3).
+/// The singular values in decreasing order, by two-sided Jacobi rotations, which give the small ones as exactly as the
+/// large. Cost O(rows^3).
 Eigen::VectorXd singular_values(const Eigen::MatrixXd& a);
 
 }  // namespace dwell

@@ -8,7 +8,7 @@
 
 namespace dwell {
 
-/// Smallest n' >= n of the form 2^a 3^b 5^c 7^d: sizes that the transform does fast.
+/// Smallest n' >= n of the form 2^a 3^b 5^c 7^d: sizes for which the transform is fast.
 Index good_fft_size(Index n);
 
 /// A real two-dimensional discrete Fourier transform of fixed size with its own buffers. Unnormalised: inverse after

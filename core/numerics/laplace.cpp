@@ -20,7 +20,8 @@ using Triplets = std::vector<Eigen::Triplet<double, int>>;
 
 constexpr Index kDirectUnknowns = 2000;
 
-constexpr int kHeld = -1, kVoid = -2;  // pixels that are no unknowns: with a value, or letting nothing through
+// Pixels that are not unknown: those that hold a value, and those that let nothing through.
+constexpr int kHeld = -1, kVoid = -2;
 
 /// A level's own pixels: number of each one's unknown, or kHeld or kVoid.
 struct Places {
@@ -33,8 +34,8 @@ struct Places {
   }
 };
 
-/// The next level: every second pixel of every second row, those that are unknown themselves. So every coarse unknown
-/// is a fine one, and the coarse matrix is as definite as the fine one.
+/// The next level: of every second pixel of every second row, those that are unknown. So every coarse unknown is a fine
+/// one, and the coarse matrix is as definite as the fine one.
 Places coarser(const Places& fine) {
   Places coarse{(fine.rows + 1) / 2, (fine.cols + 1) / 2, {}, 0};
   coarse.number.reserve(static_cast<std::size_t>(coarse.rows * coarse.cols));
@@ -47,8 +48,8 @@ Places coarser(const Places& fine) {
   return coarse;
 }
 
-/// Bilinear between the coarse pixels around each fine one. Those that hold a value count as zero; the others stand in
-/// for those through which nothing passes, so that a constant stays one there.
+/// Bilinear between the coarse pixels around each fine one. Coarse pixels that hold a value count as zero. Where a
+/// coarse pixel lets nothing through, the others take over its weight, so that a constant stays constant there.
 Matrix interpolation(const Places& fine, const Places& coarse) {
   Triplets entries;
   for (Index r = 0; r < fine.rows; ++r) {

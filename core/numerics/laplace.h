@@ -7,7 +7,7 @@
 
 namespace dwell {
 
-/// What a solve took.
+/// What a solve cost and how exact it is.
 struct LaplaceSummary {
   Index unknowns = 0;
   int iterations = 0;

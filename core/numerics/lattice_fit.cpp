@@ -16,9 +16,11 @@ constexpr double kMostSteps = 1e15;  // far above any map; keeps absurd coordina
 
 /// Sorted, with coordinates that differ only by rounding (single precision, sums of steps) taken as one.
 void make_distinct(std::vector<double>& v) {
-  v.erase(std::unique(v.begin(), v.end()), v.end());  // runs, as rows have them; leaves less to sort
+  // Runs of equal values, as rows have them, go first, so that less is left to sort.
+  v.erase(std::unique(v.begin(), v.end()), v.end());
   std::sort(v.begin(), v.end());
-  // The middle half tells the size of the part; a stray point far away must not make all the others one.
+  // The middle half of the coordinates shows the size of the part; without that, one stray point far away would merge
+  // all the others into one.
   const double low = v[v.size() / 4], high = v[v.size() - 1 - v.size() / 4];
   const double rounding = 2e-6 * (high - low) + 1e-7 * std::max(std::abs(low), std::abs(high));
   v.erase(std::unique(v.begin(), v.end(), [&](double a, double b) { return b - a <= rounding; }), v.end());
@@ -26,7 +28,7 @@ void make_distinct(std::vector<double>& v) {
 
 bool same_step(double step, double pitch) { return std::abs(step - pitch) <= kSameStep * pitch; }
 
-/// Mean of the steps that are about `pitch`: coordinates printed with few digits spoil a single one.
+/// Mean of the steps that are about `pitch`: in coordinates printed with few digits, a single step is inexact.
 double mean_step(const std::vector<double>& steps, double pitch) {
   double sum = 0.0;
   double count = 0.0;

@@ -28,10 +28,10 @@ struct LatticeFit {
   bool fits = false;  // every coordinate lies within kLatticeTolerance of it
 };
 
-/// The coarsest lattice that holds the coordinates (any order, repeated, gaps allowed), by least squares. The pitch
-/// tried is the median step between neighbours, then the smallest if a quarter of the steps are of its size (a lattice
-/// with most lines missing), then `pitch`. If none fits, the first one tried is returned with fits = false: a stray
-/// point deviates from it most. Coordinates must be finite, at least one. Cost O(n log n).
+/// The coarsest lattice that holds the coordinates (any order, repeated, gaps allowed), by least squares. The pitches
+/// tried are, in this order: the median step between neighbours; the smallest step, if a quarter of the steps are of
+/// its size (a lattice with most lines missing); `pitch`. If none fits, the first one tried is returned with fits =
+/// false: a stray point deviates from it most. Coordinates must be finite, at least one. Cost O(n log n).
 LatticeFit fit_lattice(std::vector<double> coordinates, std::optional<double> pitch = std::nullopt);
 
 }  // namespace dwell

@@ -41,7 +41,8 @@ void PaddedConvolution::clear_field() {
 
 template <bool Conjugate>
 void PaddedConvolution::multiply() {
-  // Spelled out: std::complex's operator* guards against inf and keeps the loop from vectorising.
+  // Written out, because std::complex's operator* handles infinities, which keeps the compiler from vectorising the
+  // loop.
   auto* field = reinterpret_cast<double*>(fft_.spectrum().data());
   const auto* kernel = reinterpret_cast<const double*>(spectrum_.data());
   const auto n = static_cast<Index>(spectrum_.size());

@@ -9,9 +9,9 @@
 
 namespace dwell {
 
-/// Linear (not periodic) convolution of a field on the map's lattice, widened by the kernel's half size on every
-/// side, with a kernel on the same lattice; only the map's own pixels of the result are right, and only they are
-/// read. Both lattice operators stand on it. Memory: two padded arrays and the kernel's spectrum.
+/// Linear (not periodic) convolution of a field on the map's lattice, widened by the kernel's half size on every side,
+/// with a kernel on the same lattice; only the map's own pixels of the result are right, and only they are read.
+/// LatticeRemoval and ScatteredRemoval both use it. Memory: two padded arrays and the kernel's spectrum.
 class PaddedConvolution {
  public:
   /// kernel: (2 half_rows + 1) x (2 half_cols + 1), row-major, centre at (half_rows, half_cols).
@@ -19,8 +19,8 @@ class PaddedConvolution {
   PaddedConvolution(const Grid& map, const std::vector<Index>& pixels, const std::vector<double>& kernel,
                     Index half_rows, Index half_cols, int threads);
 
-  /// Index into field() of map lattice node (row, col), or -1 if no pixel of the map can feel it. Nodes outside the map
-  /// are legal.
+  /// Index into field() of map lattice node (row, col), or -1 if the kernel carries the node to no pixel of the map.
+  /// Nodes outside the map are allowed.
   Index node(Index row, Index col) const {
     const Index r = row + half_rows_, c = col + half_cols_;
     if (r < 0 || c < 0 || r >= map_.rows + 2 * half_rows_ || c >= map_.cols + 2 * half_cols_) return -1;

@@ -15,7 +15,7 @@ struct PlaneTransform {
   PlaneTransform inverse() const;
 };
 
-/// p -> centre + displacement + scale R (p - centre), R turning counter-clockwise by `degrees`.
+/// p -> centre + displacement + scale R (p - centre), where R turns counter-clockwise by `degrees`.
 PlaneTransform similarity(Point centre, Point displacement, double degrees, double scale);
 
 }  // namespace dwell

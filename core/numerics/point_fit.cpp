@@ -25,7 +25,7 @@ PlaneTransform affine(const std::vector<PointPair>& centred) {
 }
 
 /// Rotation and, with `scaled`, scale that bring `from` onto `to`, both about their centroids.
-PlaneTransform turned(const std::vector<PointPair>& centred, bool scaled) {
+PlaneTransform fit_rotation(const std::vector<PointPair>& centred, bool scaled) {
   double along = 0.0, across = 0.0, size = 0.0;
   for (const PointPair& p : centred) {
     along += p.from.x * p.to.x + p.from.y * p.to.y;
@@ -74,7 +74,7 @@ PointFit fit_points(const std::vector<PointPair>& pairs, PointFitKind kind) {
   PointFit fit;
   if (kind == PointFitKind::Affine) fit.transform = affine(centred);
   if (kind == PointFitKind::Rigid || kind == PointFitKind::Similarity) {
-    fit.transform = turned(centred, kind == PointFitKind::Similarity);
+    fit.transform = fit_rotation(centred, kind == PointFitKind::Similarity);
   }
   fit.transform.shift = to - fit.transform(from);
   double squares = 0.0;

@@ -9,8 +9,8 @@
 
 namespace dwell {
 
-/// What a removal operator is made of, as a value: which pixels are counted, what the tool removes, where it goes. A
-/// solver that is given it can build the same operator on coarser pixels.
+/// What a removal operator is made of, as a value: which pixels are counted, what the tool removes, where it goes. From
+/// it, a solver can build the same operator on coarser pixels.
 struct RemovalGeometry {
   Grid map;
   std::vector<Index> pixels;  // linear indices of the valid pixels, ascending
@@ -20,11 +20,11 @@ struct RemovalGeometry {
 };
 
 /// The cheapest exact operator: LatticeRemoval if the strokes are translates of one by whole pixels, else
-/// ScatteredRemoval. The geometry is copied where needed and may go.
+/// ScatteredRemoval. The operator copies what it needs of the geometry.
 std::unique_ptr<RemovalOperator> make_removal_operator(const RemovalGeometry& geometry);
 
-/// The operator of several tools or passes on the same pixels: that of the only one, or a StackedRemoval. Throws
-/// std::invalid_argument unless there is a part and all have the same number of pixels.
+/// The operator of several tools or passes on the same pixels: a StackedRemoval, or for one part its operator alone.
+/// Throws std::invalid_argument if there is no part, or if their numbers of pixels differ.
 std::unique_ptr<RemovalOperator> make_removal_operator(
     const std::vector<std::shared_ptr<const RemovalGeometry>>& geometries);
 

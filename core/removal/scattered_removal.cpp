@@ -33,9 +33,9 @@ struct NodeBox {
   }
 };
 
-/// B-spline weights of one stroke on the lattice, without nodes that no pixel feels. Summed in a small box of nodes,
-/// and so one entry a node, ascending, for a stroke that lies in one box; a longer one is cut, and shares nodes at the
-/// cuts.
+/// B-spline weights of one stroke on the lattice, without nodes that reach no pixel. They are summed in a small box of
+/// nodes, so a stroke that lies in one box has one entry for each node, in ascending order. A longer stroke is cut into
+/// boxes, and nodes at the cuts have several entries.
 class StrokeSpreader {
  public:
   StrokeSpreader(const Grid& map, const PaddedConvolution& convolution) : map_(map), convolution_(convolution) {}
@@ -68,7 +68,8 @@ class StrokeSpreader {
     supports_.push_back(support);
   }
 
-  /// Spreads the supports from `begin` on that share a box of at most kCells nodes; returns the first left out.
+  /// Spreads those supports from `begin` on that fit into one box of at most kCells nodes; returns the first that does
+  /// not.
   std::size_t spread_box(std::size_t begin, std::vector<NodeWeight>& entries) {
     constexpr Index kCells = 1024;
     NodeBox box = supports_[begin].box;

@@ -44,9 +44,9 @@ class ScatteredRemoval final : public RemovalOperator {
 };
 
 /// What one apply of a ScatteredRemoval of these strokes gives for the times t [s], summed in the same order, without
-/// keeping its weights: for those who apply once. At the pixels, in their order [nm]. Throws std::invalid_argument
-/// unless there is one time a stroke. Cost: spreading the strokes, and one and a half padded transform pairs. Memory:
-/// the padded arrays.
+/// keeping its weights: for callers that apply only once. At the pixels, in their order [nm]. Throws
+/// std::invalid_argument unless there is one time a stroke. Cost: spreading the strokes, and one and a half padded
+/// transform pairs. Memory: the padded arrays.
 Vector removal_once(const Grid& map, const std::vector<Index>& pixels, const RemovalKernel& kernel,
                     const std::vector<Stroke>& strokes, const Vector& t, int threads);
 

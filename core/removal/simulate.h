@@ -9,20 +9,19 @@
 
 namespace dwell {
 
-/// Strokes and times of what a program removes with: every removing move at its constant speed, every halt.
+/// The strokes and times with which a program removes: every removing move at its constant speed, and every halt.
 struct RemovingSteps {
   std::vector<Stroke> strokes;
   std::vector<double> seconds;
 };
 RemovingSteps removing_steps(const Program& program);
 
-/// The removal [nm] that a program makes on the finite pixels of a map (NaN elsewhere), the tool moving continuously as
-/// the program says. Steps that do not remove count nothing. Cost: that of
-/// removal_once.
+/// The removal [nm] that a program makes on the finite pixels of a map (NaN elsewhere). The tool moves continuously as
+/// the program says; steps that do not remove count nothing. Cost: that of removal_once.
 HeightMap simulate(const Program& program, const HeightMap& map, const RemovalKernel& kernel, int threads);
 
 /// The same with the removal function as it was given in place of the spline through its samples on the map's pitch:
-/// the reference of the other's error (exact_removal_once). `progress` is told the share done. Throws Interrupted.
+/// the reference for the error of simulate (exact_removal_once). `progress` shows the share done. Throws Interrupted.
 /// Cost: 0.2 us and more for every pixel under every removing step.
 HeightMap simulate_exactly(const Program& program, const HeightMap& map, const RemovalFunction& tif, int threads,
                            const Progress& progress = {});

@@ -12,8 +12,8 @@
 namespace dwell {
 
 /// Removal as an explicit sparse matrix. For removal functions that depend on position (edges, curvature), for small
-/// problems, and as the oracle's neighbour. Cost of a call and memory: the number of non-zeros, about the pixels
-/// under the removal function for every stroke.
+/// problems, and for tests. Cost of a call and memory: proportional to the number of non-zeros, which is about the
+/// number of pixels under the removal function times the strokes.
 class SparseRemoval final : public RemovalOperator {
  public:
   using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor, Index>;

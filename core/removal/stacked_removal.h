@@ -11,7 +11,7 @@ namespace dwell {
 /// one after the other; their removals add up. Cost of a call: those of the parts.
 class StackedRemoval final : public RemovalOperator {
  public:
-  /// Throws std::invalid_argument unless there is a part and all have the same number of pixels.
+  /// Throws std::invalid_argument if there is no part, or if their numbers of pixels differ.
   explicit StackedRemoval(std::vector<std::unique_ptr<RemovalOperator>> parts);
 
   std::string name() const override;

@@ -34,7 +34,8 @@ double integral_of_distance(double d, double u0, double u1, double width) {
 
 /// Integral of exp(-u^2 / 2 sigma^2) over u0 < u < u1 = u0 + width.
 double integral_of_gaussian(double sigma, double u0, double u1, double width) {
-  if (width < 0.1 * sigma) {  // where the difference of error functions would cancel; Gauss-Legendre errs by 1e-15
+  // The difference of error functions would cancel here; the error of Gauss-Legendre is 1e-15.
+  if (width < 0.1 * sigma) {
     const double middle = 0.5 * (u0 + u1), half = 0.5 * width;
     const auto value = [&](double node) {
       const double u = (middle + half * node) / sigma;
@@ -89,7 +90,8 @@ double StrokeAverage::piece(Point from, Point to, Point point) const {
 }
 
 double StrokeAverage::spline_average(const Stroke& stroke, Point point) const {
-  thread_local std::vector<QuadraturePoint> points;  // kept: every entry of a matrix would else allocate it anew
+  // Kept from call to call, because every entry of a matrix would allocate it anew.
+  thread_local std::vector<QuadraturePoint> points;
   points.clear();
   append_stroke_quadrature({point - stroke.start, point - stroke.via, point - stroke.finish}, samples_, points);
   double sum = 0.0;

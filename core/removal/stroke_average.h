@@ -16,8 +16,8 @@ namespace dwell {
 ///   disc       mean of slope sqrt(u^2 + d^2), in closed form (Lin et al. 2014, equations 5, 19-28, for any direction)
 ///   Gaussian   mean of peak exp(-(u^2 + d^2) / 2 sigma^2), by the error function
 ///   samples    (measured, model): the spline through them on their own grid, piecewise polynomial, by Gauss-Legendre
-/// Exact to rounding: about 1e-14 of the peak, however short the stroke; where the cut-off circle only touches a piece,
-/// 1e-8, the square root of it.
+/// Exact to rounding: about 1e-14 of the peak, however short the stroke; 1e-8 where the cut-off circle only touches a
+/// piece, because rounding enters there under a square root.
 class StrokeAverage {
  public:
   explicit StrokeAverage(const RemovalFunction& tif);

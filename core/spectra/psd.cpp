@@ -119,7 +119,7 @@ PsdCurve radial_psd(const ArealPsd& psd) {
     for (Index col = 0; col < psd.half_cols(); ++col) {
       const double fx = psd.step_x * static_cast<double>(col), f = std::sqrt(fx * fx + fy * fy);
       const auto ring = static_cast<std::size_t>(std::lround(f * side));
-      if (ring >= rings) break;  // farther along the row it only grows
+      if (ring >= rings) break;  // it only grows along the row
       const double many = psd.multiplicity(col);
       count[ring] += many;
       frequency[ring] += many * f;

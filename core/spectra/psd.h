@@ -19,8 +19,8 @@ struct PsdOptions {
 ///
 /// with w the window (0 where there is no data) and hx, hy the pitches. Dividing by sum w^2 makes up for the area that
 /// window and missing pixels take away: the integral of S is sum (w z)^2 / sum w^2, the mean square of the map as the
-/// window sees it, and noise of a flat spectrum keeps its level whatever the shape of the part. Take the form out
-/// first.
+/// window sees it, and noise of a flat spectrum keeps its level whatever the shape of the part. Take the form out of
+/// the map first: it would outweigh all else.
 struct ArealPsd {
   Index rows = 0, cols = 0;           // of the transform: that of the part's bounding box, zero-padded to a fast size
   double step_x = 0.0, step_y = 0.0;  // between frequencies [1/mm]

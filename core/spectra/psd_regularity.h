@@ -21,7 +21,7 @@ struct PsdRegularity {
 };
 
 /// Over 1/longest <= |f| < 1/shortest [mm], 0 < shortest < longest. The largest density of noise of a flat spectrum is
-/// the mean times about the logarithm of the number of frequencies. Throws InputError naming the band if it is none,
+/// the mean times about the logarithm of the number of frequencies. Throws InputError naming the band if it is empty,
 /// holds no frequency of the transform, or nothing but zeros. Cost O(frequencies).
 PsdRegularity psd_regularity(const ArealPsd& psd, double shortest, double longest);
 

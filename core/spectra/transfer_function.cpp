@@ -16,8 +16,8 @@ namespace {
 class Response {
  public:
   Response(const HeightMap& rates, int threads)
-      : rows_(padded(rates.grid.rows)),
-        cols_(padded(rates.grid.cols)),
+      : rows_(padded_size(rates.grid.rows)),
+        cols_(padded_size(rates.grid.cols)),
         step_x_(1.0 / (static_cast<double>(cols_) * rates.grid.pitch_x)),
         step_y_(1.0 / (static_cast<double>(rows_) * rates.grid.pitch_y)) {
     RealFft2D fft(rows_, cols_, threads);
@@ -53,7 +53,7 @@ class Response {
   }
 
  private:
-  static Index padded(Index n) { return good_fft_size(n > 512 ? 4 * n : std::max<Index>(16 * n, 64)); }
+  static Index padded_size(Index n) { return good_fft_size(n > 512 ? 4 * n : std::max<Index>(16 * n, 64)); }
 
   Index rows_, cols_;
   double step_x_, step_y_;

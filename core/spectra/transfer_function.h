@@ -23,8 +23,8 @@ struct TransferFunction {
 /// Cost: an FFT of up to 4096 x 4096.
 TransferFunction transfer_function(const HeightMap& rates, int threads = 1);
 
-/// The wavelength [mm] down to which the response is at least `share`: where it first falls below, on going from long
-/// to short waves, interpolated; none if it never does.
+/// The wavelength [mm] down to which the response is at least `share`: from long to short waves, the interpolated one
+/// at which it first falls below. Nothing if it never does.
 std::optional<double> shortest_wave(const std::vector<double>& frequency, const std::vector<double>& response,
                                     double share);
 

@@ -98,7 +98,7 @@ double asymmetry_of(const HeightMap& rates, const SplineSurface& surface, Point 
 }  // namespace
 
 RemovalAnalysis analyse_removal(const HeightMap& given, int threads) {
-  // Checks the samples, and reads no data as zero.
+  // Checks the samples, and takes missing ones as zero.
   const RemovalFunction tif = measured_removal(given, {TifCentre::Kind::Given, {}});
   const HeightMap& rates = tif.samples;
   RemovalAnalysis a;

@@ -28,8 +28,8 @@ struct RemovalAnalysis {
   Waves at_half, at_tenth;  // 50 %; 10 %: the finest error that it can correct
 };
 
-/// Throws InputError if no sample is finite, none is positive or the volume is not. NaN counts as zero. Cost: that of
-/// transfer_function.
+/// Throws InputError if no sample is finite, if none is positive, or if the volume is not positive. NaN counts as zero.
+/// Cost: that of transfer_function.
 RemovalAnalysis analyse_removal(const HeightMap& rates, int threads = 1);
 
 }  // namespace dwell

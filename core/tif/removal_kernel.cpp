@@ -11,8 +11,8 @@
 namespace dwell {
 namespace {
 
-/// Mean of slope * r inside the disc over one pixel, by 16 x 16 midpoints: the rim is a jump, which point samples
-/// would place at the mercy of the grid.
+/// Mean of slope * r inside the disc over one pixel, by 16 x 16 midpoints: the rim is a jump, whose place would depend
+/// on the grid if it were sampled at points.
 double disc_pixel_mean(const RemovalFunction& tif, Point centre, double hx, double hy) {
   constexpr int kSub = 16;
   double sum = 0.0;

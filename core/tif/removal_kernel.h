@@ -20,9 +20,9 @@ struct RemovalKernel {
   double rate(Point displacement) const { return surface(displacement); }
 };
 
-/// What a pixel of hx by hy [mm] at a displacement from the tool axis is given as its rate [nm/s]: the formula or the
-/// spline through the samples at its centre; of a disc, whose rim is a jump, the mean over the pixel. It refers to
-/// `tif`.
+/// The rate [nm/s] that a pixel of hx by hy [mm] gets at a displacement from the tool axis: the value of the formula,
+/// or of the spline through the samples, at its centre; of a disc, whose rim is a jump, the mean over the pixel. The
+/// function refers to `tif`.
 std::function<double(Point)> rate_at_pixel(const RemovalFunction& tif, double hx, double hy);
 
 /// Samples `tif` at the pitch (pitch_x, pitch_y) [mm]. Throws InputError if the removal function is too narrow for

@@ -19,7 +19,7 @@ HeightMap with_grid(const HeightMap& like, const Grid& grid) {
   return map;
 }
 
-HeightMap mirrored(const HeightMap& rates, bool x) {
+HeightMap mirror_samples(const HeightMap& rates, bool x) {
   Grid g = rates.grid;
   if (x) {
     g.origin.x = -rates.grid.x(g.cols - 1);
@@ -44,7 +44,7 @@ HeightMap turned_by_90(const HeightMap& rates) {
 }
 
 /// The smallest grid about the axis that holds the samples' rectangle, turned.
-Grid grid_turned(const Grid& g, const Rotation& turn) {
+Grid turned_grid(const Grid& g, const Rotation& turn) {
   const double pitch = std::min(g.pitch_x, g.pitch_y);
   double left = 0.0, right = 0.0, low = 0.0, high = 0.0;
   for (const double x : {g.x(0), g.x(g.cols - 1)}) {
@@ -75,16 +75,16 @@ bool removes_near(const HeightMap& rates, Point p) {
   return false;
 }
 
-HeightMap turned(const HeightMap& rates, double angle) {
+HeightMap turn_samples(const HeightMap& rates, double angle) {
   const Rotation turn(angle);
   const Grid& g = rates.grid;
-  HeightMap map = with_grid(rates, grid_turned(g, turn));
+  HeightMap map = with_grid(rates, turned_grid(g, turn));
   const SplineSurface surface(g, rates.values);
   double sum = 0.0, before = 0.0;
   for (const double v : rates.values) before += v;
   for (Index i = 0; i < map.grid.size(); ++i) {
     const Point p = turn.back(map.grid.centre(i));
-    // The spline rings on beyond the samples that remove something; there it removes nothing.
+    // The spline rings beyond the samples that are not zero; the removal function is zero there.
     map.values[static_cast<std::size_t>(i)] = removes_near(rates, p) ? surface(p) : 0.0;
     sum += map.values[static_cast<std::size_t>(i)];
   }
@@ -125,12 +125,12 @@ RemovalFunction oriented(const RemovalFunction& tif, const ToolOrientation& orie
   const double angle = orientation.angle - 360.0 * std::floor(orientation.angle / 360.0);
   const bool flipped = orientation.flip != ToolOrientation::Flip::None;
   if (angle == 0.0 && !flipped) return tif;
-  HeightMap rates = flipped ? mirrored(tif.samples, orientation.flip == ToolOrientation::Flip::X) : tif.samples;
+  HeightMap rates = flipped ? mirror_samples(tif.samples, orientation.flip == ToolOrientation::Flip::X) : tif.samples;
   const double quarters = angle / 90.0;
   if (quarters == std::floor(quarters)) {
     for (int k = 0; k < static_cast<int>(quarters); ++k) rates = turned_by_90(rates);
   } else {
-    rates = turned(rates, angle);
+    rates = turn_samples(rates, angle);
   }
   rates.history.push_back(
       fmt::format("tif: {}turned by {} deg",

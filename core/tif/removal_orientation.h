@@ -6,8 +6,9 @@
 
 namespace dwell {
 
-/// How a removal function lies on the machine: mirrored first (x: at the y axis, so that +x becomes -x; y likewise),
-/// then turned by `angle` [deg] counter-clockwise seen from +z, x to the right and y up, both about the tool axis.
+/// How a removal function lies on the machine. It is mirrored first (x: at the y axis, so that +x becomes -x; y
+/// likewise), then turned by `angle` [deg] counter-clockwise seen from +z with x to the right and y up, both about the
+/// tool axis.
 struct ToolOrientation {
   enum class Flip { None, X, Y };
 

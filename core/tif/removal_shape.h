@@ -10,7 +10,7 @@ namespace dwell {
 struct RemovalShape {
   std::function<double(Point)> value;
   double peak = 0.0;   // its largest value
-  double reach = 0.0;  // as good as no removal farther than this from the axis [mm]
+  double reach = 0.0;  // next to no removal farther than this from the axis [mm]
 };
 
 }  // namespace dwell

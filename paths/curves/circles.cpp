@@ -14,7 +14,7 @@ namespace dwell {
 namespace {
 
 constexpr double kFewestOnCircle = 3.0;
-constexpr double kLongestArc = 7.0 / 6.0;  // of the step: 3.5 steps go round in three
+constexpr double kLongestArc = 7.0 / 6.0;  // of the step: a circle of 3.5 steps gets three arcs
 
 /// A stretch of the dwell points of one circle, [begin, begin + count) modulo their number.
 struct Arc {
@@ -70,7 +70,7 @@ class CirclesPlanner {
     ring_.resize(count);
     inside_.assign(count, 0);
     const double turn = 2.0 * std::numbers::pi / static_cast<double>(count);
-    double sure = 0.0;  // for so many points to come it is known that they are inside
+    double sure = 0.0;  // so many of the following points are known to be inside
     for (std::size_t k = 0; k < count; ++k) {
       poll_.step();
       const double angle = turn * (static_cast<double>(k) + 0.5);
@@ -127,7 +127,7 @@ class CirclesPlanner {
   Poll poll_;
   double side_;
   ToolPath path_;
-  std::vector<Point> ring_;   // dwell points of the circle at hand
+  std::vector<Point> ring_;   // dwell points of the present circle
   std::vector<char> inside_;  // whether they are in the domain
   double last_arc_ = 0.0;     // distance of dwell points along the circle where the tool is
   std::size_t circles_ = 0;

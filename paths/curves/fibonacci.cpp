@@ -89,7 +89,8 @@ class FibonacciPlanner {
   double index_at(double radius) const { return std::numbers::pi * (radius / pitch_) * (radius / pitch_) - 0.5; }
 
   Point place(Index k) const {
-    // The golden angle is (3 - sqrt(5)) / 2 turns; as a fixed-point number its whole turns fall away by themselves.
+    // The golden angle is (3 - sqrt(5)) / 2 turns. In 64-bit fixed point, whole turns overflow and so drop out by
+    // themselves.
     constexpr std::uint64_t kGoldenAngle = 7046029254386353130u;  // round(2^64 (3 - sqrt(5)) / 2)
     const double turns = static_cast<double>(static_cast<std::uint64_t>(k) * kGoldenAngle) * 0x1p-64;
     const double angle = 2.0 * std::numbers::pi * turns;
@@ -216,7 +217,7 @@ class FibonacciPlanner {
   Point centre_;
   Index first_ = 0, end_ = 0;  // points that may be in the domain
   ToolPath path_;
-  // Of the zone at hand:
+  // Of the present zone:
   Index zone_begin_ = 0;
   Index stride_ = 1;  // from point to point of an arm
   std::vector<Point> zone_;

@@ -31,16 +31,17 @@ std::vector<PathDistance> fibonacci_distances(const FibonacciOptions& options);
 /// pitches from the centre.
 ///
 /// A point is wanted if it lies within max(overrun, 0.78 pitch, half of a pixel's diagonal) of a valid pixel centre. So
-/// the wanted points are as near to every valid pixel centre as the lattice is to any place.
+/// every valid pixel centre is as near to a wanted point as any place is to a point of the lattice.
 ///
 /// Order: about the centre, ring by ring, along the spiral arms that are closest at that distance. With F of a ring the
 /// Fibonacci number for which k / F^2 is 0.11 to 0.29, points k, k + F, k + 2F, ... are an arm, whose points are 0.94
-/// to 1.0 pitch apart; arms follow each other outwards and inwards by turns. Where the edge or a hole cuts arms, all
-/// pieces on one side are run first. Moves from arm to arm are lifted if longer than 2.5 pitch, or if their middle is
-/// not within that distance of a valid pixel. A note says how long the tour is.
+/// to 1.0 pitch apart; arms follow each other outwards and inwards by turns. Where the edge or a hole cuts arms into
+/// pieces, all pieces on one side of the cut are run before those on the other. Moves from arm to arm are lifted if
+/// longer than 2.5 pitch, or if their middle is not within that distance of a valid pixel. A note says how long the
+/// tour is.
 ///
 /// Throws InputError naming the option, its value and what is required; also if there are more than 50 million points
-/// between the nearest and the farthest place of the part, outside ones included. Cost O(pixels + those points).
+/// between the nearest and the farthest place of the part, including those outside. Cost O(pixels + those points).
 ToolPath fibonacci_path(const HeightMap& map, const FibonacciOptions& options, const Progress& progress = {});
 
 }  // namespace dwell

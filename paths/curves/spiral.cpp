@@ -68,8 +68,8 @@ class AngleOfArc {
   int taken_ = 0;  // terms of the series taken since the last solution
 };
 
-/// (cos, sin) of an angle that grows by little from call to call: turned on from the one before by the series to the
-/// seventh power, and taken anew before rounding adds up.
+/// (cos, sin) of an angle that grows by little from call to call. The previous result is rotated by the series to the
+/// seventh power, and computed anew before rounding adds up.
 class TurningUnit {
  public:
   Point operator()(double angle) {
@@ -120,7 +120,7 @@ ToolPath spiral_path(const HeightMap& map, const SpiralOptions& options, const P
   AngleOfArc angle(first * part.step / scale, part.step / scale);
   TurningUnit unit;
   bool outside = true;
-  double sure = 0.0;  // for so many points to come it is known that they are inside
+  double sure = 0.0;  // so many of the following points are known to be inside
   std::size_t pieces = 0;
   Poll poll(progress);
   for (double k = 0.0; k <= last - first; ++k) {

@@ -23,13 +23,13 @@ std::vector<PathDistance> spiral_distances(const SpiralOptions& options);
 /// equal arc lengths k * step, k = 0, 1, ... The arc length s(theta) = L / 4 pi (theta sqrt(1 + theta^2) + asinh theta)
 /// (Lin et al. 2014, eq. 16) is inverted by Newton's method from the point before, to rounding.
 ///
-/// Its points within the domain (CentredDomain) are the path, in order; where others were left out the move is lifted.
-/// Consecutive points are no farther apart than the step unless lifted. Every valid pixel centre is within pitch/2 of
-/// a point of the spiral that is within step/2, along the spiral, of a dwell point.
+/// Its points within the domain (CentredDomain) are the path, in order; a move that passes over points left out is
+/// lifted. Consecutive points are no farther apart than the step unless lifted. Every valid pixel centre is within
+/// pitch/2 of the spiral, at a place that is within step/2 of a dwell point along the spiral.
 ///
 /// Throws InputError naming the option, its value and what is required; also if the turns between the nearest and the
-/// farthest place of the part have more than 50 million points, outside ones included. Cost O(pixels + points); long
-/// stretches outside are passed over by the distance to the part.
+/// farthest place of the part have more than 50 million points, including those outside. Cost O(pixels + points); long
+/// stretches outside are skipped at once, because the distance to the part says how long they are.
 ToolPath spiral_path(const HeightMap& map, const SpiralOptions& options, const Progress& progress = {});
 
 }  // namespace dwell

@@ -11,8 +11,8 @@
 namespace dwell {
 namespace {
 
-/// line[i] <- sum of line[i - half .. i + half] by running sums of blocks, none longer than the window, so that the
-/// rounding of a sum stays that of its own terms.
+/// line[i] <- sum of line[i - half .. i + half], by running sums over blocks no longer than the window, so that only
+/// the terms of a sum contribute to its rounding.
 void sum_windows(std::vector<double>& line, Index half) {
   const auto n = static_cast<Index>(line.size());
   const Index width = 2 * half + 1;

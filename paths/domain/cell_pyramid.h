@@ -16,13 +16,13 @@ class CellPyramid {
   /// lowest index.
   CellPyramid(Index rows, Index cols, std::vector<double> value);
 
-  /// Linear index of the present cell nearest to (row, col), or -1 if none is present. Reentrant but for the count
+  /// Linear index of the present cell nearest to (row, col), or -1 if none is present. Reentrant, apart from the count
   /// of blocks.
   Index nearest(Index row, Index col);
   void remove(Index cell);
   bool present(Index cell) const { return levels_[0].any[static_cast<std::size_t>(cell)] != 0; }
 
-  /// Blocks and cells looked into by all searches so far.
+  /// How many blocks and cells all searches so far have looked into.
   Index blocks_searched() const { return blocks_searched_; }
 
  private:

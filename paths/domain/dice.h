@@ -16,12 +16,12 @@ class Dice {
 
   std::uint64_t bits() { return generator_(); }
 
-  /// From 0 to count - 1, count >= 1; even to count / 2^32.
+  /// A whole number from 0 to count - 1, count >= 1; uniform to count / 2^32.
   std::uint32_t below(std::uint32_t count) {
     return static_cast<std::uint32_t>(((generator_() >> 32) * static_cast<std::uint64_t>(count)) >> 32);
   }
 
-  /// Fisher and Yates; at most 2^32 - 1 values.
+  /// Puts the values in random order (Fisher and Yates); at most 2^32 - 1 values.
   template <class T>
   void shuffle(std::vector<T>& values, const Progress& progress = {}) {
     Poll poll(progress);

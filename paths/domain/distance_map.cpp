@@ -83,7 +83,8 @@ double DistanceMap::squared_in_row(Index row, double x) const {
   const auto below = static_cast<Index>(std::clamp(offset, 0.0, last_col));
   const auto above = static_cast<Index>(std::clamp(offset + 1.0, 0.0, last_col));
   double best = kInfinity;
-  // Rounding may put x on the wrong side of a column; asking both ways from both columns costs nothing and is exact.
+  // Rounding may put x on the wrong side of a column. A look to both sides from both columns costs nothing and is
+  // exact.
   for (const Index col : {below, above}) {
     const Index left = valid_left_[static_cast<std::size_t>(pixels_.index(row, col))];
     const Index right = valid_right_[static_cast<std::size_t>(pixels_.index(row, col))];
@@ -97,7 +98,8 @@ DistanceMap::Bound DistanceMap::bound(Point p) const {
   const Index row = nearest_index(p.y - nodes_.origin.y, nodes_.pitch_y, nodes_.rows);
   const Index col = nearest_index(p.x - nodes_.origin.x, nodes_.pitch_x, nodes_.cols);
   const Point gap = p - nodes_.centre(row, col);
-  return {at_node(row, col), std::sqrt(gap.x * gap.x + gap.y * gap.y)};  // hypot takes as long as all the rest
+  // std::hypot would take as long as all the rest.
+  return {at_node(row, col), std::sqrt(gap.x * gap.x + gap.y * gap.y)};
 }
 
 double DistanceMap::operator()(Point p) const {

@@ -13,12 +13,12 @@ namespace dwell {
 ///
 /// Prepared once: distances at the nodes of the map's grid, extended by `margin` on all sides, by lower envelopes of
 /// parabolas (Felzenszwalb and Huttenlocher 2012, "Distance transforms of sampled functions", section 2); cost and
-/// memory O(nodes). A node bounds the distance of the points around it by the triangle inequality; a query that the
-/// bounds do not decide searches the rows of pixels near it.
+/// memory O(nodes). By the triangle inequality, the distance at a node bounds those of the points around it; a query
+/// that these bounds do not decide searches the rows of pixels near its point.
 class DistanceMap {
  public:
-  /// margin [mm], finite and >= 0; it is an accelerator only and capped at the map's own extent, so that there are at
-  /// most about nine nodes a pixel. Throws InputError if the map has no valid pixel.
+  /// margin [mm], finite and >= 0; it only makes queries faster, and is capped at the map's own extent, so that there
+  /// are at most about nine nodes a pixel. Throws InputError if the map has no valid pixel.
   DistanceMap(const HeightMap& map, double margin, const Progress& progress = {});
 
   /// Distance from `p`. Cost O(distance / pitch_y + 1).

@@ -5,7 +5,7 @@
 namespace dwell {
 
 /// Unit vector of an angle [deg], counter-clockwise from +x; exact for multiples of 90 degrees, so that lines along the
-/// axes of the machine stay on them. The angle is finite.
+/// machine's axes are exactly parallel to them. The angle is finite.
 Point feed_direction(double angle_deg);
 
 }  // namespace dwell

@@ -11,10 +11,10 @@ struct Box {
   Point low, high;
 };
 
-/// What a domain says of a point and its surroundings.
+/// Whether a point is in a domain, and how far around it that holds.
 struct DomainView {
   bool inside = false;
-  double holds_for = 0.0;  // every point nearer than this to the one looked at [mm] is inside, or not, as that is
+  double holds_for = 0.0;  // every point nearer to it than this [mm] has the same `inside`
 };
 
 /// Where a path may go: within a distance of a valid (finite) pixel centre of a map. Points exactly that far away are
@@ -26,10 +26,10 @@ class PathDomain {
   PathDomain(const HeightMap& map, double reach, const char* planner, const char* option = "overrun",
              const Progress& progress = {});
 
-  /// Cost O(1) but for points about as far as the reach.
+  /// Cost O(1), except for points at about the distance of the reach.
   bool contains(Point p) const { return distance_.within(p, padded_); }
 
-  /// contains(p), and how far around p the answer is the same at the least, so that a planner need not ask at every
+  /// contains(p), and a distance around p within which the answer is the same, so that a planner need not ask at every
   /// step. Cost as contains.
   DomainView look(Point p) const;
 

@@ -8,15 +8,15 @@
 
 namespace dwell {
 
-/// What a path is planned for. Refers to what it was made of.
+/// What a path is planned for. It refers to the map and the removal function, which must outlive it.
 struct PathJob {
   const HeightMap& target;                                    // removal wanted [nm], NaN = outside
   const RemovalFunction& tif;                                 // its radius is the default overrun
   double max_feed = std::numeric_limits<double>::infinity();  // [mm/s]
-  /// Whether notes say what has to be worked out besides the path: the feed by depth of a multi-pitch raster, which
+  /// Whether notes shall hold what needs a computation of its own: the feed by depth of a multi-pitch raster, which
   /// takes as long as planning it.
   bool estimates = false;
-  /// Asked at least four times a second; a planner that is told to stop throws Interrupted.
+  /// Asked at least four times a second; where it says stop, the planner throws Interrupted.
   Progress progress{};
 };
 

@@ -11,7 +11,7 @@ namespace dwell {
 namespace {
 
 constexpr std::int32_t kLeaf = 8;
-constexpr std::int32_t kAskedAbove = 4096;  // points of a box: smaller ones take no time
+constexpr std::int32_t kAskedAbove = 4096;  // points of a box: for smaller ones a question takes longer than the work
 
 }  // namespace
 
@@ -70,7 +70,8 @@ void PointTree::nearest(std::int32_t index, std::size_t count, std::vector<std::
     if (found.size() == count) found.pop_back();
     const auto before = [&](std::int32_t a, std::int32_t b) { return key(a) < key(b); };
     found.insert(std::upper_bound(found.begin(), found.end(), i, before), i);
-    // Nothing equally near is looked for, or a heap of duplicates would be searched through for each of them.
+    // Points at the same distance are not searched for; otherwise each of many duplicates would search through all of
+    // them.
     if (found.size() == count) reach2 = std::nextafter(key(found.back()).first, -kInfinity);
   };
   search(

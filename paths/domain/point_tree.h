@@ -27,19 +27,20 @@ class PointTree {
     std::int32_t child = -1;  // its halves are child and child + 1; -1 = leaf
   };
 
-  /// Finite points, at most 50 million: for the caller to check.
+  /// The caller makes sure that the points are finite and at most 50 million.
   explicit PointTree(const std::vector<Point>& points, const Progress& progress = {});
 
   /// Calls take(index) for the points in boxes whose squared distance from p is <= reach2, nearer boxes first, unless
   /// skip(node) says that nothing beneath is wanted. reach2 may shrink while the search runs; a box is opened only if
-  /// it is still within it, points of an open box are not tested again.
+  /// it is still within reach, and then all its points are passed on untested.
   template <class Skip, class Take>
   void search(Point p, const double& reach2, Skip skip, Take take) const {
     descend(0, p, reach2, skip, take);
   }
 
-  /// The indices of the (at most) count points nearest to point `index`, itself left out, nearest first. Of
-  /// several equally near ones at the end of the list it keeps some, the same ones on every run. Overwrites `found`.
+  /// The indices of the (at most) `count` points nearest to point `index`, without itself, nearest first. Among equally
+  /// near points at the end of the list, which ones are kept is arbitrary but the same on every run. Overwrites
+  /// `found`.
   void nearest(std::int32_t index, std::size_t count, std::vector<std::int32_t>& found) const;
 
   /// Children stand behind their parent.

@@ -17,7 +17,7 @@ constexpr double kMostPixels = 1e8;
 
 double longest(const std::vector<double>& reaches) { return *std::max_element(reaches.begin(), reaches.end()); }
 
-Grid widened(const Grid& grid, double reach, const char* planner) {
+Grid widen_grid(const Grid& grid, double reach, const char* planner) {
   const double cols = std::ceil(reach / grid.pitch_x) + 1.0, rows = std::ceil(reach / grid.pitch_y) + 1.0;
   const double pixels = (static_cast<double>(grid.cols) + 2.0 * cols) * (static_cast<double>(grid.rows) + 2.0 * rows);
   if (!(pixels <= kMostPixels)) {
@@ -34,7 +34,7 @@ Grid widened(const Grid& grid, double reach, const char* planner) {
 
 RegionLabels::RegionLabels(const HeightMap& map, const std::vector<std::int32_t>& regions,
                            const std::vector<double>& reaches, const char* planner, const Progress& progress)
-    : grid_(widened(map.grid, longest(reaches), planner)),
+    : grid_(widen_grid(map.grid, longest(reaches), planner)),
       origin_{grid_.origin.x - 0.5 * grid_.pitch_x, grid_.origin.y - 0.5 * grid_.pitch_y},
       per_pitch_{1.0 / grid_.pitch_x, 1.0 / grid_.pitch_y},
       rows_(static_cast<double>(grid_.rows)),

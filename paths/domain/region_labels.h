@@ -17,12 +17,12 @@ namespace dwell {
 class RegionLabels {
  public:
   /// regions: one a pixel of the map, 1 .. reaches.size() where the map is finite, else 0; reaches [mm], finite and >=
-  /// 0, one a region. Throws InputError if the map has no finite pixel or would have more than 1e8 pixels with a margin
-  /// of the longest reach. `planner` begins the messages. Cost and memory O(pixels with the margin).
+  /// 0, one a region. Throws InputError if the map has no finite pixel or has more than 1e8 pixels with a margin of the
+  /// longest reach. `planner` begins the messages. Cost and memory O(pixels with the margin).
   RegionLabels(const HeightMap& map, const std::vector<std::int32_t>& regions, const std::vector<double>& reaches,
                const char* planner, const Progress& progress = {});
 
-  /// The region of a point, 0 outside. Cost O(1) but for points about as far from the part as the reach.
+  /// The region of a point, 0 outside. Cost O(1), except for points about as far from the part as the reach.
   std::int32_t at(Point p) const {
     const double col = (p.x - origin_.x) * per_pitch_.x, row = (p.y - origin_.y) * per_pitch_.y;
     if (!(col >= 0.0 && row >= 0.0 && col < cols_ && row < rows_)) return 0;

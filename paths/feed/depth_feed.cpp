@@ -35,7 +35,7 @@ void check(const ToolPath& path, const std::vector<double>& pitch, const DepthFe
 }
 
 /// A map whose pixels all have the height of the nearest one with data.
-HeightMap filled(const HeightMap& map, const Progress& progress) {
+HeightMap fill_from_nearest(const HeightMap& map, const Progress& progress) {
   const std::vector<Index> nearest = nearest_pixels(map, progress);
   HeightMap filled = map;
   for (std::size_t i = 0; i < nearest.size(); ++i) filled.values[i] = map.values[static_cast<std::size_t>(nearest[i])];
@@ -63,7 +63,7 @@ double bilinear(const HeightMap& map, Point p) {
 DepthFeed depth_feed(const HeightMap& target, const ToolPath& path, const std::vector<double>& pitch,
                      const DepthFeedJob& job, const Progress& progress) {
   check(path, pitch, job);
-  const HeightMap heights = filled(target, progress);
+  const HeightMap heights = fill_from_nearest(target, progress);
   const std::vector<Stroke> strokes = moving_strokes(path);
   DepthFeed feed;
   feed.speed.resize(strokes.size(), 0.0);

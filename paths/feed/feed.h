@@ -16,11 +16,11 @@ struct FeedLimits {
   double max_feed = std::numeric_limits<double>::infinity();  // fastest feed [mm/s]; > 0, infinity = no limit
 };
 
-/// The lower bound on dwell that makes the limits hold by construction: max(min_dwell, stroke length / max_feed) [s],
-/// one a stroke. Throws InputError naming a limit that is out of range, its value and what is required.
+/// The lower bound on dwell that keeps the limits: max(min_dwell, stroke length / max_feed) [s], one a stroke. Throws
+/// InputError naming a limit that is out of range, its value and what is required.
 Eigen::VectorXd minimum_dwell(const std::vector<Stroke>& strokes, const FeedLimits& limits);
 
-/// The speeds that spend the given dwell times.
+/// The speeds that result from given dwell times.
 struct FeedSchedule {
   std::vector<double> speed;      // stroke length / dwell [mm/s], one a stroke; 0 for a halt (a stroke of no length)
   double min_speed = 0.0;         // over the strokes that have a length; 0 if none has
@@ -29,9 +29,9 @@ struct FeedSchedule {
   Index segments_infeasible = 0;  // dwell below its lower bound by more than that, or a length to cover in no time
 };
 
-/// Speeds are reported as the dwell times ask for them, also where that is not feasible. dwell [s], one a stroke,
-/// finite and >= 0. Throws InputError naming the first stroke (1-based) whose dwell is not, or the two sizes if they
-/// differ. Cost O(strokes).
+/// The speeds follow from the dwell times, even where the machine cannot run them. dwell [s], one a stroke, finite and
+/// >= 0. Throws InputError naming the first stroke (1-based) whose dwell is not, or the two sizes if they differ. Cost
+/// O(strokes).
 FeedSchedule feed_schedule(const std::vector<Stroke>& strokes, const Eigen::VectorXd& dwell, const FeedLimits& limits);
 
 }  // namespace dwell

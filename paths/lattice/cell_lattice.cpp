@@ -11,12 +11,11 @@
 #include "core/base/point.h"
 #include "core/base/poll.h"
 #include "paths/domain/feed_direction.h"
+#include "paths/domain/point_limit.h"
 #include "paths/domain/rounding.h"
 
 namespace dwell {
 namespace {
-
-constexpr double kMaxPoints = 50e6;
 
 void check(const LatticeOptions& o, double overrun, const char* planner) {
   const auto refuse = [&](const char* option, double value, const char* unit, const char* required) {
@@ -53,11 +52,11 @@ void lay_out(CellLattice& lattice, const Box& box, double overrun, const char* p
   };
   const double cols = fit(box.high.x - box.low.x);
   const double rows = fit(box.high.y - box.low.y);
-  if (!(rows * cols <= kMaxPoints)) {
+  if (!(rows * cols <= kMaxPathPoints)) {
     throw InputError(fmt::format(
         "{}: pitch = {} mm makes a lattice of {:.6g} x {:.6g} points, {:.3g} in all; at most {:.0e} accepted, make "
         "pitch larger",
-        planner, lattice.pitch, rows, cols, rows * cols, kMaxPoints));
+        planner, lattice.pitch, rows, cols, rows * cols, kMaxPathPoints));
   }
   lattice.rows = static_cast<Index>(rows);
   lattice.cols = static_cast<Index>(cols);

@@ -12,7 +12,7 @@
 
 namespace dwell {
 
-/// What the planners over a square lattice have in common.
+/// The options that all planners over a square lattice share.
 struct LatticeOptions {
   double pitch = 0.0;             // distance between neighbouring lattice points [mm], finite and > 0; required
   std::optional<double> overrun;  // how far outside the valid pixels points may lie [mm], finite and >= 0; default 0
@@ -38,7 +38,7 @@ struct CellLattice {
   std::vector<std::uint8_t> kept;  // rows * cols, row-major: 1 = to be visited
   Index kept_cells = 0;
   double reach = 0.0;                // [mm], of the domain in which points are kept
-  std::optional<PathDomain> domain;  // absent if all points lie on valid pixels, so that it was not needed
+  std::optional<PathDomain> domain;  // absent if all points lie on valid pixels: it is not needed then
 
   bool keeps(Index row, Index col) const { return kept[static_cast<std::size_t>(row * cols + col)] != 0; }
   Point at(Index row, Index col) const {

@@ -12,8 +12,8 @@ namespace dwell {
 /// Links between neighbouring cells of a lattice, at most two a cell: a set of loops, open chains and lone cells.
 ///
 /// Cells are numbered row-major with a border of absent cells around them, so that a cell always has four neighbours,
-/// and with an odd stride, so that the parity of a cell's number is its colour on the chessboard: neighbours differ in
-/// it. A square is named by its cell of lowest row and column.
+/// and with an odd stride, so that the parity of a cell's number is its colour on a chessboard, in which neighbours
+/// differ. A square of 2 x 2 cells is named by its cell of lowest row and column.
 class CellLinks {
  public:
   using Cell = std::int32_t;
@@ -50,7 +50,8 @@ class CellLinks {
     other = static_cast<std::uint8_t>(other ^ (1U << (d ^ 2)));
   }
 
-  /// Links on two opposite sides of a square and none on the two others: 0 = not so, 1 = along the rows, 2 = across.
+  /// Whether a square has links on two opposite sides and none on the two others: 0 = no, 1 = along the rows, 2 =
+  /// across.
   int flippable(Cell square) const {
     const unsigned here = state(square), right = state(square + 1), up = state(square + offset_[1]);
     const unsigned rows = (here & 1U) + (up & 1U);

@@ -9,8 +9,8 @@ namespace {
 
 using Cell = CellLinks::Cell;
 
-/// Walks along a chain from one of its cells: away over one link until it comes round or to an end, then, from an end,
-/// over the other link to the other end.
+/// Walks along a chain from one of its cells: over one link until it returns or reaches an end; after an end, over the
+/// other link to the other end.
 class Walker {
  public:
   Walker(const CellLinks& links, Cell begin) : links_(links), begin_(begin), at_(begin) {

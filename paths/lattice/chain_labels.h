@@ -8,8 +8,8 @@
 
 namespace dwell {
 
-/// Which loop or chain of linked cells each cell belongs to, while flips join and split them (disjoint sets; a split
-/// names the shorter part anew). Lone cells are chains of one.
+/// Which loop or chain of linked cells each cell belongs to, while flips join and split them. (Disjoint sets; after a
+/// split the shorter part gets a new name.) A lone cell is a chain of one.
 class ChainLabels {
  public:
   using Cell = CellLinks::Cell;
@@ -23,16 +23,17 @@ class ChainLabels {
   Index cells(Cell c) const { return chain(c).cells; }
   bool open(Cell c) const { return chain(c).open; }
 
-  /// Before a flip or an end that joins two: makes one name of the two, unless they have it or both are open (a flip
-  /// of two open chains only exchanges their tails): then false.
+  /// To be called before a flip or a new link joins the chains of two cells: gives both chains one name. False, and
+  /// nothing done, if they are the same chain already or if both are open, because a flip of two open chains only
+  /// exchanges their tails.
   bool join(Cell a, Cell b);
 
-  /// After the loop of a cell was cut open.
+  /// To be called after the loop of a cell was cut open.
   void set_open(Cell c) { chain(c).open = true; }
 
-  /// After a flip of a square whose links belonged to one chain: finds whether that chain fell into two, and if so
-  /// names the shorter part. Returns a cell of it, else -1. `steps` is lowered by the cost, about twice the shorter
-  /// part.
+  /// To be called after a flip of a square whose links belonged to one chain. If the chain fell into two, gives the
+  /// shorter part a new name and returns a cell of it; else returns -1. `steps` is lowered by the cost, about twice the
+  /// length of the shorter part.
   Cell split(Cell square, std::int64_t& steps);
 
  private:

@@ -21,11 +21,11 @@ struct FillingCurve {
 };
 
 /// Kept cells of a lattice in the order in which the curve over the smallest square of side^k cells that covers the
-/// lattice meets them; the curve begins at cell (0, 0). Blocks without a kept cell cost nothing but the look at them,
-/// so the cost is O(cells of the lattice) for that, with little to do, and O(kept cells) for the walk.
+/// lattice meets them; the curve begins at cell (0, 0). A block without a kept cell is skipped after one look. Cost:
+/// O(cells of the lattice) for these looks, which are cheap, and O(kept cells) for the walk.
 std::vector<Index> curve_order(const CellLattice& lattice, const FillingCurve& curve, const Progress& progress = {});
 
-/// What a curve does where cells that were left out break it.
+/// How a curve continues where left-out cells break it.
 enum class GapMove {
   Link,  // straight on if the move stays in the domain of the points and is at most kLongestLink pitches; else lifted
   Lift
@@ -36,8 +36,9 @@ inline constexpr double kLongestLink = 8.0;
 GapMove parse_gap_move(const SpecText& spec);
 
 /// The path over a cell_lattice of the map, in the order of the curve. A step to one of the four neighbours is a move
-/// of the curve; every other is a gap. Whether a link stays in the domain is seen at every eighth of a pitch. `kind`
-/// begins messages and the note that says how many gaps were linked and lifted. Cost O(pixels + points of the box).
+/// of the curve; every other step is a gap. Whether a link stays in the domain is tested at every eighth of a pitch.
+/// `kind` begins messages and the note that says how many gaps were linked and lifted. Cost O(pixels + points of the
+/// box).
 ToolPath curve_path(const HeightMap& map, const LatticeOptions& options, const FillingCurve& curve, GapMove move,
                     const char* kind, const Progress& progress = {});
 

@@ -24,8 +24,9 @@ class Alternating {
   Alternating(CellLinks& links, const Progress& progress)
       : links_(links), poll_(progress), stamp_(at(links.size()), 0), by_(at(links.size()), 0) {}
 
-  /// From a cell that lacks a link to one of the other colour that lacks one: one more link. If there is none, all
-  /// cells seen are out of play for good (they lead nowhere now, and no later path can lead through them).
+  /// Searches a path from a cell that lacks a link to a cell of the other colour that lacks one, and so makes one more
+  /// link. If there is none, all cells seen are retired for good: they lead nowhere now, and no later path can lead
+  /// through them.
   bool augment(Cell start) {
     begin(start);
     for (std::size_t k = 0; k < queue_.size(); ++k) {
@@ -46,7 +47,7 @@ class Alternating {
     return false;
   }
 
-  /// From the end of a chain to the end of a chain of the same colour, which becomes a lone cell.
+  /// Searches a path from the end of a chain to the end of a chain of the same colour, which becomes a lone cell.
   bool gather(Cell start, std::int64_t& budget) {
     begin(start);
     for (std::size_t k = 0; k < queue_.size() && budget > 0; ++k, --budget) {
@@ -137,8 +138,8 @@ std::vector<Cell> open_cells(const CellLinks& links, Dice& dice, const Progress&
   return open;
 }
 
-/// An end of a chain joins a random neighbour, which parts from another cell, which is the new end: "path backtracking"
-/// of Zha et al. 2020, section 3.1 (figure 5), but for a set of loops and chains.
+/// Links the end of a chain to a random neighbour and cuts one of the neighbour's other links; the cell cut off is the
+/// new end. This is the "path backtracking" of Zha et al. 2020, section 3.1 (figure 5), for a set of loops and chains.
 void walk_end(CellLinks& links, Cell& end, Dice& dice) {
   const auto d = static_cast<int>(dice.bits() >> 62);
   const Cell y = links.neighbour(end, d);
@@ -188,9 +189,9 @@ class EndGathering {
 
  private:
   Index& ends_beside(Cell c) { return ends_[at(pieces_.of_cell[at(c)])]; }
-  /// Two ends of one colour meet in a lone cell. An end that finds no other (one on a cell that has no third neighbour
-  /// cannot be reached) walks on for the next time; or is peeled off, so that its neighbour is the end, of the other
-  /// colour.
+  /// Two ends of one colour meet in a lone cell. An end that finds no other (one on a cell without a third neighbour
+  /// cannot be reached) walks to another place for the next attempt. Or it is peeled off: then its neighbour, of the
+  /// other colour, is the end.
   void gather(bool peel) {
     constexpr int kSteps = 16;
     for (Cell& c : open_) {
@@ -287,7 +288,7 @@ void trim_dead_ends(CellLinks& links, LatticePieces& pieces, Dice& dice, const P
     ++of_colour[at(pieces.of_cell[at(c)])][at(CellLinks::colour(c))];
   }
   dice.shuffle(tips, progress);
-  const auto in_surplus = [&](Cell c) {  // its colour, even without any tip
+  const auto in_surplus = [&](Cell c) {  // its colour has too many cells, even if all tips are left out
     const std::array<Index, 2>& tips_of = of_colour[at(pieces.of_cell[at(c)])];
     const Index surplus = pieces.of(c).surplus() - tips_of[0] + tips_of[1];
     return CellLinks::colour(c) == 0 ? surplus > 0 : surplus < 0;

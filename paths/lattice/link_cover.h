@@ -14,13 +14,13 @@ struct LatticePiece {
   Index cells = 0;
   Index black = 0;      // cells of colour 0
   Index dead_ends = 0;  // cells with one neighbour
-  Index trimmed = 0;    // of the dead ends, left out before all else
-  Index open_ends = 0;  // links missing to two a cell, after the cover; two a chain
+  Index trimmed = 0;    // dead ends that trim_dead_ends has left out
+  Index open_ends = 0;  // links that the cover lacks to two for every cell: two for each chain
 
   Index surplus() const { return 2 * black - cells; }  // of colour 0 over colour 1
-  /// Fewest cells that any path has to leave out: it alternates between the colours, so has at most one cell more of
-  /// one than of the other; it begins and ends once, so has at most two dead ends; and as a set of links of at most
-  /// two a cell it has no more of them than the largest such set, which leaves open_ends / 2 chains.
+  /// The fewest cells that any path has to leave out. A path alternates between the colours, so it has at most one cell
+  /// more of one than of the other; it begins and ends once, so it has at most two dead ends; and no set of links with
+  /// at most two for each cell has more links than the largest one, which leaves open_ends / 2 chains.
   Index must_leave_out() const;
 };
 
@@ -35,27 +35,27 @@ struct LatticePieces {
 /// Cost O(cells).
 LatticePieces find_pieces(const CellLinks& links, const Progress& progress = {});
 
-/// Leaves out dead ends beyond the two that a path can have, as far as they stand on a cell that has two other
-/// neighbours, so that a path passes beside them (corridors one cell wide are not eaten up). Chooses them by the colour
-/// of which there are too many. Counts them in the pieces.
+/// Leaves out dead ends beyond the two that a path can have, but only those whose neighbour has two other neighbours: a
+/// path then passes beside them, and corridors one cell wide stay. Prefers the colour of which there are too many
+/// cells. Counts them in the pieces.
 void trim_dead_ends(CellLinks& links, LatticePieces& pieces, Dice& dice, const Progress& progress = {});
 
-/// Leaves out a share of the cells at convex corners of some pieces (by piece: 0 = none of its cells), in numbers of 1
-/// / 256 and at random, as far as both neighbours keep two others. A staircase rim has its cells at such corners all of
-/// one colour, which forces every path along it into the same zigzag, rank behind rank, and leaves no way to join them.
+/// Leaves out cells at the convex corners of the pieces that `thinned` marks, each with the probability share / 256,
+/// unless one of its two neighbours would be left with fewer than two others. On a staircase rim all such corner cells
+/// have one colour. That forces every path along the rim into the same zigzag, row behind row, and leaves no way to
+/// join them.
 void thin_corners(CellLinks& links, const LatticePieces& pieces, const std::vector<char>& thinned, unsigned share,
                   Dice& dice, const Progress& progress = {});
 
-/// Links as many neighbours as possible, at most two a cell, so that every piece falls into loops and as few open
-/// chains as can be; then moves the missing links together, so that of the chains of a piece all but one are lone
-/// cells wherever that is possible; `peel` also cuts cells off the ends of chains where that helps. Then stirs the
-/// links.
+/// Links as many neighbours as possible, at most two a cell, so that every piece consists of loops and as few open
+/// chains as possible. Then moves the missing links together, so that wherever possible all but one of a piece's chains
+/// are lone cells; with `peel`, cells are also cut off the ends of chains where that helps. Then stirs the links.
 ///
-/// Squares of 2 x 2 cells are loops; the cells between are joined by augmenting paths (the largest simple 2-matching of
-/// a bipartite graph). Stirring visits every square many times and flips it at even odds if it can be flipped, which
-/// leads to all sets of loops over a simply connected lattice with equal probability (the square ice model); the
-/// directions are then as even as the shape of the part allows. Cost O(cells) but for augmenting, which searches as
-/// far as the next missing link.
+/// At first, whole squares of 2 x 2 cells are loops; augmenting paths link the cells between them (the largest simple
+/// 2-matching of a bipartite graph). Stirring visits every square many times and flips it with probability one half if
+/// it can be flipped. On a simply connected lattice this reaches all sets of loops with equal probability (the square
+/// ice model), so that the directions are as even as the shape of the part allows. Cost O(cells), plus that of
+/// augmenting, which searches as far as the next missing link.
 void cover_with_loops(CellLinks& links, LatticePieces& pieces, bool peel, Dice& dice, const Progress& progress = {});
 
 }  // namespace dwell

@@ -36,7 +36,7 @@ class Merger {
  private:
   std::int32_t piece(Cell c) const { return pieces_.of_cell[static_cast<std::size_t>(c)]; }
 
-  /// Flips the square if that joins two.
+  /// Flips the square if that joins two chains.
   bool merge(Cell square) {
     const int way = links_.flippable(square);
     if (way == 0) return false;
@@ -46,7 +46,7 @@ class Merger {
     return true;
   }
 
-  /// Flips what joins, from the squares given on; they are used up.
+  /// Flips the given squares, and then squares beside flipped ones, where that joins two chains. Empties the list.
   void merge_from(std::vector<Cell>& squares) {
     while (!squares.empty()) {
       poll_.step();
@@ -70,7 +70,7 @@ class Merger {
     }
   }
 
-  /// The end of a chain joins a loop beside it, which opens there; again from the new end.
+  /// Joins the end of a chain to a loop beside it, which opens there, and goes on from the new end.
   void take_in(Cell end) {
     for (bool again = true; again && links_.degree(end) < 2;) {
       again = false;
@@ -173,7 +173,7 @@ class Merger {
     return heads;
   }
 
-  /// A cell some way along the chain of one.
+  /// A cell some links farther along the chain of a cell.
   Cell along(Cell c) {
     constexpr std::uint32_t kFarthest = 1024;
     std::uint32_t steps = dice_.below(kFarthest);
@@ -188,8 +188,9 @@ class Merger {
   /// Splits and joins near the loop of a cell until there is one loop fewer.
   void free_loop(Cell loop) {
     constexpr int kTries = 4000;
-    constexpr int kAskEvery = 64;  // tries: a split walks through up to half of a chain
-    constexpr int kNear = 2;       // cells from the loop
+    // Tries between two questions whether to stop: a split walks through up to half of a chain.
+    constexpr int kAskEvery = 64;
+    constexpr int kNear = 2;  // cells from the loop
     const Index before = joined_;
     for (int k = 0; k < kTries && budget_ > 0; ++k) {
       if (k % kAskEvery == 0) progress_.check();
@@ -220,7 +221,7 @@ class Merger {
   Dice& dice_;
   ChainLabels chains_;
   std::int64_t budget_;
-  Index joined_ = 0;           // chains fewer than at the beginning
+  Index joined_ = 0;           // how many chains there are fewer than at the beginning
   std::vector<Cell> squares_;  // work list of merge_from
 };
 

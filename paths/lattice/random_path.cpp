@@ -91,7 +91,8 @@ std::vector<char> in_parts(const Cover& c) {
   return parts;
 }
 
-/// Where a piece does not make one chain: with ends peeled off, then with more and more of its corners left out.
+/// Tries again where a piece has not become one chain: first with ends peeled off, then with more and more of its
+/// corners left out.
 Cover best_cover(const CellLattice& lattice, Dice& dice, const Progress& progress) {
   constexpr Index kPointsForALift = 64;
   const CellLinks bare(lattice);
@@ -143,7 +144,7 @@ class Assembly {
  private:
   std::size_t index(Cell c) const { return static_cast<std::size_t>(links_.lattice_cell(c)); }
 
-  /// Gives the last cell.
+  /// Returns the last cell.
   Cell add(Cell c) {
     int way = links_.link_direction(c);
     append(c, 1);

@@ -22,23 +22,25 @@ struct RandomPath {
   Index lattice_points = 0;
   Index left_out = 0;         // lattice points not visited
   Index must_leave_out = 0;   // fewest that any set of paths, one a piece, could leave out: LatticePiece
-  Index left_out_beside = 0;  // of those left out: a pitch from a visited point
+  Index left_out_beside = 0;  // how many of those left out lie one pitch from a visited point
   Index pieces = 0;           // connected sets of lattice points
   Index lifts_in_pieces = 0;  // chains beyond the first of each piece
 };
 
-/// A pseudo-random path over the points of a CellLattice: every point once, only from neighbour to neighbour along the
-/// lattice, so that it never crosses itself and never leaves the part (Zha et al. 2020, section 3.1, constraints 1 to
-/// 3). One path a piece of the lattice; lifted from the end of one to the nearest end of the next.
+/// A pseudo-random path over the points of a CellLattice. It visits every point once and moves only from neighbour to
+/// neighbour along the lattice, so that it never crosses itself and never leaves the part (Zha et al. 2020, section
+/// 3.1, constraints 1 to 3). There is one path for each piece of the lattice; the tool is lifted from the end of one to
+/// the nearest end of the next.
 ///
 /// The paper grows the path at its end and backs up at dead ends, which costs the length of the path each time and a
-/// very long search for the last points. Here the whole lattice is covered with random loops (link_cover.h), which
-/// are then merged into one (loop_merge.h); so the path has no end that could get stuck, and usually ends beside its
-/// beginning. It starts at its lower end; several paths begin with the end nearest to the lattice's lower left.
+/// very long search for the last points. Here the whole lattice is covered with random loops (link_cover.h), which are
+/// then merged into one (loop_merge.h); so the path has no end that could get stuck, and usually ends beside its
+/// beginning. It starts at its lower end; if there are several paths, the first begins at the end nearest to the
+/// lattice's lower left.
 ///
-/// Points are left out where the lattice admits no such path: isolated ones, nearly always beside the path. Where that
-/// does not do, the piece gets several paths with lifts between (corridors one point wide), or points at its convex
-/// corners are left out too (staircase rims), at most 64 for each lift that this saves.
+/// Where the lattice admits no such path, single points are left out, nearly always right beside the path. If that is
+/// not enough, the piece gets several paths with lifts between (in corridors one point wide), or points at its convex
+/// corners are left out too (on staircase rims), at most 64 for each lift that this saves.
 ///
 /// Throws InputError as cell_lattice does. Cost about O(points of the box): 10^6 points in about a second, several
 /// times that on ragged parts, where up to four covers are tried; memory about 60 bytes a point.

@@ -41,8 +41,8 @@ double angle_between(Point from, Point to) {
   return std::atan2(from.x * to.y - from.y * to.x, from.x * to.x + from.y * to.y);
 }
 
-/// Corners of the path, trims and points not yet chosen. A point that repeats its neighbour ends a leg but is no
-/// corner.
+/// The corners of the path, before their trims and points are chosen. A point that repeats its neighbour ends a leg but
+/// is no corner.
 std::vector<Vertex> bends(const ToolPath& path, const Progress& progress) {
   Poll poll(progress);
   const auto& p = path.points;
@@ -144,7 +144,7 @@ std::string note(const Rounding& plan, double radius) {
 
 }  // namespace
 
-ToolPath rounded_corners(const ToolPath& path, double radius, const Progress& progress) {
+ToolPath round_corners(const ToolPath& path, double radius, const Progress& progress) {
   if (!(std::isfinite(radius) && radius >= 0.0)) {
     throw InputError(fmt::format("{}: corner = {} mm; required finite and >= 0", path.kind, radius));
   }

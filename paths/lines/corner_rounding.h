@@ -18,19 +18,19 @@ inline constexpr double kArcTurnDeg = 24.0;
 /// of the piece. It takes at most half of each leg, and never departs from the corner by more than the radius: where
 /// that is too little room (short legs; corners of more than 120 degrees) its radius is smaller. Its departure from the
 /// corner, the largest there is, is r (1 / cos(phi / 2) - 1) for radius r and corner phi: 0.41 r at 90 degrees; from
-/// the legs it departs by up to half of the radius asked for.
+/// the legs it departs by up to half of the given radius.
 ///
 /// Dwell points that the arc cuts off are replaced by points in the middles of equal parts of it: as closely spaced as
-/// the closer neighbour of the corner was, but no more than twice as many as were cut off unless smoothness wants them,
-/// each turning by at most kArcTurnDeg. So the polyline through the dwell points, and with it the tool from dwell point
+/// the closer neighbour of the corner was, at most twice as many as were cut off unless more are needed to turn by at
+/// most kArcTurnDeg at each. So the polyline through the dwell points, and with it the tool on its way from dwell point
 /// to node to dwell point, turns by at most 30 degrees anywhere (24 on an arc, and 6 more where the move from it leads
-/// onto a wider one), but for turn-backs and points that repeat the one before. A move is at most
-/// 1.5 times as long as the longest of those it replaces. First and last points of pieces stay; lifts are respected. A
+/// onto a wider one), except at turn-backs and at points that repeat the one before. A move is at most 1.5 times as
+/// long as the longest of those it replaces. The first and last points of pieces stay, and lifts stay where they are. A
 /// note says how many corners were rounded, and how many with less than asked for.
 ///
 /// radius = 0 returns the path itself. Throws InputError, which names the kind of the path, if the radius is negative
-/// or not finite or the result has more than kMaxPathPoints points; as validate() if the path is not valid. Cost and
-/// memory O(points).
-ToolPath rounded_corners(const ToolPath& path, double radius, const Progress& progress = {});
+/// or not finite or the result has more than kMaxPathPoints points; as validate() does if the path is not valid. Cost
+/// and memory O(points).
+ToolPath round_corners(const ToolPath& path, double radius, const Progress& progress = {});
 
 }  // namespace dwell

@@ -98,7 +98,7 @@ ToolPath cross_hatch_path(const HeightMap& map, const CrossHatchOptions& options
   append_lines(path, lines_of(map, first, scan.overrun, progress), {}, options.turns, progress);
   const ScanLines across = lines_of(map, second, scan.overrun, progress);
   append_lines(path, across, order_from(path.points.back(), across), options.turns, progress);
-  return options.turns.corner > 0.0 ? rounded_corners(path, options.turns.corner, progress) : path;
+  return options.turns.corner > 0.0 ? round_corners(path, options.turns.corner, progress) : path;
 }
 
 }  // namespace dwell

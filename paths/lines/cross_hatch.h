@@ -28,9 +28,9 @@ CrossHatchOptions parse_cross_hatch_options(const SpecText& spec);
 /// The distances of tracks and dwell points that these options ask for.
 std::vector<PathDistance> cross_hatch_distances(const CrossHatchOptions& options);
 
-/// Two serpentine rasters (raster.h) whose lines cross, one after the other. Of the four ways to run the second (either
-/// line first, from either end) the one that begins nearest to where the first ended; the tool is lifted in between.
-/// What the raster says of its points and coverage holds for each of the two.
+/// Two serpentine rasters (raster.h) whose lines cross, one after the other. The second can be run in four ways (first
+/// or last line first, from either end); the one that begins nearest to the end of the first raster is taken. The tool
+/// is lifted in between. What raster.h says about points and coverage holds for each of the two.
 ///
 /// Throws InputError naming the option, its value and what is required; also above 50 million lattice points of both.
 /// Cost O(pixels + lattice points).

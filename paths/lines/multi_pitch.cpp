@@ -13,14 +13,14 @@
 #include "core/base/poll.h"
 #include "paths/domain/box_mean.h"
 #include "paths/domain/feed_direction.h"
+#include "paths/domain/point_limit.h"
 #include "paths/lines/region_raster.h"
 
 namespace dwell {
 namespace {
 
-constexpr double kMostPoints = 50e6;
 constexpr int kMostRanges = 100;
-constexpr double kPositioning = 0.01;  // what a machine positions [mm]
+constexpr double kPositioning = 0.01;  // how finely a machine positions [mm]
 
 [[noreturn]] void refuse(const char* option, double value, const char* unit, const char* required) {
   throw InputError(fmt::format("multi-pitch: {} = {}{}; required {}", option, value, unit, required));
@@ -36,7 +36,7 @@ void check_at_least_zero(const char* option, double value) {
   if (!std::isfinite(value)) refuse(option, value, " mm", "finite");
 }
 
-/// The options with their defaults put in.
+/// The options, with defaults for those that are not given.
 struct Settings {
   std::size_t ranges;
   double min_pitch, max_pitch, step, overrun, smooth;
@@ -121,7 +121,7 @@ std::vector<PitchRegion> ranges_of(const MultiPitchOptions& o, const Settings& s
   return ranges;
 }
 
-/// Neighbouring ranges of equal pitch become one; those that no pixel lies in go. Fills in the region of every pixel.
+/// Joins neighbouring ranges of equal pitch, drops ranges without a pixel, and fills in the region of every pixel.
 std::vector<PitchRegion> merged(const std::vector<PitchRegion>& ranges, const std::vector<double>& depth,
                                 const std::vector<Index>& pixels, std::vector<std::int32_t>& region_of,
                                 const Progress& progress) {
@@ -216,7 +216,7 @@ void raster_regions(const HeightMap& map, const MultiPitchOptions& options, cons
                             anchor,
                             reaches[k],
                             link,
-                            kMostPoints - static_cast<double>(result.path.size())};
+                            kMaxPathPoints - static_cast<double>(result.path.size())};
     region.lifts = append_region(labels, map.grid, pixels[k], lines, result.path, progress);
     region.points = result.path.size() - region.first_point;
   }

@@ -17,8 +17,8 @@ struct MultiPitchOptions {
   int ranges = 4;               // of removal depth, 1 .. 100 (3 to 6 in the paper); not with pitches or depths
   std::vector<double> pitches;  // of the ranges, shallowest first [mm], finite and > 0; default: by eq. 10
   std::vector<double> depths;   // between the ranges [nm above the lowest], ascending, > 0; default: equal ranges
-  /// Narrowest [mm], > 0; not with pitches. Default: a sixtieth of the TIF's size, below which there is hardly any
-  /// ripple left to spare while the path grows without bound, and at least 0.01: what a machine positions.
+  /// Narrowest [mm], > 0; not with pitches. Default: a sixtieth of the TIF's size, because narrower pitches remove
+  /// hardly any more ripple while the path grows without bound; and at least 0.01, as finely as a machine positions.
   std::optional<double> min_pitch;
   std::optional<double> max_pitch;  // widest [mm], >= min_pitch; default: a sixth of the TIF's size; not with pitches
   std::optional<double> step;       // between dwell points of a line [mm], > 0; default: a twelfth of the TIF's size
@@ -66,17 +66,17 @@ std::vector<PitchRegion> pitches_by_depth(const std::vector<double>& borders, do
                                           double min_pitch, double max_pitch);
 
 /// Raster whose pitch follows the removal depth (Hou, Liao, Wang 2017, section "Development of the multi-pitch tool
-/// path"): deep regions get narrow pitches and so little ripple, shallow ones wide pitches, so that the tool need not
-/// pass faster than max_feed.
+/// path"): deep regions get narrow pitches, which leave little ripple, and shallow ones wide pitches, so that the tool
+/// need not run faster than max_feed.
 ///
 /// The removal depth of a pixel is the target minus the lowest target, both after averaging over `smooth` (a mean over
-/// the valid pixels of a square): noise of single pixels neither sets the zero nor tears the regions. Depths up to the
-/// highest are cut into `ranges` of equal width (eq. 4-5) or at `depths`; a pixel belongs to the range its depth lies
-/// in, on a border to the deeper one. Pitches by pitches_by_depth, or given. Neighbouring ranges of equal pitch make
-/// one region. Every region is a raster of its own (paths/lines/region_raster.h: coverage, gaps, lifts), one after the
-/// other from the shallowest, with a lift between. Regions do not overlap; beyond the part's edge, within max(overrun,
-/// half the diagonal of pitch and step, half that of a pixel), a point belongs to the region of the nearest valid
-/// pixel.
+/// the valid pixels of a square): noise of single pixels then neither sets the zero nor breaks up the regions. Depths
+/// up to the highest are cut into `ranges` of equal width (eq. 4-5) or at `depths`; a pixel belongs to the range in
+/// which its depth lies, and to the deeper one if it lies on a border. Pitches by pitches_by_depth, or given.
+/// Neighbouring ranges of equal pitch make one region. Every region is a raster of its own
+/// (paths/lines/region_raster.h: coverage, gaps, lifts), one after the other from the shallowest, with a lift between.
+/// Regions do not overlap; beyond the part's edge, within max(overrun, half the diagonal of pitch and step, half that
+/// of a pixel), a point belongs to the region of the nearest valid pixel.
 ///
 /// max_feed [mm/s]: needed unless pitches are given. Size of the TIF = 2 radius. Throws InputError naming the option,
 /// its value and what is required; also above 50 million points. Cost O(pixels + lattice points of the regions' boxes).

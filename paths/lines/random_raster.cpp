@@ -36,7 +36,7 @@ double parse_spread(const SpecText& spec, double pitch, double fallback) {
   return *percent / 100.0;
 }
 
-/// Positions of lines over a range, as many as fit, their block in its middle.
+/// Positions of as many lines as fit into a range; their block lies in the middle of it.
 std::vector<double> draw_positions(const Interval& range, const RandomRasterOptions& options, const ScanOptions& scan,
                                    double points_a_line) {
   Dice dice(options.seed);
@@ -97,7 +97,7 @@ ToolPath random_raster_path(const HeightMap& map, const RandomRasterOptions& opt
                options.turns, progress);
   path.notes.push_back(fmt::format("{} lines at random distances from {:.6g} to {:.6g} mm, seed {}", count,
                                    options.pitch * (1.0 - options.spread), farthest, options.seed));
-  return options.turns.corner > 0.0 ? rounded_corners(path, options.turns.corner, progress) : path;
+  return options.turns.corner > 0.0 ? round_corners(path, options.turns.corner, progress) : path;
 }
 
 }  // namespace dwell

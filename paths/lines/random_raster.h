@@ -35,10 +35,10 @@ std::vector<PathDistance> random_raster_distances(const RandomRasterOptions& opt
 /// A raster (raster.h) whose line distances vary at random, against the ripple that equal distances leave ("path
 /// interval changing", Zha et al. 2020, sections 3.2 and 4.2, where the pitch is that of the best overlap).
 ///
-/// Distances are drawn one by one, uniformly from pitch (1 - spread) to pitch (1 + spread), never outside; so many
-/// lines as fit into the box of the valid pixel centres widened by the overrun, and the block of them in its middle.
-/// Every valid pixel is within half of the largest distance, pitch (1 + spread) / 2, of a line, whatever the overrun.
-/// Dwell points lie on lines as the raster's do. The same seed gives the same path on every machine (mt19937_64); the
+/// Distances are drawn one by one, uniformly from pitch (1 - spread) to pitch (1 + spread). There are as many lines as
+/// fit into the box of the valid pixel centres widened by the overrun, and their block lies in the middle of it. Every
+/// valid pixel is within half of the largest distance, pitch (1 + spread) / 2, of a line, whatever the overrun. Dwell
+/// points lie on lines as the raster's do. The same seed gives the same path on every machine (mt19937_64); the
 /// distances drawn do not depend on the map.
 ///
 /// Throws InputError naming the option, its value and what is required; also above 50 million points. Cost O(pixels +

@@ -43,7 +43,7 @@ ToolPath raster_path(const HeightMap& map, const RasterOptions& options, const P
   path.kind = "raster";
   append_lines(path, ScanLines(map, frame, steps, LinePositions(lines), scan.overrun, progress), {options.serpentine},
                options.turns, progress);
-  return options.turns.corner > 0.0 ? rounded_corners(path, options.turns.corner, progress) : path;
+  return options.turns.corner > 0.0 ? round_corners(path, options.turns.corner, progress) : path;
 }
 
 }  // namespace dwell

@@ -14,7 +14,7 @@ namespace dwell {
 
 struct RasterOptions {
   double pitch = 0.0;          // distance between neighbouring lines [mm], finite and > 0; required
-  bool auto_pitch = false;     // plan_path finds the pitch: the widest whose ripple is at most the following
+  bool auto_pitch = false;     // plan_path finds the pitch: the widest whose ripple is at most `ripple`
   double ripple = 0.01;        // peak to valley over removal, > 0 and < 1; used with auto_pitch only
   std::optional<double> step;  // distance between dwell points of a line [mm], > 0; default = pitch
   double angle_deg = 0.0;      // direction of the lines, counter-clockwise from +x; finite
@@ -36,7 +36,7 @@ std::vector<PathDistance> raster_distances(const RasterOptions& options);
 /// about the middle of the bounding box of the valid pixel centres in that frame, with as many lines (points) as fit
 /// into the box widened by `overrun` on each side. A lattice point is wanted if it lies within `overrun` of a valid
 /// pixel centre, or if it is the lattice point nearest to one; a line runs from its first to its last wanted point,
-/// across whatever lies between (holes are crossed, not lifted). Lines without a wanted point are left out. So every
+/// across whatever lies between (the tool stays down across holes). Lines without a wanted point are left out. So every
 /// valid pixel is within pitch/2 of a line, whatever the overrun.
 ///
 /// Lines follow each other in the direction 90 degrees counter-clockwise from theirs (angle 0: upwards). A

@@ -10,13 +10,12 @@
 #include "core/base/point.h"
 #include "core/base/poll.h"
 #include "paths/domain/feed_direction.h"
+#include "paths/domain/point_limit.h"
 #include "paths/domain/rounding.h"
 #include "paths/lines/run_order.h"
 
 namespace dwell {
 namespace {
-
-constexpr double kMostPathPoints = 50e6;  // of any path
 
 /// Equidistant positions.
 struct RegionTicks {
@@ -95,7 +94,7 @@ class Stretches {
     }
   }
 
-  /// Adds the lattice points of pixels that have none near.
+  /// Adds the nearest lattice point for pixels that have none near.
   void rescue(const Grid& grid, const std::vector<Index>& pixels, const Progress& progress) {
     Poll poll(progress);
     const std::size_t found = stretches_.size();
@@ -148,13 +147,13 @@ class Stretches {
   double points_ = 0.0;
 };
 
-/// Runs that cross short gaps, and for each where its stretches begin.
+/// Runs, which may cross short gaps, and where the stretches of each begin.
 struct Runs {
   std::vector<LineRun> runs;
   std::vector<std::size_t> begin;
 };
 
-Runs joined(const std::vector<LineRun>& stretches, double step, double link) {
+Runs join_stretches(const std::vector<LineRun>& stretches, double step, double link) {
   Runs joined;
   for (std::size_t i = 0; i < stretches.size(); ++i) {
     const LineRun& s = stretches[i];
@@ -190,12 +189,12 @@ Index append_region(const RegionLabels& labels, const Grid& grid, const std::vec
   if (!(expected <= lines.most_points)) refuse_points(lines, expected);
   // A narrow ring fills little of its box, which is looked through point by point.
   const double box = lattice.lines.count * lattice.steps.count;
-  if (!(box <= 20.0 * kMostPathPoints)) refuse_points(lines, expected);
+  if (!(box <= 20.0 * kMaxPathPoints)) refuse_points(lines, expected);
   Stretches found(labels, lattice, lines);
   found.find(progress);
   found.rescue(grid, pixels, progress);
   const std::vector<LineRun>& stretches = found.stretches();
-  const Runs runs = joined(stretches, lines.step, lines.link);
+  const Runs runs = join_stretches(stretches, lines.step, lines.link);
   const std::vector<OrderedRun> order = order_runs(runs.runs, lines.pitch, lines.step, lines.link, progress);
   Index lifts = -1;
   for (const OrderedRun& next : order) {

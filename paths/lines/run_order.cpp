@@ -65,7 +65,8 @@ class Orderer {
       poll.step();
       Candidate best;
       for (const Index line : {line_ + direction_, line_ - direction_, line_}) consider_line(line, best);
-      const double farthest = link * link;  // infinite: never lifted, and still there may be no run on these lines
+      // Infinite if no move is to be lifted, and still there may be no run on these lines.
+      const double farthest = link * link;
       const bool near = best.run >= 0 && best.squared <= farthest;
       if (!near) best = nearest_of_all();
       take(best, !near && std::isfinite(farthest), order);
@@ -101,8 +102,8 @@ class Orderer {
     }
   }
 
-  /// Runs of a line are disjoint: no end is nearer than those of the next run on either side of the present place, one
-  /// of which may reach over it.
+  /// Runs of a line are disjoint, so the nearest end is one of the next run on either side of the present place. One of
+  /// these runs may cover that place.
   void consider_line(Index line, Candidate& best) {
     if (line < 0 || line + 1 >= static_cast<Index>(begin_.size())) return;
     const Index begin = begin_of(line), end = begin_of(line + 1);

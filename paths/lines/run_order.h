@@ -21,12 +21,12 @@ struct OrderedRun {
   bool lifted = false;     // the move to it is made lifted
 };
 
-/// Orders runs so that few moves between them are long: from the end of one to the nearest end on its own or a
-/// neighbouring line within `link`, preferring to keep on in the present direction among equally near ones; else,
-/// lifted, to the nearest end of any. Starts with the first run, forwards. Distances: `pitch` between lines, `step`
-/// along them, `link` in the same unit; infinite: no move is lifted.
-/// runs: ascending by line, then by first; disjoint. Cost O(runs log runs) where lifts are few; a lift looks at as many
-/// lines as the nearest end is away.
+/// Orders runs so that few moves between them are long. From the end of a run it goes to the nearest end of another on
+/// the same or a neighbouring line within `link`, and among equally near ends to one in the present direction. If there
+/// is none, it goes lifted to the nearest end of any. It starts with the first run, forwards. Lines are `pitch` apart
+/// and points on them `step`; `link` has the same unit, and with an infinite one no move is lifted. runs: ascending by
+/// line, then by first; disjoint. Cost O(runs log runs) where lifts are few; a lift looks through the lines as far as
+/// the nearest end.
 std::vector<OrderedRun> order_runs(const std::vector<LineRun>& runs, double pitch, double step, double link,
                                    const Progress& progress = {});
 

@@ -65,7 +65,7 @@ ScanFrame scan_frame(const HeightMap& map, double angle_deg, const char* planner
   frame.across = {-frame.along.y, frame.along.x};
   const Grid& grid = map.grid;
   for (Index row = 0; row < grid.rows; ++row) {
-    // Along a row both coordinates are linear: its first and last valid pixel say all.
+    // Both coordinates are linear along a row, so its first and last valid pixel decide.
     const auto include = [&](Index col) {
       const Point p = grid.centre(row, col);
       frame.u.include(dot(p, frame.along));
@@ -123,7 +123,7 @@ void ScanLines::include_within(const HeightMap& map, double overrun, const Progr
   for (Index line = 0; line < count(); ++line) {
     progress.check();
     Run& run = runs_[static_cast<std::size_t>(line)];
-    // 0 if point i is wanted; else how many points to go on, over those that are too far away because i is.
+    // 0 if point i is wanted; else how many points to go on: those between are too far away because point i is.
     const auto points_to_skip = [&](Index i) -> Index {
       poll.step();
       const Point p = at(line, i);

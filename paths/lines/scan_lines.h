@@ -27,7 +27,7 @@ struct EvenPositions {
   double step = 1.0;
   double count = 1.0;  // integral; a double so that an absurd one can be compared and reported
 
-  /// Into the range widened by `overrun` on both sides.
+  /// As many as fit into the range widened by `overrun` on both sides.
   EvenPositions(const Interval& range, double overrun, double tick);
   double at(Index i) const { return middle + step * (static_cast<double>(i) - 0.5 * (count - 1.0)); }
   Index nearest(double v) const;
@@ -58,7 +58,7 @@ struct ScanFrame {
   Interval v;    // extent across [mm]
 };
 
-/// What every planner of straight lines asks of its user.
+/// The options that all planners of straight lines share.
 struct ScanOptions {
   double pitch = 0.0;      // distance between lines [mm]
   double step = 0.0;       // distance between dwell points of a line [mm]
@@ -79,7 +79,7 @@ void check_scan_size(const ScanOptions& options, double lines, double points, co
 ///
 /// A point is wanted if it lies within `overrun` of a valid pixel centre, or if it is the point nearest to one: nearest
 /// line, then nearest position. A line runs from its first to its last wanted point, across whatever lies between. So
-/// every valid pixel that the lines surround is within half the distance of its two lines from one of them.
+/// every valid pixel between two lines is within half their distance of one of them.
 class ScanLines {
  public:
   /// First and last wanted point of a line; first > last if it has none.
@@ -94,7 +94,7 @@ class ScanLines {
     bool empty() const { return last < first; }
   };
 
-  /// Cost O(pixels + points that are not wanted, less those a distance bound skips).
+  /// Cost O(pixels + points that are not wanted), where bounds on distances skip many of the latter.
   ScanLines(const HeightMap& map, const ScanFrame& frame, const EvenPositions& steps, LinePositions lines,
             double overrun, const Progress& progress = {});
 

@@ -32,7 +32,7 @@ Interval strip(double factor, double offset, double middle, double half) {
   return {centre - width, centre + width};
 }
 
-/// All within `reach` of a straight piece of path: two discs and the rectangle between them.
+/// The area within `reach` of a straight piece of path: two discs and the rectangle between them.
 struct Capsule {
   Point from, to;
   double reach;

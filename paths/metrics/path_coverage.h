@@ -14,10 +14,10 @@ struct PathCoverage {
 
 /// How many valid (finite) pixels of a map have their centre within `reach` [mm] of the path's strokes (those of a
 /// moving tool, so that nothing lies on a lifted move). Half the pitch of the path is the reach at which neighbouring
-/// tracks meet. Centres exactly so far away are covered, whatever the rounding (1e-9 of the reach).
+/// tracks meet. Centres exactly that far away are covered, whatever the rounding (1e-9 of the reach).
 ///
 /// Throws InputError if the path is not valid, the map has no valid pixel, or the reach is not finite and >= 0. Cost
-/// O(strokes + pixels under them, each time they are covered); memory O(pixels).
+/// O(strokes + pixels under them, counted once for every stroke that covers them); memory O(pixels).
 PathCoverage path_coverage(const ToolPath& path, const HeightMap& map, double reach, const Progress& progress = {});
 
 }  // namespace dwell

@@ -10,7 +10,7 @@
 namespace dwell {
 namespace {
 
-constexpr double kRightAngle = 90.0 * (1.0 + 1e-9);  // rounding must not make a reversal of a square corner
+constexpr double kRightAngle = 90.0 * (1.0 + 1e-9);  // so that rounding does not turn a square corner into a reversal
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 /// Turns and directions of the moves, one after the other.

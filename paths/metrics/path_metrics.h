@@ -11,7 +11,7 @@ namespace dwell {
 inline constexpr std::size_t kDirectionBins = 36;  // of 5 degrees, centred on 0, 5, ..., 175 degrees
 
 /// Lengths are in mm, angles in degrees. Turns and directions are those of the moves between dwell points made with the
-/// tool down; moves of no length have no direction and are passed over.
+/// tool down; moves of no length have no direction and are skipped.
 struct PathMetrics {
   Index points = 0;
   double length = 0.0;         // of the strokes of a moving tool: where it removes (N g for N points of spacing g)
@@ -21,7 +21,7 @@ struct PathMetrics {
   Index lifts = 0;             // lifted moves between dwell points; the arrival at the first is not counted
 
   /// Turns by more than 90 degrees between successive moves of one piece of path (a lift between them makes none). The
-  /// two square corners by which a serpentine changes lines are none; a one-point-wide spike or a zigzag is.
+  /// two square corners by which a serpentine changes lines do not count; a one-point-wide spike or a zigzag does.
   Index reversals = 0;
   double sharpest_corner = 0.0;  // largest turn between successive moves of a piece: 0 straight on, 180 back again
 
@@ -38,8 +38,8 @@ struct PathMetrics {
   double lattice_anisotropy = 0.0;
 };
 
-/// Throws InputError if the path is not valid. Cost O(points). What takes a search is elsewhere: path_spacing.h,
-/// path_coverage.h, spanning_tree.h.
+/// Throws InputError if the path is not valid. Cost O(points). The metrics that need a search are in path_spacing.h,
+/// path_coverage.h and spanning_tree.h.
 PathMetrics path_metrics(const ToolPath& path, const Progress& progress = {});
 
 }  // namespace dwell

@@ -52,7 +52,7 @@ double default_side(const Extent& extent, double radius) {
   return std::min(8.0 * radius, room);
 }
 
-/// Strokes that a patch can feel, and the length of path within it.
+/// The strokes that reach a patch, and the length of path within it.
 struct Near {
   std::vector<Stroke> strokes;
   double length_inside = 0.0;

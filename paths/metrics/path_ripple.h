@@ -30,19 +30,19 @@ struct PathRipple {
 };
 
 /// Removal of any path at constant feed, by the moving-tool operator (core/removal/scattered_removal.h) on a fine grid:
-/// what raster_ripple is for straight lines, for spirals, Hilbert curves or random walks. The dwell of a stroke is its
-/// length over the feed; halts have none. The removal function is the spline of its samples on the patch's pixels,
+/// for spirals, Hilbert curves or random paths it is what raster_ripple is for straight lines. The dwell of a stroke is
+/// its length over the feed; halts have none. The removal function is the spline of its samples on the patch's pixels,
 /// which blurs a sharp rim: a spinning disc shows about two thirds of its exact PVe at the default pixel, all of its
 /// RMS.
 ///
 /// Default side: four sizes (2 radius) of the removal function, at most what the path's bounding box leaves when it is
 /// narrowed by the radius on every side (the path's own edge must not reach the patch). Default pixel: an eighth of the
-/// spacing, but at most an eighth of the FWHM and at least 1/1024 of the side. Unless the path fills its bounding box
-/// evenly, place the patch yourself.
+/// spacing, but at most an eighth of the FWHM and at least 1/1024 of the side. If the path does not fill its bounding
+/// box evenly, give `centre` and `side`.
 ///
-/// Throws InputError naming an option out of range, also if nothing is left for the patch, if it would have more than
-/// 4096 pixels a side, or if part of it is not removed at all (a hole of the part: give a centre). Cost: O(strokes) and
-/// a transform of the patch widened by the removal function; strokes out of reach are left out.
+/// Throws InputError naming an option out of range; also if no room is left for the patch, if it would have more than
+/// 4096 pixels a side, or if nothing is removed on part of it (in a hole of the part: give a centre). Cost: O(strokes)
+/// and a transform of the patch widened by the removal function; strokes that do not reach the patch are left out.
 PathRipple path_ripple(const ToolPath& path, const RemovalFunction& tif, const PathRippleOptions& options,
                        const Progress& progress = {});
 

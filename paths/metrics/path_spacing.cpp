@@ -9,13 +9,14 @@
 #include "core/base/errors.h"
 #include "core/base/numbers.h"
 #include "core/base/poll.h"
+#include "paths/domain/point_limit.h"
 #include "paths/domain/point_tree.h"
 #include "paths/domain/rounding.h"
 
 namespace dwell {
 namespace {
 
-constexpr std::size_t kMaxPoints = 50'000'000;
+constexpr auto kMaxPoints = static_cast<std::size_t>(kMaxPathPoints);
 
 /// Where a point stands on the path.
 struct Station {
@@ -68,7 +69,7 @@ PathSpacing path_spacing(const ToolPath& path, const SpacingOptions& options, co
       const double detour = options.detour * std::sqrt(d2) * (1.0 - kRounding);
       if (station[i].piece == station[j].piece && !(std::abs(station[i].along - station[j].along) >= detour)) return;
       nearest2 = d2;
-      reach2 = std::nextafter(d2, -kInfinity);  // nothing equally near is looked for
+      reach2 = std::nextafter(d2, -kInfinity);  // points at the same distance are not searched for
     };
     tree.search(
         path.points[i], reach2, [](std::size_t) { return false; }, take);

@@ -10,9 +10,11 @@ namespace dwell {
 
 /// Which points of the path belong to a neighbouring track rather than to the track of the point itself.
 struct SpacingOptions {
-  Index skip = 1;       // the neighbours up to this many points before and after are never meant, >= 1
-  double detour = 2.0;  // to a point of the same piece the path must run at least this many times the distance, >= 1
-  /// A track farther away is none [mm], > 0. Bounds the work where there is none: the whole path would be searched.
+  Index skip = 1;       // this many points before and after it never count, >= 1
+  double detour = 2.0;  // a point of the same piece counts if the path to it is at least this many times as long as its
+                        // distance, >= 1
+  /// A track farther away does not count [mm], > 0. It bounds the work: a point without a neighbouring track would
+  /// otherwise cost a search of the whole path.
   double reach = std::numeric_limits<double>::infinity();
 };
 
@@ -28,12 +30,12 @@ struct PathSpacing {
 
 /// For every dwell point the distance to the nearest dwell point of another track: one in another piece (between
 /// lifts), or of the same piece if the path between them is `detour` times as long as they are apart, and in either
-/// case not among the `skip` points before and after. On a raster of steps no longer than its pitch that is the pitch,
-/// but for the points of the outermost lines within half a pitch of a turn: the path leads from them to their
-/// neighbours without a detour, and the nearest point farther on counts.
+/// case not among the `skip` points before and after. On a raster whose step is no longer than its pitch, this is the
+/// pitch, except for points of the outermost lines within half a pitch of a turn: the path leads from them to their
+/// neighbours without a detour, so that the nearest point farther on counts.
 ///
-/// Throws InputError if the path is not valid or an option is out of range. Memory O(n); about O(n log n) time times
-/// the square of spacing over step: the points of its own track that lie nearer are looked at.
+/// Throws InputError if the path is not valid or an option is out of range. Memory O(n). Time about O(n log n (spacing
+/// / step)^2), because a search looks at all nearer points of its own track.
 PathSpacing path_spacing(const ToolPath& path, const SpacingOptions& options = {}, const Progress& progress = {});
 
 }  // namespace dwell

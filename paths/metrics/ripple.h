@@ -22,14 +22,14 @@ struct PeriodicSum {
   double deviation = 0.0;  // root mean square about the mean
 };
 
-/// sum_k profile(v - k spacing) over one period, at 512 positions that hold the lines and the middles between them:
-/// where a symmetric removal function has its extremes they are exact, else to 2e-5 of the ripple. `what` begins the
-/// message of InputError, thrown unless spacing is finite and at least 1e-5 of the profile's width. Cost: 512 times
-/// width / spacing values of the profile.
+/// sum_k profile(v - k spacing) over one period, at 512 positions, the lines and the middles between them among these:
+/// for a symmetric removal function the extremes lie there and are exact, else they are good to 2e-5 of the ripple.
+/// `what` begins the message of InputError, thrown unless spacing is finite and at least 1e-5 of the profile's width.
+/// Cost: 512 times width / spacing values of the profile.
 PeriodicSum periodic_sum(const TrackProfile& profile, double spacing, const char* what);
 
-/// line: of line_profile (the direction of the feed is its). pitch [mm], mean removal depth [nm], both finite and > 0,
-/// else InputError. Nothing is sampled on a map: pitches of fractions of a pixel are as good as any. Cost: that of
+/// line: from line_profile, which holds the direction of the feed. pitch [mm], mean removal depth [nm], both finite and
+/// > 0, else InputError. Nothing is sampled on a map, so the pitch may be a fraction of a pixel. Cost: that of
 /// periodic_sum.
 RasterRipple raster_ripple(const TrackProfile& line, double pitch, double depth);
 

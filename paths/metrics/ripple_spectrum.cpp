@@ -17,10 +17,10 @@ namespace {
 constexpr std::size_t kSectors = 36;
 constexpr std::size_t kMostPeaks = 8;
 constexpr double kLeastShare = 0.01;
-constexpr double kDirectionRounding = 1e-6;  // degrees: crests along x are at 90, not now at 90 and now at -90
+constexpr double kDirectionRounding = 1e-6;  // degrees: a direction along y is always 90, not sometimes -90
 constexpr double kLobe = 2.5;                // half the main lobe of a Hann window is two frequencies wide
 
-/// A spectrum of which parts can be taken out.
+/// A spectrum from which peaks can be taken out.
 struct Spectrum {
   ArealPsd psd;
   double lowest, highest;  // frequencies of the band [1/mm]

@@ -9,6 +9,7 @@
 
 #include "core/base/errors.h"
 #include "core/base/units.h"
+#include "paths/domain/point_limit.h"
 
 namespace dwell {
 namespace {
@@ -81,7 +82,6 @@ double PlanetaryTool::speed(double t) const {
 
 TextureTrack texture_track(const std::vector<Stroke>& strokes, const Eigen::VectorXd& times, const PlanetaryTool& tool,
                            double step) {
-  constexpr double kMostPoints = 50e6;
   check(tool, step);
   if (times.size() != static_cast<Index>(strokes.size())) {
     throw InputError(fmt::format("texture: {} times for {} strokes; required one each", times.size(), strokes.size()));
@@ -93,10 +93,10 @@ TextureTrack texture_track(const std::vector<Stroke>& strokes, const Eigen::Vect
     }
     total += times[j];
   }
-  if (!(total / step < kMostPoints)) {
+  if (!(total / step < kMaxPathPoints)) {
     refuse_texture("step", step, " s",
                    fmt::format("> {:.6g} s: the run takes {:.6g} s, at most 50 million points of the track",
-                               total / kMostPoints, total));
+                               total / kMaxPathPoints, total));
   }
   TextureTrack track;
   track.step = step;

@@ -15,7 +15,7 @@ struct PlanetaryTool {
   double revolution_radius = 5.0;  // rho0, from O1 to O2 [mm], finite and >= 0
   double point_radius = 2.0;       // r1, from O2 to A [mm], >= 0 and at most the radius of the tool
   double tool_radius = 6.25;       // [mm], finite and > 0
-  double revolution_rpm = 60.0;    // of O2 about O1 [1/min], finite; the paper does not say theirs
+  double revolution_rpm = 60.0;    // of O2 about O1 [1/min], finite; the paper does not give one
   double spin_rpm = 150.0;         // of the tool about O2, relative to the arm from O1 to O2 [1/min], finite
   double revolution_deg = 0.0;     // direction from O1 to O2 at the start [deg from +x], finite
   double spin_deg = 0.0;           // beta at the start: angle at O2 from the direction of O1 to that of A [deg], finite
@@ -35,17 +35,17 @@ struct TextureTrack {
   double step = 0.0;          // between them [s]
 };
 
-/// The track of A while O1 runs along the strokes, each in its time [s] at one speed (of one feed:
-/// minimum_dwell(strokes, {0, feed})), from time 0 every `step` [s] until it ends. The tool turns on through the whole
-/// run; a lifted move takes no time. Throws InputError naming what is out of range:
-/// also if there is not one finite time >= 0 a stroke, if the arm or the tool turns by more than 45 degrees in a step,
+/// The track of A while O1 runs along the strokes, each in its time [s] at one speed (minimum_dwell(strokes, {0, feed})
+/// gives the times of a constant feed). It has a point every `step` [s], from time 0 to the end. The tool keeps
+/// rotating through the whole run; a lifted move takes no time. Throws InputError naming what is out of range: also if
+/// there is not one finite time >= 0 for each stroke, if the arm or the tool turns by more than 45 degrees in a step,
 /// or above 50 million points. Cost O(strokes + points).
 TextureTrack texture_track(const std::vector<Stroke>& strokes, const Eigen::VectorXd& times, const PlanetaryTool& tool,
                            double step);
 
-/// How long A was where: time per area [s/mm^2] over a grid. Each point of the track gives its step to the four nearest
-/// pixel centres, bilinearly, so that the sum times the pixel area is the time on the grid. What falls outside is left
-/// out. Cost O(pixels + points).
+/// How long A has been at each place: the time per area [s/mm^2] over a grid. The step of each point of the track is
+/// shared bilinearly among the four nearest pixel centres, so that the sum over the pixels times the pixel area is the
+/// time on the grid. What falls outside is left out. Cost O(pixels + points).
 HeightMap texture_density(const TextureTrack& track, const Grid& grid);
 
 }  // namespace dwell

@@ -52,7 +52,7 @@ TrackProfile profile_of(SplineSurface row) {
 
 /// The exact integral of a spline surface along one of its axes: a spline whose coefficients are the sums of the
 /// surface's. `sign` turns the other axis into v.
-TrackProfile summed(const SplineSurface& surface, bool along_x, double sign) {
+TrackProfile sum_along_axis(const SplineSurface& surface, bool along_x, double sign) {
   const Grid& g = surface.grid();
   const Index count = along_x ? g.rows : g.cols;
   const double pitch = along_x ? g.pitch_y : g.pitch_x;
@@ -81,7 +81,7 @@ std::array<double, 2> projection(const Grid& g, Point direction) {
   return {low, high};
 }
 
-TrackProfile integrated(const SplineSurface& surface, Point along, Point across) {
+TrackProfile integrate_obliquely(const SplineSurface& surface, Point along, Point across) {
   const Grid& g = surface.grid();
   const double step = kHalf * std::min(g.pitch_x, g.pitch_y);
   const auto [low, high] = projection(g, across);
@@ -113,9 +113,9 @@ TrackProfile line_profile(const RemovalFunction& tif, double angle_deg) {
       break;
   }
   const SplineSurface surface(tif.samples.grid, tif.samples.values);
-  if (along.y == 0.0) return summed(surface, true, across.y);
-  if (along.x == 0.0) return summed(surface, false, across.x);
-  return integrated(surface, along, across);
+  if (along.y == 0.0) return sum_along_axis(surface, true, across.y);
+  if (along.x == 0.0) return sum_along_axis(surface, false, across.x);
+  return integrate_obliquely(surface, along, across);
 }
 
 TrackProfile axis_profile(const RemovalFunction& tif, double angle_deg) {

@@ -10,14 +10,13 @@
 #include "core/base/errors.h"
 #include "core/base/poll.h"
 #include "paths/domain/cell_pyramid.h"
+#include "paths/domain/point_limit.h"
 #include "paths/domain/rounding.h"
 #include "paths/tours/spanning_tree.h"
 #include "paths/tours/tour_improvement.h"
 
 namespace dwell {
 namespace {
-
-constexpr double kMaxCells = 50e6;
 
 void check(const NearestOptions& o, const Grid& grid) {
   const double pitch = std::max(grid.pitch_x, grid.pitch_y);
@@ -69,9 +68,9 @@ Cells tile(const Grid& grid, const std::vector<Index>& pixels, double cell) {
   const Index first_row = pixels.front() / grid.cols, last_row = pixels.back() / grid.cols;
   const Tiles x(grid.x(first_col), grid.x(last_col), grid.pitch_x, cell);
   const Tiles y(grid.y(first_row), grid.y(last_row), grid.pitch_y, cell);
-  if (!(x.count * y.count <= kMaxCells)) {
+  if (!(x.count * y.count <= kMaxPathPoints)) {
     throw InputError(fmt::format("nearest: cell = {} mm makes {:.0f} x {:.0f} cells; at most {:.0e} accepted", cell,
-                                 x.count, y.count, kMaxCells));
+                                 x.count, y.count, kMaxPathPoints));
   }
   return {x, y, static_cast<Index>(y.count), static_cast<Index>(x.count), {}, 0};
 }

@@ -32,17 +32,19 @@ NearestOptions parse_nearest_options(const SpecText& spec);
 /// The distances of tracks and dwell points that these options ask for.
 std::vector<PathDistance> nearest_distances(const NearestOptions& options);
 
-/// From the start to the nearest unvisited dwell point; among equally near ones to that of the highest eigenvalue,
-/// then to the lowest row and column; until none is left ("improved Prim", Xie et al. 2022, section 2, eq. 1-5).
+/// The path goes from the start to the nearest unvisited dwell point, and on until none is left. Among equally near
+/// ones it takes that of the highest eigenvalue, then that of the lowest row and column ("improved Prim", Xie et al.
+/// 2022, section 2, eq. 1-5).
 ///
-/// Square cells of side `cell` cover the bounding box of the valid pixels' areas: as few as cover it, the tiling
-/// centred on the box. A pixel belongs to the cell that holds its centre (on a common edge: to the upper or right
+/// Square cells of side `cell` cover the bounding box of the valid pixels' areas: as few as are needed, and the tiling
+/// is centred on the box. A pixel belongs to the cell that holds its centre (on a common edge: to the upper or right
 /// one). The eigenvalue of a cell is the mean of its valid pixels; its centre is a dwell point if it has one and the
 /// eigenvalue is >= critical. Distances are compared as integers, so that ties are exact.
 ///
-/// Greedy leaves long moves back to cells that it passed by. `improve` shortens the whole path afterwards by 2-opt and
-/// Or-opt moves (tour_improvement.h, its default work and seed); its ends are then free unless the start is given. The
-/// path's notes say both lengths and that of the minimum spanning tree, which no path through the points can undercut.
+/// This greedy order leaves long moves back to cells that it passed by. `improve` shortens the whole path afterwards by
+/// 2-opt and Or-opt moves (tour_improvement.h, its default work and seed); its ends are then free unless the start is
+/// given. The path's notes say both lengths and that of the minimum spanning tree, which no path through the points can
+/// undercut.
 ///
 /// Throws InputError naming the option, its value and what is required, or the largest eigenvalue if no cell reaches
 /// the critical value. Memory O(cells of the box); about O(n log n) time: each search descends a pyramid of blocks in

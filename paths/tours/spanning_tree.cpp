@@ -10,12 +10,13 @@
 
 #include "core/base/errors.h"
 #include "core/base/poll.h"
+#include "paths/domain/point_limit.h"
 #include "paths/domain/point_tree.h"
 
 namespace dwell {
 namespace {
 
-constexpr std::size_t kMaxTreePoints = 50'000'000;
+constexpr auto kMaxTreePoints = static_cast<std::size_t>(kMaxPathPoints);
 constexpr std::int32_t kMixed = -1;
 
 void check(const std::vector<Point>& points) {
@@ -135,8 +136,8 @@ class Boruvka {
     };
     tree_.search(
         points_[at(i)], reach2, [&](std::size_t node) { return box_[node] == own; }, take);
-    if (!mine.found()) return;                       // nothing as near as the shortest
-    if (!(shortest < mine)) nearest_[at(i)] = mine;  // of a search cut short, `mine` need not be the shortest
+    if (!mine.found()) return;                       // no edge is as short as the shortest so far
+    if (!(shortest < mine)) nearest_[at(i)] = mine;  // a search that was cut short need not have found the shortest
     shortest = std::min(shortest, mine);
   }
 
@@ -151,7 +152,7 @@ class Boruvka {
 
 double spanning_tree_length(const std::vector<Point>& points, const Progress& progress) {
   check(points);
-  std::vector<Point> distinct = points;  // duplicates cost nothing, but a heap of them would be all ties
+  std::vector<Point> distinct = points;  // duplicates add no length, and many of them would mean many ties
   Poll poll(progress);
   const auto less = [&poll](Point a, Point b) {
     poll.step();

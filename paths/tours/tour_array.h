@@ -11,13 +11,14 @@ namespace dwell {
 
 /// A closed tour of cities 0..n-1 and a dummy city n that costs nothing to visit and stands between the two ends of an
 /// open path, held as an array. City i is the i-th point of the path given. Every change is a reversal of a stretch and
-/// is logged, so that it can be undone. What tour improvement works on.
+/// is logged, so that it can be undone. improve_tour works on it.
 class TourArray {
  public:
   using City = std::int32_t;
   using Length = std::int64_t;  // 2^-36 of the diagonal of the points' box; a path of 2^26 points cannot overflow
 
-  /// At least one point; all finite. fixed_start: no gain pays for parting the dummy city from city 0.
+  /// At least one point; all finite. With fixed_start the dummy city stays beside city 0: parting them costs more than
+  /// any move gains.
   TourArray(const std::vector<Point>& path, bool fixed_start);
 
   City dummy() const { return dummy_; }
@@ -34,15 +35,16 @@ class TourArray {
   }
   Length distance(City a, City b) const;
 
-  /// Cities from position i onwards to position j, both counted.
+  /// The number of cities from position i onwards to position j, both included.
   City count(City i, City j) const { return j - i + 1 + (j < i ? size() : 0); }
   City wrapped(City position) const { return position >= size() ? position - size() : position; }
 
   /// Reverses the stretch of positions i..j (onwards, across the end of the array if j < i).
   void reverse(City i, City j);
-  /// The same tour, perhaps run the other way round, for half the work: the rest is reversed if it is shorter.
+  /// Gives the same tour, perhaps run the other way round, for at most half the work: if the rest is shorter, it is
+  /// reversed instead.
   void reverse_shorter(City i, City j);
-  /// What reverse_shorter would touch.
+  /// The number of cities that reverse_shorter would move.
   City shorter_count(City i, City j) const;
 
   std::size_t mark() const { return log_.size(); }

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "core/base/errors.h"
+#include "paths/domain/point_limit.h"
 #include "paths/tours/tour_search.h"
 
 namespace dwell {
@@ -16,7 +17,7 @@ namespace {
 using City = TourArray::City;
 using Length = TourArray::Length;
 
-constexpr std::size_t kMaxTourPoints = 50'000'000;
+constexpr auto kMaxTourPoints = static_cast<std::size_t>(kMaxPathPoints);
 constexpr City kLongestKick = 50;    // cities of each of the two stretches
 constexpr int kDraws = 30;           // of a place for a kick
 constexpr double kDrift = 1e-12;     // of the length
@@ -58,8 +59,8 @@ void check(const std::vector<Point>& points, const std::vector<Index>& order, co
   }
 }
 
-/// Two neighbouring stretches of the tour change places: a segment insertion, which reversals of stretches alone cannot
-/// make without getting longer in between.
+/// Makes two neighbouring stretches of the tour change places. This is a segment insertion, which single reversals of
+/// stretches cannot make without a longer tour in between.
 class Kicks {
  public:
   Kicks(TourArray& tour, TourSearch& search, std::uint64_t seed)
@@ -67,7 +68,7 @@ class Kicks {
 
   bool possible() const { return longest_ >= 1; }
 
-  /// Kicks, mends, and undoes what came out longer. True if it stays.
+  /// Kicks the tour, improves it around the kick, and undoes both if the tour became longer. True if the kick stays.
   bool kick() {
     tour_.forget();
     const City first = draw(longest_), second = draw(longest_);
@@ -94,10 +95,10 @@ class Kicks {
   }
 
  private:
-  /// 1..most. std::uniform_int_distribution gives other numbers in other libraries.
+  /// A random number 1..most. std::uniform_int_distribution would give other numbers in other libraries.
   City draw(City most) { return 1 + static_cast<City>(random_() % static_cast<std::uint64_t>(most)); }
 
-  /// A position whose move to the next is longer than it would have to be, if a few draws find one.
+  /// A position at random; if a few draws find one, a position whose move to the next city is longer than it need be.
   City place() {
     City position = 0;
     for (int k = 0; k < kDraws; ++k) {

@@ -35,10 +35,10 @@ struct ImprovedTour {
 /// insertion of up to 12 consecutive points elsewhere, either way round (Or 1976). They join points to one of their 8
 /// nearest, from a queue of the points whose neighbourhood has changed (Bentley's don't-look bits; Johnson and McGeoch
 /// 1997, "The traveling salesman problem: a case study in local optimization"). When no move shortens the path any
-/// more, it is kicked: two neighbouring stretches of up to 50 points change places, the search mends what it can
-/// nearby, and what came out longer is undone. Equally long is kept, because on a lattice most moves tie and only drift
-/// leads off a plateau. Kicks begin at moves that are longer than the distance to a nearest neighbour, if a few draws
-/// find one: no others are too long in themselves.
+/// more, it is kicked: two neighbouring stretches of up to 50 points change places, and the local search runs again
+/// around them. The kick is undone if the path became longer. A path of equal length is kept, because most moves on a
+/// lattice tie and only such drift leads off a plateau. Kicks begin at a move that is longer than the distance to the
+/// nearest neighbour if a few draws find one, because only such moves can be shortened.
 ///
 /// Lengths are compared as integers (2^-36 of the extent of the points), so that gains cannot cycle by rounding and the
 /// search ends; the same points, order, options and kicks give the same result. NaN, infinite points and an order that

@@ -119,7 +119,7 @@ TourSearch::Length TourSearch::improve(City city) {
   return 0;
 }
 
-/// The tour is thought open between base and last = step(base, onwards). Joining `last` to a city `to` instead, and
+/// Imagine the tour open between base and last = step(base, onwards). Joining `last` to a city `to` instead, and
 /// cutting `to` from `cut` = the city before it as seen from base, leaves the tour open between base and cut: a 2-opt
 /// move if closed there, the next link of the chain if not.
 void TourSearch::collect(City base, City last, Length gain, int depth, bool onwards, Chain& chain) const {
@@ -218,8 +218,8 @@ TourSearch::Length TourSearch::insert_near(const Stretch& s, Length freed) {
   return 0;
 }
 
-/// Carries the stretch along the tour to between two neighbours, s.first beside `near`: at most three reversals of what
-/// lies on the way. False, and nothing done, if that is farther than the reach.
+/// Carries the stretch along the tour to its place between two neighbours, with s.first beside `near`, by at most three
+/// reversals of what lies on the way. Does nothing and returns false if that is farther than the reach.
 bool TourSearch::insert_between(const Stretch& s, City near, City far) {
   const City low = s.onwards ? s.first : s.last, high = s.onwards ? s.last : s.first;  // in the tour's order
   const City left = tour_.next(near) == far ? near : far, right = left == near ? far : near;

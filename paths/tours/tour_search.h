@@ -22,8 +22,8 @@ class TourSearch {
   void enqueue(City city);
   void enqueue_all();
 
-  /// Empties the queue; returns what was gained. forget: the changes need not be undone. Asks `stop` now and then and
-  /// returns early if it says so.
+  /// Works through the queue and returns the length gained. forget: the changes need not be undone. Asks `stop` now and
+  /// then and returns early if it says so.
   Length run(bool forget, const std::function<bool()>& stop);
 
   /// Whether a move of this length from the city is no longer than the distance to its nearest neighbour.

@@ -16,8 +16,8 @@
 
 namespace dwell {
 
-/// The blocks that the JSON of every command is built from (docs/json.md). Each is made in one place, so that what two
-/// commands tell of the same thing has the same key in both. Units are in the keys.
+/// The blocks that the JSON of every command is built from (docs/json.md). Each is made in one place, so that the same
+/// quantity has the same key in every command. Units are in the keys.
 
 /// The number of the layout: "schema" of every JSON that the program writes. It changes when a key goes or gets another
 /// meaning; a new key leaves it. Version 0.1 of the program wrote layout 1.
@@ -33,7 +33,7 @@ nlohmann::ordered_json finite_or_null(const std::optional<double>& value);
 /// "rows", "columns", "pixel_mm", "origin_mm".
 nlohmann::ordered_json grid_block(const Grid& grid);
 
-/// What is told of a map.
+/// What the JSON of a command says of a map.
 struct MapFigures {
   std::string file;  // as the user named it
   Grid grid;
@@ -50,7 +50,7 @@ nlohmann::ordered_json map_block(const MapFigures& map);
 nlohmann::ordered_json tif_block(const RemovalFunction& tif, const std::string& kind,
                                  const std::vector<std::string>& history, std::optional<double> volume_factor = {});
 
-/// A surface that something leaves: "removed", "rms_nm", "pv_nm".
+/// A surface that is left: "removed", "rms_nm", "pv_nm".
 nlohmann::ordered_json residual_block(const std::string& removed, const MapStatistics& left);
 
 nlohmann::ordered_json path_block(const std::string& kind, const PathMetrics& metrics,
@@ -77,7 +77,7 @@ struct ProgramFigures {
 ProgramFigures program_figures(const Program& program, const MapStatistics& residual);
 nlohmann::ordered_json program_block(const ProgramFigures& program);
 
-/// A solve with given weights and what came of it: a trial of a search, a point of a sweep.
+/// A solve with given weights and its result: a trial of a search, or a point of a sweep.
 nlohmann::ordered_json trial_block(const Weights& weights, const TradeOff& trade_off, double objective,
                                    long operator_applications);
 

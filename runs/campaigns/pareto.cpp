@@ -24,7 +24,7 @@ std::vector<double> logarithmic(double from, double to, std::size_t count) {
   return values;
 }
 
-/// The weights that the text means, in any order; none if it means nothing.
+/// The weights that the text names, in any order; none if it is not a list of weights.
 std::vector<double> weights_in(const std::string& text) {
   const std::vector<std::string_view> range = split(text, ':');
   if (range.size() == 3) {
@@ -42,7 +42,7 @@ std::vector<double> weights_in(const std::string& text) {
   return values;
 }
 
-ParetoRanges completed(ParetoRanges ranges, double highest_price) {
+ParetoRanges complete_ranges(ParetoRanges ranges, double highest_price) {
   if (ranges.smoothnesses.empty()) ranges.smoothnesses = logarithmic(1e-3, 10.0, 5);
   if (ranges.time_prices.empty()) {
     ranges.time_prices = logarithmic(1e-5 * highest_price, 1e-2 * highest_price, 4);
@@ -106,7 +106,7 @@ ParetoSweep sweep_weights(const JobOptions& options, const ParetoRanges& ranges,
   if (auto file = path_input(options)) sweep.job.inputs.push_back(std::move(*file));
   progress.step("setting up the removal operator");
   PlanProblem problem(*sweep.job.part, sweep.laid, dwell_options(options), progress);
-  sweep.ranges = completed(ranges, problem.highest_price());
+  sweep.ranges = complete_ranges(ranges, problem.highest_price());
   const std::size_t rows = sweep.ranges.smoothnesses.size(), columns = sweep.ranges.time_prices.size();
   sweep.points.resize(rows * columns);
   Vector dwell;  // of the neighbour before

@@ -10,7 +10,7 @@
 namespace dwell {
 
 /// Weights of a sweep as a user writes them: "FROM:TO:COUNT", equally spaced in the logarithm, or a list "0,0.01,0.1".
-/// At least one, at most 1000, >= 0 and finite; FROM, TO > 0 and COUNT a whole number >= 2. Given back ascending,
+/// At least one, at most 1000, >= 0 and finite; FROM, TO > 0 and COUNT a whole number >= 2. Returns them ascending,
 /// without repeats. Throws InputError naming `option`, the text and what is accepted.
 std::vector<double> parse_weight_list(const std::string& text, const std::string& option);
 
@@ -42,8 +42,8 @@ struct ParetoSweep {
 /// three are on the front together. Cost O(n^2) at worst; O(n |front|).
 void mark_front(std::vector<ParetoPoint>& points);
 
-/// Solves the dwell problem of a job at every pair of weights, neighbours after each other, from the largest weights
-/// down. Throws as plan_job. options.max_solve_s bounds each solve.
+/// Solves the dwell problem of a job at every pair of weights, from the largest weights down, each next to the one
+/// before. Throws as plan_job. options.max_solve_s bounds each solve.
 ParetoSweep sweep_weights(const JobOptions& options, const ParetoRanges& ranges, const Progress& progress);
 
 }  // namespace dwell

@@ -33,7 +33,7 @@ PsdCurve radial_spectrum(const HeightMap& map, int threads) {
   return radial_psd(areal_psd(map, options));
 }
 
-/// On a square where the part is widest; a corner may lie beyond the disc by what the path overruns.
+/// The ripple on a square where the part is widest; a corner of it may lie beyond the disc by the overrun of the path.
 void find_ripple(const Part& part, const LaidPath& laid, ComparedPath& path, const Progress& progress) {
   const WidestPlace place = widest_place(part.figure, progress);
   PathRippleOptions options;
@@ -52,7 +52,7 @@ std::optional<RippleSpectrum> waves_of(const HeightMap& residual, int threads) {
   try {
     return ripple_spectrum(residual, {}, threads);
   } catch (const InputError&) {
-    return std::nullopt;  // the map shows nothing of the band
+    return std::nullopt;  // the map can show no part of the band
   }
 }
 

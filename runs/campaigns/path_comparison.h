@@ -15,7 +15,7 @@
 
 namespace dwell {
 
-/// What came of one path of a comparison.
+/// The result of one path of a comparison.
 struct ComparedPath {
   ListedPath listed;
   std::string failure;  // why there is no plan; empty if there is one, and only then is the rest filled
@@ -29,8 +29,8 @@ struct ComparedPath {
   double residual_rms = 0.0;                      // of the program as read back, simulated [nm]
   double residual_pv = 0.0;                       // [nm]
   std::optional<RippleSpectrum> residual_ripple;  // of the residual; none where the map shows nothing of the band
-  /// At constant feed on a fine patch where the part is widest, whatever the map's pixels: its map is left empty. None
-  /// where there is no room for the patch; `no_ripple` says why.
+  /// The ripple at constant feed on a fine patch where the part is widest, whatever the map's pixels; its map is left
+  /// empty. None where there is no room for the patch; `no_ripple` says why.
   std::optional<PathRipple> ripple;
   std::string no_ripple;
   PsdCurve spectrum;                        // of the residual, radial
@@ -48,13 +48,13 @@ struct ComparedPath {
   }
   /// A plan that was cut short is not what the path can do.
   bool whole() const { return failure.empty() && solver.converged(); }
-  bool on_front =
-      false;  // whole, and no other whole one is as good in residual, mid_rms and total_time, and better in one
+  /// Whether it is whole, and no other whole path is as good in residual, mid_rms and total_time and better in one.
+  bool on_front = false;
 };
 
 struct PathComparison {
   Job job;             // its own path is not used
-  double pitch = 0.0;  // of the paths that said none [mm]
+  double pitch = 0.0;  // of the paths that gave none [mm]
   bool pitch_given = false;
   std::vector<ComparedPath> paths;  // in the order of the list
   PsdCurve before;                  // spectrum of the map, form terms removed
@@ -66,13 +66,13 @@ struct PathComparison {
 double default_pitch(const RemovalFunction& tif);
 
 /// Marks the paths that no other dominates in (residual_rms, mid_rms, total_time), all to be small; where the map does
-/// not resolve the mid band of some path it does not of any, and two remain. Paths that failed or whose
-/// solve did not converge are neither on the front nor do they keep others off it. Cost O(n^2).
+/// not resolve the mid band, it does so for no path, and the other two decide. Paths that failed or whose solve did not
+/// converge are neither on the front nor do they keep others off it. Cost O(n^2).
 void mark_front(std::vector<ComparedPath>& paths);
 
-/// Plans every path of `list` for the job, each wholly (path, dwell, program, simulation of the program as read back)
-/// and into a folder of its own name within `folder`. `pitch` [mm] is for the paths that say none; default_pitch if not
-/// given. A path that cannot be planned is reported as such and the others go on. Throws InputError if none can,
+/// Plans every path of `list` for the job, each completely (path, dwell, program, simulation of the program as read
+/// back) and into a folder of its own name within `folder`. `pitch` [mm] is for the paths that give none; default_pitch
+/// if not given. A path that cannot be planned is reported as such and the others go on. Throws InputError if none can,
 /// Interrupted, or as load_job does for the inputs. Cost: that of the plans.
 PathComparison compare_paths(const JobOptions& options, const std::string& list, std::optional<double> pitch,
                              const OutputFolder& folder, const Progress& progress);

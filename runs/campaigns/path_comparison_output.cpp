@@ -31,7 +31,7 @@ Json waves_json(const RippleSpectrum& spectrum) {
           {"peaks", peaks}};
 }
 
-/// Relative to the mean removal: the depth of the patch is of no meaning.
+/// Relative to the mean removal, because the depth of the patch is arbitrary.
 Json ripple_json(const PathRipple& ripple) {
   const double depth = PathRippleOptions().depth;
   Json peaks = Json::array();
@@ -53,7 +53,7 @@ Json spacing_json(const PathSpacing& s) {
   return {{"least", s.min}, {"mean", s.mean}, {"deviation", s.deviation}, {"largest", s.max}, {"points", s.points}};
 }
 
-/// What of a path is told beyond its block "path": how it goes over the part.
+/// The figures of a path that its block "path" does not hold: how it covers the part.
 Json metrics_json(const ComparedPath& p) {
   const PathMetrics& m = p.metrics;
   return {{"lifted_length_mm", m.lifted_length},
@@ -129,7 +129,7 @@ std::string spectra_picture(const PathComparison& comparison, FigureFormat forma
 }
 
 /// A field of a CSV file.
-std::string quoted(std::string text) {
+std::string quote_field(std::string text) {
   if (text.find_first_of(",\"\n") == std::string::npos) return text;
   for (std::size_t at = text.find('"'); at != std::string::npos; at = text.find('"', at + 2)) text.insert(at, 1, '"');
   return '"' + text + '"';
@@ -152,7 +152,7 @@ struct Cell {
 
 std::string number(double value) { return fmt::format("{}", value); }
 
-/// What of a path stands in paths.csv between its name and why it failed, for a path that did not.
+/// The columns of paths.csv between the name and the failure, of a path that did not fail.
 std::vector<Cell> cells_of(const ComparedPath& p) {
   const PathMetrics& m = p.metrics;
   const RippleSpectrum* waves = p.residual_ripple ? &*p.residual_ripple : nullptr;
@@ -198,9 +198,9 @@ std::string path_table_text(const PathComparison& comparison) {
   for (const Cell& cell : cells_of({})) text += fmt::format("{},", cell.column);
   text += "failure\n";
   for (const ComparedPath& p : comparison.paths) {
-    text += fmt::format("{},{},", p.listed.name, quoted(p.listed.text));
+    text += fmt::format("{},{},", p.listed.name, quote_field(p.listed.text));
     for (const Cell& cell : cells_of(p)) text += (p.failure.empty() ? cell.text : "") + ",";
-    text += quoted(p.failure) + "\n";
+    text += quote_field(p.failure) + "\n";
   }
   return text;
 }

@@ -19,7 +19,7 @@ std::string path_comparison_json(const PathComparison& comparison);
 std::string path_comparison_text(const PathComparison& comparison);
 
 /// Writes paths.csv, paths.json, paths.png (residual and mid band against time) and psd.png (radial spectra before and
-/// after) into the folder, which is not committed. Gives back the text of paths.json.
+/// after) into the folder, which is not committed. Returns the text of paths.json.
 std::string write_path_comparison(const PathComparison& comparison, const OutputFolder& folder);
 
 }  // namespace dwell

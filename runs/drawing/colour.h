@@ -18,7 +18,7 @@ inline std::uint32_t packed(Colour c) {
   return static_cast<std::uint32_t>(c.red) << 16 | static_cast<std::uint32_t>(c.green) << 8 | c.blue;
 }
 
-/// What figures are written with, and on.
+/// The colours of text, background and grid lines of all figures.
 inline constexpr Colour kInk{32, 32, 32};
 inline constexpr Colour kPaper{255, 255, 255};
 inline constexpr Colour kGridLines{222, 222, 222};

@@ -74,8 +74,8 @@ ColourLimits extent_of(const std::vector<double>& values) {
   return limits;
 }
 
-/// The finite values, or of many some million at equal distances: quantiles need no more. An odd distance does not
-/// meet the same column of a map again and again.
+/// The finite values; if there are many, some million of them at equal distances, which is enough for quantiles. The
+/// distance is odd, so as not to meet the same column of a map again and again.
 std::vector<double> some_finite(const std::vector<double>& values) {
   constexpr std::size_t kEnough = 1000000;
   const std::size_t step = values.size() <= kEnough ? 1 : (values.size() / kEnough) | 1U;
@@ -126,7 +126,8 @@ void set_sequential(ColourLimits& limits, std::vector<double>& finite, std::opti
   if (lower && upper) {
     throw InputError(fmt::format("colour limits = {}, {}; lower < upper required", *lower, *upper));
   }
-  // One value everywhere, or a single limit on the far side of all values: a range of some width beyond it.
+  // For one value everywhere, or a single limit on the far side of all values, the range extends by some width beyond
+  // it.
   const double width = limits.any && limits.largest != 0.0 ? 0.1 * std::abs(limits.largest) : 1.0;
   if (upper) {
     limits.lower = *upper - std::max(width, 0.1 * std::abs(*upper));

@@ -44,7 +44,7 @@ struct ColourLimits {
 ColourLimits colour_limits(const std::vector<double>& values, ColourMap map, std::optional<double> lower = {},
                            std::optional<double> upper = {});
 
-/// The limits that were chosen for other values, for these: what they cut off is told of these values.
+/// The limits that were chosen for other values, applied to these: what is cut off is that of these values.
 ColourLimits same_limits(const ColourLimits& chosen, const std::vector<double>& values);
 
 }  // namespace dwell

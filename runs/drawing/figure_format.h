@@ -6,7 +6,7 @@
 
 namespace dwell {
 
-/// What file a figure becomes.
+/// The kind of file that a figure is written to.
 ///   Png  pixels, two for each unit of length of the figure, for the screen and for slides
 ///   Svg  lines as vectors, text as outlines with the words laid over them, for web pages
 ///   Pdf  lines as vectors and real text, for papers

@@ -78,8 +78,8 @@ std::uint32_t pixels_per_metre(double pitch_mm) {
   return density >= 1.0 && density <= PNG_UINT_31_MAX ? static_cast<std::uint32_t>(density) : 0;
 }
 
-/// All that goes into the file. C code jumps out of write_png on an error, so that nothing in there may need a
-/// destructor: this owns it.
+/// All that goes into the file. On an error C code jumps out of write_png, so nothing in that function may need a
+/// destructor: this class owns it all.
 struct Image {
   png_uint_32 width = 0, height = 0;
   png_uint_32 density_x = 0, density_y = 0;

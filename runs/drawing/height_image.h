@@ -14,8 +14,8 @@ namespace dwell {
 /// The levels span the finite heights, so each is rounded by at most nm_per_level / 2. Text chunks (tEXt) say the rest:
 /// offset_nm, nm_per_level, no_data_level, pitch_mm, origin_mm (centre of the map's first pixel, which is the lower
 /// left one of the image), unit, and (iTXt) made, a chunk a step of the history. pHYs has the pitches in whole pixels
-/// per metre, where these are numbers that fit. The same map gives the same bytes. Throws InputError for a map without
-/// a finite height, with an infinite one, a span beyond a double, or more than 2^31 - 1 rows or columns. Cost
+/// per metre, where the format can hold these numbers. The same map gives the same bytes. Throws InputError for a map
+/// without a finite height, with an infinite one, a span beyond a double, or more than 2^31 - 1 rows or columns. Cost
 /// O(pixels).
 std::string height_image_png(const HeightMap& map);
 

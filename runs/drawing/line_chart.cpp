@@ -20,7 +20,7 @@ const TextStyle kText{13.0};
 const TextStyle kStrong{13.0, true};
 const TextStyle kHeading{15.0, true};
 
-TextStyle anchored(TextStyle style, TextStyle::Anchor anchor) {
+TextStyle with_anchor(TextStyle style, TextStyle::Anchor anchor) {
   style.anchor = anchor;
   return style;
 }
@@ -85,12 +85,12 @@ void shade_bands(Sheet& sheet, const Axes& axes, const std::vector<ChartBand>& b
   }
 }
 
-/// In two lines where the words do not fit in one; not at all where they do not fit in two.
+/// Draws the label in two lines if it does not fit in one, and not at all if it does not fit in two.
 void label_bands(Sheet& sheet, const Axes& axes, const std::vector<ChartBand>& bands) {
-  const TextStyle style = anchored({11.0}, TextStyle::Anchor::Middle);
+  const TextStyle style = with_anchor({11.0}, TextStyle::Anchor::Middle);
   for (const ChartBand& band : bands) {
     const double from = axes.column(band.from), room = axes.column(band.to) - from - 6.0;
-    const std::vector<std::string> lines = broken_into_lines(band.label, style, std::max(room, 1.0));
+    const std::vector<std::string> lines = break_into_lines(band.label, style, std::max(room, 1.0));
     if (lines.size() > 3 || std::any_of(lines.begin(), lines.end(), [&](const std::string& line) {
           return Sheet::text_width(line, style) > room || line.size() < 2;
         })) {
@@ -105,8 +105,8 @@ void label_bands(Sheet& sheet, const Axes& axes, const std::vector<ChartBand>& b
 
 void draw_frame(Sheet& sheet, const Axes& axes, const ChartPanel& panel) {
   const SheetBox& box = axes.box;
-  const TextStyle middle = anchored(kText, TextStyle::Anchor::Middle),
-                  right = anchored(kText, TextStyle::Anchor::Right);
+  const TextStyle middle = with_anchor(kText, TextStyle::Anchor::Middle),
+                  right = with_anchor(kText, TextStyle::Anchor::Right);
   for (std::size_t i = 0; i < axes.x_ticks.values.size(); ++i) {
     const double at = axes.column(axes.x_ticks.values[i]);
     sheet.line({at, box.top}, {at, box.bottom()}, {kGridLines, 1.0});
@@ -211,7 +211,7 @@ std::vector<KeyEntry> entries_of(const std::vector<ChartPanel>& panels, const st
 std::string draw_line_charts(const std::string& title, const std::string& mark, const std::vector<ChartPanel>& panels,
                              FigureFormat format) {
   const double inner = kWidestSheet - 2.0 * kRim;
-  const std::vector<std::string> heading = broken_into_lines(title, kHeading, inner);
+  const std::vector<std::string> heading = break_into_lines(title, kHeading, inner);
   double top = kRim + 1.35 * kHeading.size * static_cast<double>(heading.size());
   const std::size_t columns = panels.size() > 1 ? 2 : 1;
   const double cell = inner / static_cast<double>(columns);

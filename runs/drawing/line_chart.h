@@ -32,7 +32,7 @@ struct ChartBand {
   Colour colour;
 };
 
-/// What an axis is to show instead of what its lines need.
+/// The range of an axis, in place of the one that its lines need.
 struct ChartLimits {
   double lower = 0.0, upper = 1.0;
 };
@@ -46,10 +46,10 @@ struct ChartPanel {
   std::optional<ChartLimits> y_limits{};
 };
 
-/// Curves as a figure, a panel each, two side by side. The key below holds the different labels of all lines, where not
-/// empty (of many, a dozen, first and last among them); `mark` says what a marked point is (empty: not in the key). On
-/// a logarithmic axis, values that are not positive lie on the edge of the panel; on a linear one, a line is cut where
-/// a value is not finite.
+/// Draws panels of curves as a figure, two panels side by side. The key below holds every label of a line once, except
+/// empty ones; of more than a dozen labels it holds a dozen, the first and the last among them. `mark` says what a
+/// marked point is (empty: not in the key). On a logarithmic axis, values that are not positive lie on the edge of the
+/// panel; on a linear one, a line is cut where a value is not finite.
 std::string draw_line_charts(const std::string& title, const std::string& mark, const std::vector<ChartPanel>& panels,
                              FigureFormat format = FigureFormat::Png);
 

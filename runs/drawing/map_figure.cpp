@@ -50,7 +50,7 @@ PanelLayout lay_out(const MapPanel& panel) {
   // The last label of the x axis may stand out of the field.
   const double last_label = l.x.labels.empty() ? 0.0 : 0.5 * Sheet::text_width(l.x.labels.back(), kLabel);
   l.width = l.field.left + std::max(right, l.field.width + last_label);
-  l.title = broken_into_lines(panel.title, kPanelTitle, l.width);
+  l.title = break_into_lines(panel.title, kPanelTitle, l.width);
   const double above = title_height(l.title, kPanelTitle) + (l.bar_below || !panel.limits.any ? 0.0 : kLabel.size);
   // The name of the y axis may stand out of a thin field.
   const double name_above = 0.5 * (Sheet::text_width("y [mm]", kLabel) - l.field.height);
@@ -176,7 +176,7 @@ MapFigure draw_maps(const std::string& title, const std::vector<MapPanel>& panel
   const std::vector<Row> rows = rows_of(layouts);
   double width = 320.0, height = 0.0;
   for (const Row& row : rows) width = std::max(width, row.width), height += row.height + kMargin;
-  const std::vector<std::string> lines = broken_into_lines(title, kTitle, width);
+  const std::vector<std::string> lines = break_into_lines(title, kTitle, width);
   double top = kMargin + (lines.empty() ? 0.0 : title_height(lines, kTitle) + kGap);
   Sheet sheet(format, std::ceil(width + 2.0 * kMargin), std::ceil(top + height));
   draw_title(sheet, lines, kMargin, kMargin, kTitle);

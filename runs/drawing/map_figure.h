@@ -17,7 +17,7 @@ struct MapPanel {
   ColourLimits limits;
   std::string title;  // above the field; empty: none
   std::string unit;   // of the values
-  /// Draws on the field, whose place on the sheet it is told; what lies outside of that does not show.
+  /// Draws on top of the field. It gets the field's place on the sheet; nothing shows outside of that.
   std::function<void(Sheet&, const SheetBox&)> over{};
 };
 
@@ -32,7 +32,7 @@ struct MapFigure {
 /// says "no data" and has no bar.
 MapFigure draw_maps(const std::string& title, const std::vector<MapPanel>& panels, FigureFormat format);
 
-/// How large the fields of a figure of so many panels may be.
+/// How large the fields of a figure with so many panels may be.
 FieldEdges field_edges(std::size_t panels);
 
 }  // namespace dwell

@@ -14,7 +14,7 @@ namespace {
 constexpr Colour kTrack{24, 24, 24}, kLifted{220, 30, 30}, kStart{20, 150, 60}, kEnd{220, 30, 30};
 constexpr double kTracksInDetail = 40.0;
 constexpr double kLineWidth = 1.0;     // [units]
-constexpr std::size_t kChunk = 65536;  // points between two looks at the progress handle
+constexpr std::size_t kChunk = 65536;  // points between two questions whether to stop
 
 struct Window {
   double left, right, bottom, top;  // [mm]
@@ -76,7 +76,8 @@ PlotField field_in(const HeightMap& map, const Window& w, const Progress& progre
   return field;
 }
 
-/// What of a path crosses a window, with some points on either side, so that strokes are those of the whole path.
+/// The parts of a path that cross a window, with some points on either side, so that their strokes are those of the
+/// whole path.
 struct VisiblePath {
   ToolPath path;                // cut where points were left out
   std::vector<char> by_lifted;  // whether the move that arrives at a point is a lifted one of the whole path
@@ -112,12 +113,12 @@ class Pen {
     finish();
     line_ = {on_sheet(p)};
   }
-  /// Ends closer than a quarter of a pixel to the last one are passed over: nobody sees them.
+  /// Ends closer than a quarter of a pixel to the last one are skipped: nobody would see them.
   void line_to(Point p) {
     constexpr double kUnseen = 0.25 / kPixelsPerUnit;
     const Point q = on_sheet(p);
     if (distance(q, line_.back()) >= kUnseen) line_.push_back(q);
-    // Long lines are drawn in parts: joined in one, each crossing would be searched for.
+    // Long lines are drawn in parts, because Cairo would search a single line for all of its crossings.
     if (line_.size() < 512) return;
     finish();
     line_ = {q};

@@ -9,15 +9,15 @@
 
 namespace dwell {
 
-/// A figure of a path over the map that it is planned for [nm]: the map's colours, the path drawn on it as the tool
-/// runs, through the ends of its strokes, lifted moves in red, its first point a green square, its last one a red one.
-/// The figure takes in the map and the path. A path whose tracks would lie closer than kClearTrack pixels hides the
-/// map: its points are then coloured by their place in the order [%] instead. Throws InputError if the path is not
-/// valid, Interrupted. Cost O(pixels + points).
+/// A figure of a path over the map that it is planned for [nm]. The map is in colours; the path is drawn on it as the
+/// tool runs, through the ends of its strokes, with lifted moves in red, a green square at its first point and a red
+/// one at its last. The figure is as large as map and path together. A path whose tracks would lie closer than
+/// kClearTrack pixels hides the map: its points are then coloured by their place in the order [%] instead. Throws
+/// InputError if the path is not valid, Interrupted. Cost O(pixels + points).
 std::string path_picture(const HeightMap& map, const ToolPath& path, const std::string& title,
                          FigureFormat format = FigureFormat::Png, const Progress& progress = {});
 
-/// The same of a square in the middle, as wide as some forty tracks, or as both map and path.
+/// The same for a square in the middle, about forty tracks wide, but no larger than map and path.
 std::string path_detail_picture(const HeightMap& map, const ToolPath& path, const std::string& title,
                                 FigureFormat format = FigureFormat::Png, const Progress& progress = {});
 

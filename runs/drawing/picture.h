@@ -20,21 +20,21 @@ struct PictureOptions {
 };
 
 /// A figure of a map: +x right, +y up, true to the pitches, axes in mm, colour bar. NaN is light grey; a map without
-/// any finite pixel says "no data". Throws InputError for colour limits that are none, Interrupted. Cost O(pixels);
-/// about 0.3 s for 4096 x 4096 of them.
+/// any finite pixel says "no data". Throws InputError for colour limits that are out of order or not finite,
+/// Interrupted. Cost O(pixels); about 0.3 s for 4096 x 4096 of them.
 std::string map_picture(const HeightMap& map, const PictureOptions& options, FigureFormat format = FigureFormat::Png,
                         const Progress& progress = {});
 
-/// A later map of the same surface beside an earlier one: its colours over the range of the earlier, so that the two
-/// figures can be compared, and once more over its own, since a good correction leaves a map almost white on the range
-/// of before. Diverging colours; FigureRange::Own draws the second alone. As map_picture in all else.
+/// A figure of a later map of the same surface: once in colours over the range of an earlier map, so that the two
+/// figures can be compared, and once over its own range, because after a good correction the map is almost white on the
+/// earlier range. Diverging colours; FigureRange::Own draws the second alone. As map_picture in all else.
 std::string after_picture(const HeightMap& before, const HeightMap& after, FigureRange range, const std::string& title,
                           FigureFormat format = FigureFormat::Png, const Progress& progress = {});
 
 /// A figure of the dwell times [s] of a path, each point a square at its place (field_of_dwell in
 /// runs/drawing/plot_field.h); lifted moves are not drawn. The unit is s unless options say otherwise. Throws
-/// InputError if the path is invalid, dwell has another size, or for colour limits that are none; Interrupted. Cost
-/// O(points); about 0.5 s for 10^6.
+/// InputError if the path is invalid, dwell has another size, or for colour limits that are out of order or not finite;
+/// Interrupted. Cost O(points); about 0.5 s for 10^6.
 std::string dwell_picture(const ToolPath& path, const std::vector<double>& dwell, const PictureOptions& options,
                           FigureFormat format = FigureFormat::Png, const Progress& progress = {});
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/numerics/median.h"
+
 namespace dwell {
 namespace {
 
@@ -32,7 +34,7 @@ std::vector<Span> share(Index count, int size) {
   return spans;
 }
 
-// What of the blocks of one row of the figure is needed.
+// What is kept of the blocks of one row of the figure.
 struct Block {
   double sum = 0.0;
   double least = std::numeric_limits<double>::infinity();
@@ -63,14 +65,7 @@ std::vector<Block> blocks_of(const HeightMap& map, Span rows, const std::vector<
   return blocks;
 }
 
-double median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-// Shows the farthest height of a block instead of its mean, where that stands out.
+// Shows the height of a block that is farthest from its mean instead of the mean, where it stands out.
 void keep_peaks(PlotField& field, const std::vector<double>& farthest) {
   std::vector<double> distances;
   double lower = std::numeric_limits<double>::infinity(), upper = -lower;
@@ -81,7 +76,8 @@ void keep_peaks(PlotField& field, const std::vector<double>& farthest) {
     upper = std::max(upper, mean);
     distances.push_back(std::abs(farthest[i] - mean));
   }
-  const double least = std::max(kPeakOverTypical * median(std::move(distances)), kPeakOverSpan * (upper - lower));
+  const double typical = distances.empty() ? 0.0 : upper_median(std::move(distances));
+  const double least = std::max(kPeakOverTypical * typical, kPeakOverSpan * (upper - lower));
   for (std::size_t i = 0; i < farthest.size(); ++i) {
     if (std::abs(farthest[i] - field.values[i]) > least) field.values[i] = farthest[i];
   }

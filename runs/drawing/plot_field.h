@@ -30,17 +30,18 @@ struct FieldEdges {
 inline constexpr double kLongAspect = 2.0;
 
 /// A map at the resolution of the figure, true to its pitches. Small maps are enlarged by an integer (the finer pitch,
-/// if they differ). Of large ones, each pixel of the figure shows the mean of a block, ignoring NaN; or the height of
-/// the block that is farthest from its mean, where that stands out (by more than kPeakOverTypical times as much as in
-/// most blocks, and kPeakOverSpan of the span of the means): dust must not vanish in a mean. An edge that would come
-/// out thinner than 8 pixels is stretched to that. Throws Interrupted. Cost O(map + figure).
+/// if they differ). Of large ones, each pixel of the figure shows the mean of a block without its NaN. Where one height
+/// of the block stands out (it is farther from the mean than kPeakOverTypical times what is usual in other blocks, and
+/// than kPeakOverSpan of the span of the means), the pixel shows that height instead, because dust must not vanish in a
+/// mean. An edge that would come out thinner than 8 pixels is stretched to that. Throws Interrupted. Cost O(map +
+/// figure).
 PlotField field_of_map(const HeightMap& map, const FieldEdges& edges = {}, const Progress& progress = {});
 
 inline constexpr double kPeakOverTypical = 5.0;
 inline constexpr double kPeakOverSpan = 0.02;
 
 /// Dwell at the places of a path: each pixel of the picture shows the nearest dwell point among those whose square
-/// covers it. The side of a point's square is 1.75 times the spacing to its neighbours, by the third smallest of the
+/// covers it. The side of a point's square is 1.75 times its spacing. The spacing is the third smallest of the
 /// distances to the nearest point in each quadrant: on a raster that is the larger of step and line pitch, inside, on
 /// the edge and in a corner, so that the squares leave no holes. Points that share a pixel show their mean. Points
 /// whose dwell is not finite are not shown. Throws InputError if the path is invalid or dwell has another size,

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/base/errors.h"
+#include "core/numerics/median.h"
 #include "runs/drawing/plot_field.h"
 
 namespace dwell {
@@ -159,12 +160,7 @@ double set_spacings(std::vector<Seed>& seeds, int cols, int rows) {
     s.spacing = buckets.spacing(s);
     if (std::isfinite(s.spacing)) known.push_back(s.spacing);
   }
-  double median = kWidestSquare;
-  if (!known.empty()) {
-    const auto middle = known.begin() + static_cast<std::ptrdiff_t>(known.size() / 2);
-    std::nth_element(known.begin(), middle, known.end());
-    median = std::min(*middle, kWidestSquare);
-  }
+  const double median = known.empty() ? kWidestSquare : std::min(upper_median(std::move(known)), kWidestSquare);
   for (Seed& s : seeds) {
     s.spacing = std::isfinite(s.spacing) ? std::min({s.spacing, 1.5 * median, kWidestSquare}) : median;
   }

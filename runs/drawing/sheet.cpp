@@ -203,7 +203,7 @@ std::string Sheet::bytes() {
   }
   cairo_show_page(p.pen);
   cairo_surface_finish(p.surface);
-  return p.format == FigureFormat::Svg ? finished_svg(p.file, p.texts) : std::move(p.file);
+  return p.format == FigureFormat::Svg ? finish_svg(p.file, p.texts) : std::move(p.file);
 }
 
 double Sheet::text_width(std::string_view text, const TextStyle& style) {
@@ -216,7 +216,7 @@ double Sheet::text_width(std::string_view text, const TextStyle& style) {
   return width;
 }
 
-std::vector<std::string> broken_into_lines(const std::string& text, const TextStyle& style, double room) {
+std::vector<std::string> break_into_lines(const std::string& text, const TextStyle& style, double room) {
   std::vector<std::string> lines;
   std::string line;
   const auto fits = [&](const std::string& candidate) { return Sheet::text_width(candidate, style) <= room; };

@@ -47,9 +47,9 @@ struct Raster {
   std::vector<std::uint32_t> pixels;
 };
 
-/// The paper that a figure is drawn on, by the library Cairo; no other concept of the project knows that library. A
-/// unit of length is a point (1/72 inch), x runs to the right and y down from the top left corner. Text is UTF-8 in
-/// DejaVu Sans. The same calls give the same bytes: neither times nor names of machines are written.
+/// The sheet on which a figure is drawn, by the library Cairo, which no other file of the project uses. A unit of
+/// length is a point (1/72 inch), x runs to the right and y down from the top left corner. Text is UTF-8 in DejaVu
+/// Sans. The same calls give the same bytes: neither times nor names of machines are written.
 class Sheet {
  public:
   /// Throws std::invalid_argument unless both sizes are at least 1.
@@ -66,12 +66,12 @@ class Sheet {
   void polyline(const std::vector<Point>& points, const LineStyle& style);
   void polygon(const std::vector<Point>& corners, Colour colour);
   void disc(Point centre, double radius, Colour colour);
-  /// The point is where the baseline begins, has its middle, or ends.
+  /// The point is where the baseline begins, where its middle is, or where it ends, as the anchor says.
   void text(Point at, std::string_view text, const TextStyle& style);
   /// The raster fills the box; in PNG a box of half as many units as there are pixels shows each pixel as it is.
   void image(const SheetBox& box, const Raster& raster);
 
-  /// Until unclip, what is drawn outside of the box does not show.
+  /// Until unclip() is called, nothing shows outside of the box.
   void clip(const SheetBox& box);
   void unclip();
 
@@ -95,7 +95,7 @@ inline constexpr double kWidestSheet = 800.0;
 /// How far below the middle of a line of text its baseline lies [sizes of the font].
 inline constexpr double kMiddleToBaseline = 0.36;
 
-/// A text broken at spaces into lines no longer than `room` [units]; in words where there is no space.
-std::vector<std::string> broken_into_lines(const std::string& text, const TextStyle& style, double room);
+/// Breaks a text at spaces into lines no longer than `room` [units]; a longer word is broken too.
+std::vector<std::string> break_into_lines(const std::string& text, const TextStyle& style, double room);
 
 }  // namespace dwell

@@ -13,8 +13,8 @@
 namespace dwell {
 namespace {
 
-/// All that goes into a PNG file. C code jumps out of write_rgb on an error, so that nothing in there may need a
-/// destructor: this owns it.
+/// All that goes into a PNG file. On an error C code jumps out of write_rgb, so nothing in that function may need a
+/// destructor: this class owns it all.
 struct RgbFile {
   const PixelRows& pixels;
   std::vector<png_byte> row;
@@ -68,7 +68,7 @@ bool write_rgb(RgbFile& image) {
   return true;
 }
 
-std::string escaped(const std::string& text) {
+std::string escape_xml(const std::string& text) {
   std::string out;
   for (const char c : text) {
     if (c == '&')
@@ -89,14 +89,14 @@ std::string overlay(const std::vector<WrittenText>& texts) {
     out += fmt::format("<text x=\"{:.2f}\" y=\"{:.2f}\" font-size=\"{:g}\" textLength=\"{:.2f}\"{}{}>{}</text>\n",
                        t.start.x, t.start.y, t.size, t.width, t.bold ? " font-weight=\"bold\"" : "",
                        t.upwards ? fmt::format(" transform=\"rotate(-90 {:.2f} {:.2f})\"", t.start.x, t.start.y) : "",
-                       escaped(t.words));
+                       escape_xml(t.words));
   }
   return out + "</g>\n";
 }
 
 /// Numbers the names of elements from 1 on: "surface17" becomes "surface1" where they are defined (id="...") and where
 /// they are referred to ("#surface17"). Image data holds neither: base64 has no quotation marks and no "#".
-std::string renumbered(const std::string& svg) {
+std::string renumber_elements(const std::string& svg) {
   std::map<std::string, std::string> names;
   const auto new_name = [&](const std::string& old) {
     const auto found = names.find(old);
@@ -136,7 +136,7 @@ std::size_t utf8_length(std::string_view text) {
     if ((byte(i) & 0xC0U) != 0x80U) return 0;
   }
   if (length < 3) return length;
-  // Longer than needed, halves of pairs, beyond the last character.
+  // Encodings that are longer than needed, halves of surrogate pairs, and numbers beyond the last character.
   const unsigned second = byte(1);
   const bool wrong = (first == 0xE0 && second < 0xA0) || (first == 0xED && second >= 0xA0) ||
                      (first == 0xF0 && second < 0x90) || (first == 0xF4 && second >= 0x90);
@@ -151,8 +151,8 @@ std::string rgb_png(const PixelRows& pixels) {
   return std::move(image.file);
 }
 
-std::string finished_svg(const std::string& svg, const std::vector<WrittenText>& texts) {
-  std::string out = renumbered(svg);
+std::string finish_svg(const std::string& svg, const std::vector<WrittenText>& texts) {
+  std::string out = renumber_elements(svg);
   const std::size_t end = out.rfind("</svg>");
   if (end == std::string::npos) throw std::runtime_error("drawing a figure failed: the SVG has no end");
   out.insert(end, overlay(texts));

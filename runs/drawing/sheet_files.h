@@ -27,13 +27,15 @@ struct PixelRows {
   const unsigned char* bytes = nullptr;
 };
 
-/// The pixels as a PNG file, 8-bit RGB, made for speed rather than size; no time, no text. Throws std::runtime_error.
+/// Writes the pixels as a PNG file, 8-bit RGB, for speed rather than size, without time or text. Throws
+/// std::runtime_error.
 std::string rgb_png(const PixelRows& pixels);
 
-/// What Cairo wrote as SVG, with two changes. Cairo 1.16 draws text as outlines of its letters, which look the same
-/// everywhere but cannot be searched or copied: the words are laid over them, unseen. And it numbers its elements on
-/// through the life of the program: they are numbered from 1 here, so that the same figure has the same bytes.
-std::string finished_svg(const std::string& svg, const std::vector<WrittenText>& texts);
+/// Makes two changes to what Cairo wrote as SVG. Cairo 1.16 draws text as outlines of its letters, which look the same
+/// everywhere but cannot be searched or copied: so the words are laid over them, invisible. And Cairo counts its
+/// elements through the whole life of the program: here they are numbered from 1, so that the same figure has the same
+/// bytes.
+std::string finish_svg(const std::string& svg, const std::vector<WrittenText>& texts);
 
 /// The text without control characters, and with a question mark for each byte that is no UTF-8: Cairo draws nothing
 /// more after a text that it cannot read, and names of files may hold anything.

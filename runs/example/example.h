@@ -46,7 +46,7 @@ struct ExampleOptions {
 /// Throws Interrupted. Cost O(400 pixels).
 HeightMap example_mirror(const ExampleOptions& options = {}, const Progress& progress = {});
 
-/// A made-up spot as a measurement gives it. Rates [nm/s], lengths [mm].
+/// A made-up removal function, as measured from a spot. Rates [nm/s], lengths [mm].
 struct ExampleTifOptions {
   double peak = 8.0;          // > 0
   double fwhm = 6.0;          // > 0; diameter of the disc with the area where the rate is above half of the peak

@@ -17,7 +17,7 @@
 namespace dwell {
 namespace {
 
-HeightMap rounded(HeightMap map) {
+HeightMap round_heights(HeightMap map) {
   for (double& v : map.values) v = std::round(v * 1e4) / 1e4;
   return map;
 }
@@ -31,7 +31,7 @@ const ResultFiles& example_files() {
 
 Example write_example(const std::filesystem::path& folder, const ExampleOptions& mirror, const ExampleTifOptions& tif,
                       const Progress& progress) {
-  Example example{rounded(example_mirror(mirror, progress)), rounded(example_tif(tif))};
+  Example example{round_heights(example_mirror(mirror, progress)), round_heights(example_tif(tif))};
   progress.step("writing mirror.csv");
   write_map(folder / "mirror.csv", example.mirror);
   progress.check();

@@ -8,7 +8,7 @@
 
 namespace dwell {
 
-/// The files of an example, by which an earlier one is known.
+/// The files of an example, by which an earlier example is recognised.
 const ResultFiles& example_files();
 
 /// What was made.
@@ -23,7 +23,7 @@ struct Example {
 Example write_example(const std::filesystem::path& folder, const ExampleOptions& mirror, const ExampleTifOptions& tif,
                       const Progress& progress = {});
 
-/// As JSON text (docs/json.md), units in the keys. `seed` is that of the mirror.
+/// The example as JSON text (docs/json.md), units in the keys. `seed` is that of the mirror.
 std::string example_json(const Example& example, std::uint64_t seed);
 
 }  // namespace dwell

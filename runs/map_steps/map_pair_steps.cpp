@@ -44,7 +44,7 @@ RegistrationOptions registration_options(const HeightMap& moving, const MapStep&
   return options;
 }
 
-std::string shown(const MapRegistration& r, const RegistrationOptions& options) {
+std::string describe_registration(const MapRegistration& r, const RegistrationOptions& options) {
   return fmt::format(
       "looked {:.4g} mm and {:.4g} degrees each way; moved by {:.6g} +- {:.2g} mm in x and {:.6g} +- {:.2g} mm in y, "
       "turned by {:.6g} +- {:.2g} degrees, scaled by "
@@ -82,13 +82,13 @@ std::string subtract_map(HeightMap& map, const MapStep& step, MapStepContext& co
   HeightMap other = read_other(step.word("file"), step, context);
   std::string what;
   if (how == "resample") {
-    other = warped(other, {}, map.grid, context.threads);
+    other = warp_map(other, {}, map.grid, context.threads);
     what = "resampled; ";
   } else if (how == "register") {
     const RegistrationOptions options = registration_options(other, step);
     const MapRegistration found = register_maps(other, map, options, context.threads, context.progress);
-    other = warped(other, found.transform, map.grid, context.threads);
-    what = shown(found, options) + "; ";
+    other = warp_map(other, found.transform, map.grid, context.threads);
+    what = describe_registration(found, options) + "; ";
   } else if (const std::string why = grid_difference(map.grid, other.grid); !why.empty()) {
     step.refuse(why + ", or give 'resample' or 'register'");
   }
@@ -103,7 +103,7 @@ std::string average_maps(HeightMap& map, const MapStep& step, MapStepContext& co
   std::vector<HeightMap> maps{map};
   for (const std::string& file : files) {
     HeightMap other = read_other(file, step, context);
-    if (step.has("resample")) other = warped(other, {}, map.grid, context.threads);
+    if (step.has("resample")) other = warp_map(other, {}, map.grid, context.threads);
     if (const std::string why = grid_difference(map.grid, other.grid); !why.empty()) {
       step.refuse(fmt::format("{}: {}, or give 'resample'", file, why));
     }
@@ -117,8 +117,8 @@ std::string register_on_map(HeightMap& map, const MapStep& step, MapStepContext&
   const HeightMap other = read_other(step.word("to"), step, context);
   const RegistrationOptions options = registration_options(map, step);
   const MapRegistration found = register_maps(map, other, options, context.threads, context.progress);
-  map = warped(map, found.transform, other.grid, context.threads);
-  return shown(found, options);
+  map = warp_map(map, found.transform, other.grid, context.threads);
+  return describe_registration(found, options);
 }
 
 std::string move_by_fiducials(HeightMap& map, const MapStep& step, MapStepContext& context) {
@@ -130,7 +130,7 @@ std::string move_by_fiducials(HeightMap& map, const MapStep& step, MapStepContex
   for (std::size_t i = 0; i < from.size(); ++i) pairs.push_back({from[i], to[i]});
   const PointFit fit = fit_points(pairs, parse_point_fit_kind(step.word("fit")));
   const PlaneTransform& t = fit.transform;
-  map = warped(map, t, covering_grid(map.grid, t), context.threads);
+  map = warp_map(map, t, covering_grid(map.grid, t), context.threads);
   const double degrees = std::atan2(t.yx - t.xy, t.xx + t.yy) * 180.0 / std::numbers::pi;
   std::string text =
       fmt::format("turned by {:.6g} degrees, scaled by {:.8g}, the origin to ({:.6g}, {:.6g}) mm; left: ", degrees,

@@ -14,7 +14,7 @@ namespace {
 using Kind = MapStepArgument::Kind;
 
 /// "PITCH MM" and the like, for messages.
-std::string accepted(const MapStepRecord& record) {
+std::string describe_accepted(const MapStepRecord& record) {
   if (!record.area.empty()) return fmt::format("{}:{}", record.name, record.area);
   if (record.arguments.empty()) return fmt::format("{} without arguments", record.name);
   std::string text = record.name + ":";
@@ -65,7 +65,7 @@ void add_argument(MapStep& step, const std::string& text, std::string_view item)
   const std::string_view key = trim(item.substr(0, equals));
   const std::string value(trim(keyed ? item.substr(equals + 1) : item));
   const MapStepArgument* argument = keyed ? find(*step.record, key) : positional(step, value);
-  const std::string form = "; accepted: " + accepted(*step.record);
+  const std::string form = "; accepted: " + describe_accepted(*step.record);
   if (!argument) refuse_text(text, fmt::format("unknown argument '{}'{}", trim(item), form));
   if (value.empty()) refuse_text(text, fmt::format("{} has no value{}", argument->name, form));
   if (argument->kind != Kind::Files && step.has(argument->name)) {
@@ -105,7 +105,7 @@ std::optional<double> MapStep::optional_number(const std::string& name) const { 
 
 double MapStep::number(const std::string& name) const {
   const std::optional<double> value = optional_number(name);
-  if (!value) refuse(fmt::format("{} is missing; accepted: {}", name, accepted(*record)));
+  if (!value) refuse(fmt::format("{} is missing; accepted: {}", name, describe_accepted(*record)));
   return *value;
 }
 
@@ -140,7 +140,7 @@ MapStep parse_map_step(const std::string& text, const std::vector<MapStepRecord>
   const std::string_view rest = colon == std::string::npos ? "" : trim(view.substr(colon + 1));
   if (!step.record->area.empty()) {
     step.area = rest;
-    if (rest.empty()) refuse_text(text, "an area is missing; accepted: " + accepted(*step.record));
+    if (rest.empty()) refuse_text(text, "an area is missing; accepted: " + describe_accepted(*step.record));
     return step;
   }
   if (!rest.empty()) {
@@ -148,7 +148,7 @@ MapStep parse_map_step(const std::string& text, const std::vector<MapStepRecord>
   }
   for (const MapStepArgument& a : step.record->arguments) {
     if (a.required && !step.has(a.name)) {
-      refuse_text(text, fmt::format("{} is missing; accepted: {}", a.name, accepted(*step.record)));
+      refuse_text(text, fmt::format("{} is missing; accepted: {}", a.name, describe_accepted(*step.record)));
     }
   }
   return step;

@@ -48,20 +48,20 @@ std::string run_mask(HeightMap& map, const MapStep& step, bool keep) {
 std::string run_keep(HeightMap& map, const MapStep& step, MapStepContext&) { return run_mask(map, step, true); }
 std::string run_drop(HeightMap& map, const MapStep& step, MapStepContext&) { return run_mask(map, step, false); }
 
-std::string placed(const HeightMap& map) {
+std::string describe_place(const HeightMap& map) {
   return fmt::format("first pixel at ({:.9g}, {:.9g}) mm", map.grid.origin.x, map.grid.origin.y);
 }
 
 std::string run_flip(HeightMap& map, const MapStep& step, MapStepContext&) {
   const std::string axis = step.word("axis");
   if (axis != "x" && axis != "y") step.refuse(fmt::format("axis = '{}'; accepted: x or y", axis));
-  map = turned(map, axis == "x" ? GridTurn::FlipX : GridTurn::FlipY, step.point("about"));
-  return placed(map);
+  map = turn_map(map, axis == "x" ? GridTurn::FlipX : GridTurn::FlipY, step.point("about"));
+  return describe_place(map);
 }
 
 std::string run_transpose(HeightMap& map, const MapStep& step, MapStepContext&) {
-  map = turned(map, GridTurn::Transpose, step.point("about"));
-  return placed(map);
+  map = turn_map(map, GridTurn::Transpose, step.point("about"));
+  return describe_place(map);
 }
 
 std::string run_rotate(HeightMap& map, const MapStep& step, MapStepContext& context) {
@@ -69,11 +69,11 @@ std::string run_rotate(HeightMap& map, const MapStep& step, MapStepContext& cont
   const double quarters = std::fmod(std::fmod(degrees / 90.0, 4.0) + 4.0, 4.0);
   if (quarters == std::floor(quarters)) {
     constexpr GridTurn kTurns[] = {GridTurn::Quarter, GridTurn::Half, GridTurn::ThreeQuarters};
-    if (quarters > 0.0) map = turned(map, kTurns[static_cast<int>(quarters) - 1], step.point("about"));
-    return "exact, " + placed(map);
+    if (quarters > 0.0) map = turn_map(map, kTurns[static_cast<int>(quarters) - 1], step.point("about"));
+    return "exact, " + describe_place(map);
   }
-  map = rotated(map, degrees, step.point("about").value_or(middle_of(map.grid)), context.threads);
-  return fmt::format("{}, {}", size_of(map), placed(map));
+  map = rotate_map(map, degrees, step.point("about").value_or(middle_of(map.grid)), context.threads);
+  return fmt::format("{}, {}", size_of(map), describe_place(map));
 }
 
 std::string run_fill(HeightMap& map, const MapStep& step, MapStepContext& context) {
@@ -100,14 +100,14 @@ std::string run_decimate(HeightMap& map, const MapStep& step, MapStepContext&) {
   const Index most = 1'000'000;
   const Index across = step.whole("factor", 1, most);
   const Index along = step.has("factor-y") ? step.whole("factor-y", 1, most) : across;
-  map = decimated(map, along, across);
+  map = decimate_map(map, along, across);
   return fmt::format("{} of {:.9g} x {:.9g} mm", size_of(map), map.grid.pitch_x, map.grid.pitch_y);
 }
 
 std::string run_resample(HeightMap& map, const MapStep& step, MapStepContext& context) {
   const double pitch = step.number("pitch");
-  map = resampled(map, {pitch, step.optional_number("pitch-y").value_or(pitch)}, context.threads);
-  return fmt::format("{}, {}", size_of(map), placed(map));
+  map = resample_map(map, {pitch, step.optional_number("pitch-y").value_or(pitch)}, context.threads);
+  return fmt::format("{}, {}", size_of(map), describe_place(map));
 }
 
 std::string run_extend(HeightMap& map, const MapStep& step, MapStepContext& context) {
@@ -118,7 +118,7 @@ std::string run_extend(HeightMap& map, const MapStep& step, MapStepContext& cont
   if (step.has("iterations")) options.iterations = static_cast<int>(step.whole("iterations", 1, 1'000'000));
   options.tolerance = step.optional_number("tolerance").value_or(options.tolerance);
   ExtendSummary summary;
-  map = extended(map, options, summary, context.threads, context.progress);
+  map = extend_map(map, options, summary, context.threads, context.progress);
   std::string text = fmt::format("{} pixels added", summary.pixels);
   if (options.how != Extension::Gerchberg) return text;
   const bool settled = summary.change <= options.tolerance;
@@ -273,7 +273,7 @@ std::vector<MapStepRecord> pair_steps() {
 }
 
 /// The arguments of a step in words.
-std::string described(const MapStepArgument& a) {
+std::string describe_argument(const MapStepArgument& a) {
   const std::string name = a.kind == Kind::Flag    ? a.name
                            : a.kind == Kind::Files ? a.value
                                                    : fmt::format("{}={}", a.name, a.value);
@@ -352,7 +352,7 @@ std::string map_steps_help() {
   for (const MapStepRecord& record : map_step_table()) {
     text += fmt::format("\n{}\n    {}\n", record.name, record.help);
     if (!record.area.empty()) text += fmt::format("      {}\n", record.area);
-    for (const MapStepArgument& a : record.arguments) text += fmt::format("      {}\n", described(a));
+    for (const MapStepArgument& a : record.arguments) text += fmt::format("      {}\n", describe_argument(a));
     text += fmt::format("    --step '{}'\n", record.example);
   }
   return text;
@@ -362,7 +362,8 @@ std::string map_steps_markdown() {
   std::string text = "| step | what it does | arguments | example |\n|---|---|---|---|\n";
   for (const MapStepRecord& record : map_step_table()) {
     std::string arguments = record.area;
-    for (const MapStepArgument& a : record.arguments) arguments += (arguments.empty() ? "" : "<br>") + described(a);
+    for (const MapStepArgument& a : record.arguments)
+      arguments += (arguments.empty() ? "" : "<br>") + describe_argument(a);
     text += fmt::format("| `{}` | {} | {} | `{}` |\n", record.name, record.help, arguments, record.example);
   }
   return text;

@@ -15,8 +15,8 @@ struct DwellOptions {
   double max_seconds = 3600.0;  // wall clock for all solves together [s]; > 0
 };
 
-/// Whether an option leaves a weight to a search. Throws InputError where both weights are to be the largest that hold
-/// a residual: many pairs do, and none is the largest.
+/// Whether the options leave a weight to a search. Throws InputError if both weights shall be the largest that hold a
+/// residual: many pairs of weights do, and none of them is the largest.
 bool weights_are_searched(const DwellOptions& options);
 
 }  // namespace dwell

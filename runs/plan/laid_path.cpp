@@ -10,7 +10,7 @@
 namespace dwell {
 namespace {
 
-ToolPath rounded(ToolPath path) {
+ToolPath round_coordinates(ToolPath path) {
   constexpr double kPerMm = 1e6;
   for (Point& p : path.points) p = {std::round(p.x * kPerMm) / kPerMm, std::round(p.y * kPerMm) / kPerMm};
   path.lifted[0] = 1;
@@ -22,7 +22,7 @@ ToolPath rounded(ToolPath path) {
 LaidPath lay_path(ToolPath path, Motion motion) {
   validate(path);
   LaidPath laid;
-  laid.path = rounded(std::move(path));
+  laid.path = round_coordinates(std::move(path));
   laid.motion = motion;
   laid.metrics = path_metrics(laid.path);
   laid.strokes = strokes_of(laid.path, motion);

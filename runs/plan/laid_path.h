@@ -21,8 +21,8 @@ struct LaidPath {
 /// Lays a path that is given. Throws InputError as validate(path).
 LaidPath lay_path(ToolPath path, Motion motion);
 
-/// Plans a path on the part and lays it; `max_feed` [mm/s] is what the planners that estimate times count with. Throws
-/// InputError as plan_path, Interrupted. Cost: the planner's.
+/// Plans a path on the part and lays it; planners that estimate times use `max_feed` [mm/s]. Throws InputError as
+/// plan_path, Interrupted. Cost: the planner's.
 LaidPath lay_path(const Part& part, const PathSpec& spec, Motion motion, double max_feed,
                   const Progress& progress = {});
 

@@ -11,8 +11,8 @@
 
 namespace dwell {
 
-/// What the machine is told to do: dwell times turned into feeds, with every number as the exported files hold it. Last
-/// of the four values of a plan; program_of(table) gives its steps.
+/// The program for the machine: dwell times as feeds, with every number as the exported files hold it. Last of the four
+/// values of a plan; program_of(table) gives its steps.
 struct MachineProgram {
   FeedTable table;
   FeedSchedule feed;                // as the dwell times ask for it, before rounding

@@ -9,16 +9,16 @@
 
 namespace dwell {
 
-/// What is to be worked, and with what: the surface and the tool, before there is a path. First of the four values of a
-/// plan: Part -> LaidPath -> DwellPlan -> MachineProgram, each made by a function of values (docs/tree.md).
+/// The surface to be worked and the tool to work it, before there is a path. First of the four values of a plan: Part
+/// -> LaidPath -> DwellPlan -> MachineProgram, each made by a function of values (docs/tree.md).
 struct Part {
   HeightMap map;         // as measured, NaN = outside the part [nm]
   FormTerms form;        // that the specification does not count
-  HeightMap figure;      // the map, form terms removed [nm]
+  HeightMap figure;      // the map without the form terms [nm]
   MapStatistics before;  // of the figure
   RemovalFunction tif;
   RemovalKernel kernel;  // the removal function on the map's pixels
-  int threads = 1;       // that everything made from the part runs on
+  int threads = 1;       // on which everything made from the part runs
 };
 
 /// Makes a part of a map [nm] and a removal function [nm/s]. `threads` = 0 takes one for every processor. Throws
@@ -27,7 +27,8 @@ struct Part {
 Part make_part(HeightMap map, RemovalFunction tif, const FormTerms& form, int threads = 0,
                const Progress& progress = {});
 
-/// Throws InputError if the tool is wider than the map both ways: nearly always a wrong pitch or unit of length.
+/// Throws InputError if the tool is wider than the map in x and in y, which nearly always means a wrong pitch or unit
+/// of length.
 void check_tool_fits(const RemovalFunction& tif, const Grid& map);
 
 }  // namespace dwell

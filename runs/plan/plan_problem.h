@@ -28,25 +28,25 @@ class PlanProblem {
   /// Cost: the removal operator's setup, and with halting motion one simulation.
   PlanProblem(const Part& part, const LaidPath& laid, const DwellOptions& options, const Progress& progress = {});
 
-  /// Solves from `start` (empty = lower bound; `auto` always starts there), for at most `max_seconds`, reporting as
-  /// `stage`. Throws Interrupted if the progress say stop, std::runtime_error if the solver fails. Cost: the solve and
-  /// one operator application.
+  /// Solves from `start` (empty = lower bound; `auto` always starts there) for at most `max_seconds`; `stage` begins
+  /// the lines of progress. Throws Interrupted if `progress` says stop, std::runtime_error if the solver fails. Cost:
+  /// the solve and one operator application.
   ///
-  /// Why `auto` takes no start: its coarse levels, which set the long waves, work from the lower bound only, and from
-  /// the dwell of other weights its rule for settling is met long before those waves have followed. On a measured
-  /// mirror the total stayed at 375 s where 402 s is the optimum, and a search for a target needed 7 to 20 solves
-  /// instead of 6. From the lower bound its answer depends on the weights alone: the weights found, given as numbers,
-  /// make the same plan.
+  /// Why `auto` takes no start: its coarse levels, which correct the long waves, work from the lower bound only.
+  /// Started from the dwell of other weights, it meets its rule for settling long before the long waves have adapted.
+  /// On a measured mirror the total stayed at 375 s where 402 s is the optimum, and a search for a target needed 7 to
+  /// 20 solves instead of 6. From the lower bound its answer depends on the weights alone: the weights found, given as
+  /// numbers, make the same plan.
   WeightedDwell solve(const Weights& weights, Vector start, double max_seconds, const std::string& stage,
                       const Progress& progress);
 
-  /// The price of a second [nm^2/s] from which on the least dwell is optimal, smoothness aside: the steepest descent of
-  /// half the mean square residual there. 1 if nothing descends. Cost: two operator applications.
+  /// The price of a second [nm^2/s] from which on the least dwell is optimal if smoothness is left out: the steepest
+  /// descent, there, of half the mean square residual. 1 if nothing descends. Cost: two operator applications.
   double highest_price();
 
   /// The problem with the weights set.
   const DwellProblem& with(const Weights& weights);
-  /// What is left of the target, form terms included.
+  /// The surface that a dwell leaves of the target, form terms included [nm].
   HeightMap left_by(const Vector& dwell) const;
 
  private:

@@ -10,7 +10,7 @@
 namespace dwell {
 namespace {
 
-/// Of the dwells found so far, the one whose weights are nearest in proportion.
+/// Of the dwells found so far, the one whose weights are nearest on logarithmic scales.
 class NearestDwell {
  public:
   explicit NearestDwell(const WeightRange& smoothness, const WeightRange& price)

@@ -11,7 +11,8 @@ namespace dwell {
 /// A line over a map, as a user gives it:
 ///   y=MM          along x, through the row of pixels nearest to this y
 ///   x=MM          along y, through the column nearest to this x
-///   X0,Y0,X1,Y1   straight from one point to the other [mm], by bilinear interpolation a smaller pitch apart
+///   X0,Y0,X1,Y1   straight from one point to the other [mm], by bilinear interpolation at points one smaller pitch
+///   apart
 struct ProfileSpec {
   enum class Kind { AlongX, AlongY, Line } kind = Kind::AlongX;
   double at = 0.0;  // AlongX: y; AlongY: x [mm]

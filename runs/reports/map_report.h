@@ -9,9 +9,9 @@
 #include "core/form/robust_pv.h"
 #include "core/map/surface_slope.h"
 #include "core/spectra/psd_line.h"
+#include "runs/base/input_file.h"
 #include "runs/base/json_blocks.h"
 #include "runs/drawing/figure_format.h"
-#include "runs/job/input_files.h"
 #include "runs/reports/map_profile.h"
 #include "runs/reports/wavelength_bands.h"
 
@@ -36,7 +36,7 @@ struct CurveReport {
 
 struct SpectrumReport {
   SpectralWindow window;
-  double rms = 0.0;                                            // as the window sees the map [nm]
+  double rms = 0.0;                                            // of the map under the window [nm]
   double longest_wavelength = 0.0, shortest_wavelength = 0.0;  // resolved [mm]
   Index bridged = 0;
   bool holes = false;
@@ -47,7 +47,7 @@ struct SpectrumReport {
   bool limit_met() const;  // also without a limit
 };
 
-/// What a map is like. Heights in nm, slopes in urad.
+/// The figures of a map. Heights in nm, slopes in urad.
 struct MapReport {
   PolynomialSpec removed;
   PolynomialFit removed_fit;
@@ -72,11 +72,12 @@ MapReport map_report(const HeightMap& map, const MapReportOptions& options);
 /// Lines of text, each "name      value unit".
 std::string map_report_text(const MapReport& report);
 
-/// What of a map its JSON tells besides the report: `valid_pixels` are those of the whole map, before the aperture.
+/// The figures of a map that its JSON holds besides the report. `valid_pixels` is the number in the whole map, before
+/// the aperture.
 MapFigures map_figures(const MapReport& report, const std::string& file, const HeightMap& map, Index valid_pixels,
                        const std::string& aperture);
 
-/// All of it as JSON text (docs/json.md), units in the keys; with the profile, if there is one.
+/// Report and map as JSON text (docs/json.md), units in the keys; with the profile, if there is one.
 std::string map_report_json(const MapReport& report, const MapFigures& map, const std::vector<InputFile>& inputs,
                             const MapProfile* profile = nullptr);
 

@@ -14,7 +14,7 @@ constexpr Colour kLimit{200, 30, 30}, kBlue{33, 102, 172}, kGreen{27, 120, 55}, 
 
 Colour colour_of(const std::string& name) { return name == "x" ? kBlue : name == "y" ? kGreen : kViolet; }
 
-/// Of the fits: apart from each other, and from the curves that they lie on.
+/// Colours of the fits, which differ from each other and from those of the curves on which the fits lie.
 Colour colour_of_fit(const std::string& name) {
   return name == "x" ? Colour{240, 130, 0} : name == "y" ? Colour{20, 20, 20} : Colour{230, 170, 0};
 }
@@ -27,7 +27,7 @@ void add_curve(ChartPanel& panel, const CurveReport& c) {
   const Colour colour = colour_of(c.curve.name);
   ChartLine line{c.curve.name == "radial" ? "radial" : "along " + c.curve.name, colour, {}, false, false};
   for (std::size_t k = 0; k < c.curve.frequency.size(); ++k) {
-    // A density of zero has no place here, and rounding would stretch the axis to it.
+    // A logarithmic axis has no place for a density of zero.
     if (c.curve.density[k] > 0.0) line.points.push_back({c.curve.frequency[k], c.curve.density[k], false});
   }
   panel.lines.push_back(std::move(line));

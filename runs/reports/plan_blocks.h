@@ -6,8 +6,7 @@
 
 namespace dwell {
 
-/// The blocks "map", "tif" and "path" of whatever is told of a plan: by a plan, a sweep of weights, or a comparison of
-/// paths.
+/// The blocks "map", "tif" and "path" for the JSON of a plan, of a sweep of weights and of a comparison of paths.
 nlohmann::ordered_json plan_map_block(const Job& job);
 nlohmann::ordered_json plan_tif_block(const Job& job);
 nlohmann::ordered_json plan_path_block(const LaidPath& laid);

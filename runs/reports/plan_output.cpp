@@ -72,8 +72,8 @@ bool differs(double a, double b, double tolerance) {
   return !(std::abs(a - b) <= tolerance * std::max(std::abs(a), std::abs(b)));
 }
 
-/// feed.csv and program.nc are two writings of one program: they must remove the same. Where their steps differ by more
-/// than rounding, what the table removes is simulated as well, and a difference is a limit.
+/// feed.csv and program.nc are two forms of one program and must remove the same. Where their steps differ by more than
+/// rounding, what the table removes is simulated as well, and a difference is a limit.
 void compare_with_table(const PlannedJob& plan, const Program& program, const Program& table, WrittenPlan& written) {
   const Part& part = plan.part();
   written.table_has_same_steps =

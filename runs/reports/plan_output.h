@@ -14,7 +14,7 @@ namespace dwell {
 /// they are not the same.
 WrittenPlan write_plan(const PlannedJob& plan, const OutputFolder& folder, const Progress& progress);
 
-/// Relative difference of residual RMS between simulated program and solver that is accepted without a remark.
+/// The relative difference of residual RMS between simulated program and solver up to which no limit is reported.
 inline constexpr double kSimulationTolerance = 0.03;
 
 }  // namespace dwell

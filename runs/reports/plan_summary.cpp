@@ -46,7 +46,7 @@ Json feed_json(const FeedSchedule& feed, Motion motion) {
           {"segments_infeasible", feed.segments_infeasible}};
 }
 
-/// The program as read back, and how feed.csv was held to it.
+/// The program as read back, and how feed.csv was compared with it.
 Json program_json(const WrittenPlan& written) {
   Json program = program_block(written.program);
   program["feed_table"] = written.table_has_same_steps ? "same steps" : "simulated";

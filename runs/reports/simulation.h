@@ -22,7 +22,7 @@ struct SplineError {
   double largest = 0.0;
 };
 
-/// What a program on disk does to a map.
+/// The effect of a program on disk on a map.
 struct Simulation {
   std::vector<InputFile> inputs;
   Program program;
@@ -37,14 +37,14 @@ struct Simulation {
   std::optional<SplineError> spline_error;  // of an exact simulation; without form terms removed
 };
 
-/// Simulates a program file (feed.csv or G-code) on the job's map with the job's removal function, the tool moving
+/// Simulates a program file (feed.csv or G-code) on the job's map with the job's removal function; the tool moves
 /// continuously. `exact`: with the removal function as given (simulate_exactly), which is slow. `dialect`: for a G93
-/// program that does not name its own. Uses of the job: map, tif, remove, aperture, threads. Throws InputError,
+/// program that does not name its own. Of the job it uses map, tif, remove, aperture and threads. Throws InputError,
 /// Interrupted.
 Simulation simulate_file(const std::filesystem::path& program, std::optional<GcodeDialect> dialect,
                          const JobOptions& options, const Progress& progress, bool exact = false);
 
-/// As JSON text (docs/json.md), units in the keys.
+/// The simulation as JSON text (docs/json.md), units in the keys.
 std::string simulation_json(const Simulation& simulation);
 
 }  // namespace dwell

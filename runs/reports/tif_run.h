@@ -7,14 +7,13 @@
 #include "core/tif/calibration/spot_calibration.h"
 #include "core/tif/calibration/trench_calibration.h"
 #include "core/tif/removal_analysis.h"
-#include "runs/job/input_files.h"
+#include "runs/base/input_file.h"
 #include "runs/job/job_options.h"
 #include "solvers/fits/ceres_removal_fit.h"
 
 namespace dwell {
 
-/// What a user asks of `dwell tif`, in the user's own words and units. Exactly one of job.tif, spot and trench is
-/// given.
+/// The options of `dwell tif`, in the user's own words and units. Exactly one of job.tif, spot and trench is given.
 struct TifJob {
   JobOptions job;      // tif and how to read it; map_pixel_mm, map_unit, map_origin_mm for spot, before and trench
   std::string spot;    // map after the tool stood on it
@@ -31,7 +30,7 @@ struct TifJob {
   bool robust = false;
 };
 
-/// A removal function and all that was found out about it.
+/// A removal function and its analysis.
 struct TifResult {
   std::string source;   // "measured", "spot", "trench", or the name of a model
   RemovalFunction tif;  // turned as the job says
@@ -43,7 +42,7 @@ struct TifResult {
   std::vector<InputFile> inputs;
 };
 
-/// Reads, calibrates, turns, analyses and fits. Throws InputError naming the option or file, Interrupted.
+/// Reads, calibrates, orients, analyses and fits. Throws InputError naming the option or file, Interrupted.
 TifResult make_tif(const TifJob& job, const Progress& progress = {});
 
 /// A sentence for each fit that ended before it converged; not empty = exit code 3.

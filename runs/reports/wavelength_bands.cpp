@@ -46,7 +46,8 @@ BandSplit band_rms(const ArealPsd& psd, const std::vector<double>& edges) {
   std::vector<double> frequencies;
   frequencies.reserve(edges.size() + 1);
   for (const double edge : edges) frequencies.push_back(1.0 / edge);
-  // One wave on the part, where the bands are cut; the sample there belongs to them whatever way it is rounded.
+  // The frequency of one wave on the part, where the bands end; the margin keeps the sample there in the bands, however
+  // it is rounded.
   const double lowest = (1.0 - 1e-9) / psd.longest_wavelength();
   const auto cut = std::upper_bound(frequencies.begin(), frequencies.end(), lowest);
   const auto longer = static_cast<std::size_t>(cut - frequencies.begin());

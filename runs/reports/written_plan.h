@@ -9,15 +9,16 @@
 
 namespace dwell {
 
-/// What was written, and what the program on disk does to the surface.
+/// What was written, and the surface that the program on disk leaves.
 struct WrittenPlan {
-  HeightMap residual;                 // that the simulated program leaves, form terms removed [nm]
-  MapStatistics simulated;            // residual of it
-  double program_seconds = 0.0;       // of program.nc, as read back
-  ProgramFigures program;             // of it, for the summary
-  bool table_has_same_steps = false;  // feed.csv as read back removes with the steps of program.nc; else simulated too
-  std::vector<std::string> limits;    // of the plan, and those that its files reach on the way; a sentence each
-  std::string summary;                // the text of summary.json
+  HeightMap residual;            // that the simulated program leaves, form terms removed [nm]
+  MapStatistics simulated;       // residual of it
+  double program_seconds = 0.0;  // of program.nc, as read back
+  ProgramFigures program;        // of it, for the summary
+  /// Whether feed.csv, read back, removes with the steps of program.nc; if not, it is simulated too.
+  bool table_has_same_steps = false;
+  std::vector<std::string> limits;  // of the plan, and those that reading its files back has shown; a sentence each
+  std::string summary;              // the text of summary.json
 };
 
 }  // namespace dwell

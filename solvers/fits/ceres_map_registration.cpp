@@ -21,6 +21,7 @@
 #include "core/map/map_sampler.h"
 #include "core/map/robust_plane.h"
 #include "core/numerics/dense_solve.h"
+#include "core/numerics/median.h"
 #include "solvers/fits/stop_callback.h"
 
 namespace dwell {
@@ -118,8 +119,7 @@ std::vector<double> residuals(const Pair& pair, const Parameters& q, const std::
 /// Robust standard deviation of residuals about zero.
 double robust_sigma(std::vector<double> r) {
   for (double& v : r) v = std::abs(v);
-  std::nth_element(r.begin(), r.begin() + static_cast<std::ptrdiff_t>(r.size() / 2), r.end());
-  return 1.4826 * r[r.size() / 2];
+  return kSigmaPerMedianDeviation * upper_median(std::move(r));
 }
 
 double rms(const std::vector<double>& r) {
@@ -147,8 +147,8 @@ DifferenceSize size_of_difference(const Pair& pair, const Parameters& q, bool le
           level ? robust_plane(difference, pixels, true).scatter : robust_sigma(residuals(pair, q, pixels))};
 }
 
-/// The map without its lone spikes, and how many these were. Between its pixels the spline of the moving map rings
-/// around each, and so the fit would see a field that stays with the pixels whatever the surface does.
+/// The map without its lone spikes, and how many these were. The spline of the moving map rings around each spike, so
+/// the fit would see a pattern that stays with the pixels instead of the surface.
 std::pair<HeightMap, Index> without_spikes(HeightMap map, int threads, const Progress& progress) {
   const std::vector<Index> pixels = finite_pixels(map);
   if (pixels.size() < 3) return {std::move(map), 0};
@@ -203,7 +203,8 @@ class RegistrationFit {
       squares += weight * r * r;
     }
     const Eigen::MatrixXd normal = all(free_, free_);
-    // In steps that move heights by alike: what a shift of a pixel, and of the rim by one, changes.
+    // Parameters are scaled by steps of like effect: a shift by one pixel, and a rotation and a magnification that move
+    // the rim by one.
     const Eigen::VectorXd step = natural_steps()(free_);
     const Eigen::MatrixXd natural = step.asDiagonal() * normal * step.asDiagonal();
     const SymmetricEigen eigen = symmetric_eigen(natural);
@@ -241,7 +242,7 @@ class RegistrationFit {
   double width_ = 1.0;
 };
 
-/// The level between the maps as they lie, so that the robust fit starts near.
+/// The level between the maps as they lie, so that the robust fit starts near its solution.
 void start_level(const Pair& pair, Parameters& q, const std::vector<Index>& pixels) {
   const Plane level = robust_plane(difference_at(pair, q, pixels), pixels, true);
   q[kPiston] += level.at(pair.level_centre), q[kSlopeX] += level.slope.x, q[kSlopeY] += level.slope.y;

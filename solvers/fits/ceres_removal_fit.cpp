@@ -14,6 +14,7 @@
 
 #include "core/base/errors.h"
 #include "core/numerics/dense_solve.h"
+#include "core/numerics/median.h"
 #include "solvers/fits/removal_fit_starts.h"
 #include "solvers/fits/stop_callback.h"
 
@@ -21,7 +22,7 @@ namespace dwell {
 namespace {
 
 constexpr std::size_t kOwn = 3;                 // x, y, peak come before the model's own parameters
-constexpr std::size_t kScreeningPixels = 4000;  // that the starts are tried on
+constexpr std::size_t kScreeningPixels = 4000;  // on which the starts are tried
 
 struct RateSample {
   Point place;
@@ -210,9 +211,8 @@ class ModelFit {
     std::vector<double> r = residuals();
     double square = 0.0;
     for (double& v : r) square += v * v, v = std::abs(v);
-    const auto middle = r.begin() + static_cast<std::ptrdiff_t>(r.size() / 2);
-    std::nth_element(r.begin(), middle, r.end());
-    return *middle > 0.0 ? 1.4826 * *middle : std::sqrt(square / static_cast<double>(r.size()));
+    const double median = upper_median(r);
+    return median > 0.0 ? kSigmaPerMedianDeviation * median : std::sqrt(square / static_cast<double>(r.size()));
   }
 
   /// The noise variance that goes with (J'J)^-1: see the header.
@@ -257,12 +257,12 @@ class ModelFit {
         if (value > 1e-9) {
           sum += share / value;
         } else if (share > 1e-6) {
-          sum = std::numeric_limits<double>::quiet_NaN();  // the samples leave it open
+          sum = std::numeric_limits<double>::quiet_NaN();  // the samples do not determine it
         }
       }
       FittedParameter& parameter = parameters_[free[static_cast<std::size_t>(j)]];
       parameter.error = std::sqrt(variance * sum) / size[j];
-      // No direction is known to no better than a quarter turn.
+      // A standard error of a quarter turn or more says that the direction is not known.
       if (parameter.unit == "deg" && parameter.error > 90.0) parameter.error = std::numeric_limits<double>::quiet_NaN();
     }
   }

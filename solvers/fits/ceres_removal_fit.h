@@ -6,7 +6,7 @@
 
 #include "core/base/progress.h"
 #include "core/map/height_map.h"
-#include "core/tif/models/removal_models.h"
+#include "core/tif/models/removal_model.h"
 
 namespace dwell {
 
@@ -39,12 +39,12 @@ struct RemovalFit {
 };
 
 /// Fits the model to the finite samples by least squares (Ceres: Levenberg-Marquardt, numeric derivatives, bounds),
-/// from several starts made of the samples' moments; the best one counts. Standard errors: sigma^2 (J'J)^-1 with
-/// sigma^2 = sum of squares / (samples - parameters), for noise that is independent from sample to sample; a robust fit
-/// has Huber's correction (Huber and Ronchetti 2009, eq. 7.81). They say nothing of a model that is wrong. aic = m
-/// ln(sum of squares / m) + 2 (p + 1), bic with ln m in place of 2. Throws InputError for an unknown or unusable held
-/// parameter, one that must be held and is not, or fewer samples than parameters; Interrupted. Cost: seconds at most
-/// for 10^5 samples.
+/// from several starts that follow from the samples' moments; the best result is taken. Standard errors: sigma^2
+/// (J'J)^-1 with sigma^2 = sum of squares / (samples - parameters), for noise that is independent from sample to
+/// sample; a robust fit has Huber's correction (Huber and Ronchetti 2009, eq. 7.81). They say nothing of a model that
+/// is wrong. aic = m ln(sum of squares / m) + 2 (p + 1), bic with ln m in place of 2. Throws InputError for an unknown
+/// or unusable held parameter, one that must be held and is not, or fewer samples than parameters; Interrupted. Cost:
+/// seconds at most for 10^5 samples.
 RemovalFit fit_removal(const HeightMap& rates, const RemovalModel& model, const RemovalFitOptions& options = {},
                        const Progress& progress = {});
 

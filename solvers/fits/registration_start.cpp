@@ -17,12 +17,14 @@
 namespace dwell {
 namespace {
 
-/// Averaged over blocks of about `pitch` mm, plane removed: a robust one, which a smudge on one map does not tilt.
-HeightMap averaged(const HeightMap& map, double pitch) {
+/// The map averaged over blocks of about `pitch` mm, less its plane: a robust one, which a smudge on one map does not
+/// tilt.
+HeightMap average_blocks(const HeightMap& map, double pitch) {
   const auto factor = [&](double own, Index pixels) {
     return std::clamp<Index>(static_cast<Index>(std::llround(pitch / own)), 1, std::max<Index>(1, pixels / 2));
   };
-  HeightMap coarse = decimated(map, factor(map.grid.pitch_y, map.grid.rows), factor(map.grid.pitch_x, map.grid.cols));
+  HeightMap coarse =
+      decimate_map(map, factor(map.grid.pitch_y, map.grid.rows), factor(map.grid.pitch_x, map.grid.cols));
   const std::vector<Index> pixels = finite_pixels(coarse);
   if (pixels.size() < 3) return coarse;
   const Plane plane = robust_plane(coarse, pixels, true);
@@ -35,7 +37,7 @@ struct HeightSample {
   double height;
 };
 
-/// Mean square difference without its mean, or infinity for too little overlap.
+/// The variance of the difference, or infinity for too little overlap.
 double mismatch(const std::vector<HeightSample>& samples, const PlaneTransform& forward, const HeightMap& fixed,
                 double needed) {
   double sum = 0.0, squares = 0.0, count = 0.0;
@@ -64,7 +66,7 @@ RegistrationStart coarse_registration(const HeightMap& moving, const HeightMap& 
   const Grid& g = fixed.grid;
   const double area = g.width() * g.height() / static_cast<double>(kStartPixels);
   const double pitch = std::max(std::sqrt(area), std::min(g.pitch_x, g.pitch_y));
-  const HeightMap a = averaged(moving, pitch), b = averaged(fixed, pitch);
+  const HeightMap a = average_blocks(moving, pitch), b = average_blocks(fixed, pitch);
   const Point middle = middle_of(moving.grid);
   std::vector<HeightSample> samples;
   for (const Index i : finite_pixels(a)) samples.push_back({a.grid.centre(i), a.values[static_cast<std::size_t>(i)]});
@@ -86,7 +88,8 @@ RegistrationStart coarse_registration(const HeightMap& moving, const HeightMap& 
     return RegistrationStart{{dx, dy}, step(turns, turn_step)};
   };
   std::vector<double> score(static_cast<std::size_t>(places));
-  constexpr Index kBetweenLooks = 4096;  // places tried between two looks at whether to stop: a tenth of a second
+  // Places tried between two questions whether to stop, about a tenth of a second.
+  constexpr Index kBetweenLooks = 4096;
   for (Index begin = 0; begin < places; begin += kBetweenLooks) {
     progress.check();
     const Index end = std::min(begin + kBetweenLooks, places);

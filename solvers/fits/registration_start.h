@@ -16,11 +16,12 @@ struct RegistrationStart {
   double degrees = 0.0;  // counter-clockwise about it
 };
 
-/// The shift and rotation that bring `moving` best onto `fixed` by exhaustive search: both averaged in blocks until the
-/// fixed one has at most kStartPixels pixels, every shift by whole such pixels and every rotation by as much as moves
-/// the corner of the moving map by one, the RMS difference without its mean over the common pixels, of which there must
-/// be kStartOverlap of the smaller map. Nearest pixels, robust planes removed from both maps before. Good to about one
-/// averaged pixel. Throws InputError if no place has that overlap, Interrupted. Cost O(kStartPixels) a place.
+/// The shift and rotation that bring `moving` best onto `fixed`, by exhaustive search. Both maps, less their robust
+/// planes, are averaged in blocks until the fixed one has at most kStartPixels pixels. Tried is every shift by whole
+/// such pixels, with rotations in steps that move the corner of the moving map by one. The best one has the smallest
+/// standard deviation of the difference over the common pixels, which must be at least kStartOverlap of the smaller
+/// map. Heights are those of the nearest pixels. Good to about one averaged pixel. Throws InputError if no place has
+/// that overlap, Interrupted. Cost O(kStartPixels) a place.
 RegistrationStart coarse_registration(const HeightMap& moving, const HeightMap& fixed, const RegistrationRange& range,
                                       int threads = 1, const Progress& progress = {});
 

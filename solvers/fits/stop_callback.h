@@ -20,7 +20,7 @@ class StopCallback final : public ceres::IterationCallback {
   const Progress& progress_;
 };
 
-/// Runs Ceres; throws Interrupted if it was to stop.
+/// Runs Ceres; throws Interrupted if `progress` asked it to stop.
 inline ceres::Solver::Summary solve_with_stop(ceres::Solver::Options options, ceres::Problem& problem,
                                               const Progress& progress) {
   StopCallback stop(progress);

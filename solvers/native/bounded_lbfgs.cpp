@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kLeastCurvature = 1e-30;  // of |d| |Hd|: below that, a pair holds rounding
 constexpr double kRounding = 1e-15;        // of the objective: a step that lowers it by less does not
-constexpr int kLastTries = 50;             // such steps that do not halve the squared gradient either: then it is over
+constexpr int kLastTries = 50;  // after so many such steps that do not halve the squared gradient either, the run ends
 
 constexpr Index kLanes = 8;
 using Lanes = float __attribute__((vector_size(kLanes * sizeof(float))));

@@ -10,14 +10,14 @@ namespace dwell {
 
 /// Projected L-BFGS for a quadratic in a box: minimise q(x) = 1/2 x'Hx + c'x within l <= x <= u. A step is the two-loop
 /// recursion (Nocedal 1980, "Updating quasi-Newton matrices with limited storage") restricted to the variables that the
-/// bounds leave free (the two-metric projection of Bertsekas 1982), cut off at the bounds, and then as far along the
-/// segment to there as lowers q most. Since q is quadratic, that length, the next gradient and the curvature pair all
-/// come from one product with H, and the pairs stay exact: they outlive changes of the face, where conjugate gradients
-/// have to start anew, and calls with another c.
+/// bounds leave free (the two-metric projection of Bertsekas 1982), cut off at the bounds; the point then moves along
+/// this segment to where q is lowest. Since q is quadratic, that length, the next gradient and the curvature pair all
+/// come from one product with H, and the pairs stay exact: they remain valid when the set of active bounds changes,
+/// where conjugate gradients have to start anew, and in later calls with another c.
 ///
-/// Monotone and feasible. Pairs are held in single precision: they steer, they do not enter x or its gradient
-/// (tests/solvers/bounded_lbfgs_test compares with an exact solver). Same bytes for any number of threads.
-/// Memory: 2.5 vectors and the pairs, which are worth kPairs vectors.
+/// Monotone and feasible. Pairs are held in single precision: they choose the direction only and do not enter x or its
+/// gradient (tests/solvers/native/bounded_lbfgs_test.cpp compares with an exact solver). Same bytes for any number of
+/// threads. Memory: 2.5 vectors and the pairs, which take as much as kPairs vectors.
 class BoundedLbfgs final : public BoxMinimiser {
  public:
   static constexpr Index kPairs = 5;  // 10, 20 and 40 saved under 10 % of the products and cost more than that
@@ -26,9 +26,9 @@ class BoundedLbfgs final : public BoxMinimiser {
   BoundedLbfgs(const Vector& lower, const Vector& upper, int threads);
 
   /// Improves the point until |projected gradient| <= tolerance, nothing descends any more (rounding), a product is not
-  /// finite, or the monitor, called after every step, says stop. A step costs one product; the first, and one that
-  /// finds the pairs of no use, may cost two. Successive forms must have about the same H, or forget() must be called.
-  /// No allocation.
+  /// finite, or the monitor, called after every step, says stop. A step costs one product; the first step, and a step
+  /// in which the pairs give no descent, may cost two. Successive forms must have about the same H, or forget() must be
+  /// called. No allocation.
   void minimise(QuadraticForm& form, double tolerance, QuadraticPoint& point, const Monitor& go_on) override;
 
   /// Drops the curvature pairs.

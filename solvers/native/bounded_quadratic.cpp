@@ -7,8 +7,9 @@
 namespace dwell {
 namespace {
 
-// Conjugate gradients on a face end when a step gains less than this share of the best one of the run: the face is
-// then likely to be wrong, and better spent on finding the next. Once a run meets no bound the share shrinks.
+// Conjugate gradients on a face end when a step gains less than this share of the best one of the run: the set of
+// active bounds is then likely to be wrong, and products are better spent on finding the next one. Once a run meets no
+// bound, the share shrinks.
 constexpr double kFirstShare = 0.05;
 constexpr double kLeastShare = 1e-6;
 constexpr long kFirstLimit = 50;
@@ -156,7 +157,7 @@ void BoundedCg::minimise_on_face() {
     face_unchanged_ = false;
     if (!search()) running_ = false;
   } else {
-    take_first_stretch();  // stopped: nothing that costs a product
+    take_first_stretch();  // stopped: do nothing that costs a product
   }
 }
 
@@ -175,7 +176,7 @@ double BoundedCg::first_bound() const {
 }
 
 void BoundedCg::take_whole_step() {
-  const bool moved = !step_.isZero(0.0);  // not where the face has a gradient but no curvature
+  const bool moved = !step_.isZero(0.0);  // false where there is a gradient but no curvature
   move({step_, step_product_, point_->gradient.dot(step_), step_.dot(step_product_)}, 1.0);
   face_unchanged_ = mark_free() == 0 && moved;
   cg_share_ = std::max(cg_share_ * 0.1, kLeastShare);

@@ -8,18 +8,18 @@ namespace dwell {
 
 /// Conjugate gradients in a box (after More and Toraldo 1991, "On the solution of large quadratic programming problems
 /// with bound constraints"): spectral projected-gradient steps find which bounds hold, conjugate gradients minimise
-/// over the rest as if there were no bounds, a projected search brings the result back; repeated. The gradient is
-/// carried along, so a step costs the one product with H that it needs. MPRGP (Dostal 2009), which stops its conjugate
-/// gradients at the first bound met, was tried on one problem (ibfest-70x30, smooth dwell): to an objective that this
-/// reached in 423 products it needed 1421, and with the projected-CG expansion more than 2421. Memory: 5 vectors and a
-/// byte a variable.
+/// over the rest as if there were no bounds, a projected search brings the result back into the bounds, and so on. The
+/// gradient is updated along with the point, so a step costs one product with H. MPRGP (Dostal 2009), which stops its
+/// conjugate gradients at the first bound met, was tried on one problem (ibfest-70x30, smooth dwell): to an objective
+/// that this reached in 423 products it needed 1421, and with the projected-CG expansion more than 2421. Memory: 5
+/// vectors and a byte a variable.
 class BoundedCg final : public BoxMinimiser {
  public:
   /// The bounds must outlive this. upper may be empty.
   BoundedCg(const Vector& lower, const Vector& upper);
 
   /// Improves the point until |projected gradient| <= tolerance, no step descends any more (rounding), or the monitor
-  /// says stop, which is asked after every product; while conjugate gradients run it sees the point they set out from.
+  /// says stop. It is asked after every product; while conjugate gradients run it gets the point at which they started.
   /// Never worsens it. No allocation.
   void minimise(QuadraticForm& form, double tolerance, QuadraticPoint& point, const Monitor& go_on) override;
 

@@ -51,7 +51,8 @@ class ActiveSet {
   ActiveSet(const DwellProblem& problem, const DenseProblem& dense, const SolverOptions& options, StoppingRules& rules,
             Vector& t)
       : p_(problem), d_(dense), rules_(rules), t_(t) {
-    // Rank deficiency is the rule here: a ridge far below the data's own noise keeps every block factorisable.
+    // The matrix is nearly always rank-deficient; a ridge far below the data's own noise keeps every block
+    // factorisable.
     const double largest = dense.h.diagonal().maxCoeff();
     ridge_ = largest > 0.0 ? 1e-13 * largest : 1e-100;
     const double scale = rules.gradient_scale();
@@ -103,8 +104,8 @@ class ActiveSet {
     return std::all_of(free_.begin(), free_.end(), [&](Index j) { return std::abs(g[j]) <= tolerance_; });
   }
 
-  /// The bound variable whose gradient pulls inward most, or -1. One that could not move since the last progress is
-  /// passed over.
+  /// The bound variable whose gradient pulls inward most, or -1. A variable that has been unable to move since the last
+  /// progress is skipped.
   Index most_promising() const {
     const Vector g = d_.h * t_ + d_.c;
     Index best = -1;

@@ -37,7 +37,7 @@ void solve_in_full(const DwellProblem& problem, const SolverOptions& options, Bo
   const double tolerance = 0.9 * options.gradient_tolerance * rules.gradient_scale();
   const BoxMinimiser::Monitor monitor = [&, last_value = 0.0](const QuadraticPoint& p) mutable {
     if (!rules.count_iteration(p.x, p.value)) return false;
-    // While conjugate gradients run, the point stands still: nothing to compare until it has moved.
+    // While conjugate gradients run, the point stands still; there is nothing to compare until it has moved.
     if (p.value == last_value) return true;
     last_value = p.value;
     return !rules.settled(p.value, [&] { return projected_gradient_norm(problem.lower, problem.upper, p); });
@@ -46,7 +46,7 @@ void solve_in_full(const DwellProblem& problem, const SolverOptions& options, Bo
     const double before = point.value;
     minimiser.minimise(hessian, tolerance, point, monitor);
     t = point.x;
-    // The gradient carried along gathers rounding; what is reported does not.
+    // The updated gradient gathers rounding, so the reported one is computed anew.
     point.value = objective.evaluate(t, r, point.gradient);
     if (!rules.stopped() && !(point.value < before) &&
         !rules.converged(projected_gradient_norm(problem.lower, problem.upper, point))) {

@@ -6,7 +6,7 @@
 namespace dwell {
 
 /// Solves the dwell problem with the minimiser on its own Hessian, one operator pair a product, by the rules of
-/// SolverOptions; the gradient carried along by the minimiser is computed anew whenever it returns.
+/// SolverOptions. Whenever the minimiser returns, its gradient, which it updates step by step, is computed anew.
 void solve_in_full(const DwellProblem& problem, const SolverOptions& options, BoxMinimiser& minimiser, Vector& t,
                    SolverSummary& summary);
 

@@ -5,8 +5,7 @@
 namespace dwell {
 
 /// Projected L-BFGS on the full problem (BoundedLbfgs): one operator pair an iteration. Of the matrix-free solvers that
-/// know nothing of the removal function it takes the fewest pairs.
-/// Memory: 9 vectors of n, 3 of m.
+/// make no use of the removal function's width, it takes the fewest pairs. Memory: 9 vectors of n, 3 of m.
 class ProjectedLbfgs final : public DwellSolver {
  public:
   explicit ProjectedLbfgs(SolverOptions options) : DwellSolver(std::move(options)) {}

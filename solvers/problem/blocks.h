@@ -4,12 +4,10 @@
 #include <array>
 #include <numeric>
 
-#include "core/removal/removal_operator.h"
-
 namespace dwell {
 
-/// Calls body(block, begin, length) for stretches of at most kBlock of 0..n, in parallel where that pays. What is
-/// summed by block and then over the blocks in order has the same bytes for any number of threads.
+/// Calls body(block, begin, length) for stretches of at most kBlock of 0..n, in parallel where that pays. A sum taken
+/// within each block and then over the blocks in order has the same bytes for any number of threads.
 inline constexpr Index kBlock = 1024;
 
 inline Index block_count(Index n) { return (n + kBlock - 1) / kBlock; }
@@ -30,6 +28,8 @@ double sum_over(Index n, int threads, const Part& part) {
   const Index length = (n + kParts - 1) / kParts;
   std::array<double, kParts> sums{};
 #pragma omp parallel for num_threads(threads) schedule(static) if (threads > 1 && n >= kWorthThreads)
+
+#include "core/base/grid.h"
   for (Index k = 0; k < kParts; ++k) {
     const Index begin = std::min(k * length, n);
     sums[static_cast<std::size_t>(k)] = part(begin, std::min(length, n - begin));

@@ -16,7 +16,7 @@ struct QuadraticPoint {
 /// |gradient restricted to what the bounds allow to move|. upper empty = no upper bounds. No workspace.
 double projected_gradient_norm(const Vector& lower, const Vector& upper, const QuadraticPoint& point);
 
-/// What minimises a quadratic form in a box.
+/// A method that minimises a quadratic form in a box.
 class BoxMinimiser {
  public:
   /// Called as a run goes on; return false to stop. The point is feasible and no worse than the start.

@@ -17,8 +17,8 @@ inline constexpr Index kMaxFormTerms = 6;
 
 /// One tool, or one pass of it: a stretch of the dwell vector with a path of its own.
 struct DwellPart {
-  /// What its removal is made of, if it is made of a removal function and strokes: lets solvers work on coarser pixels.
-  /// Null = not known.
+  /// The removal function and strokes of which its removal is made, if it is: with them solvers can work on coarser
+  /// pixels. Null = not known.
   std::shared_ptr<const RemovalGeometry> geometry{};
   PathSmoothness smoothness{};    // its D; empty = none
   std::optional<double> alpha{};  // in place of the problem's, >= 0 [nm^2/s^2]
@@ -31,9 +31,9 @@ struct DwellPart {
 ///
 ///   minimise  1/2 |W P (A t - z)|^2 + alpha/2 |D t|^2 + beta/2 |t - t0|^2 + gamma 1't   subject to  l <= t <= u
 ///
-/// P removes the form terms that the specification does not count, in the least-squares sense of the weights:
-/// W P = (I - Q Q') W with Q = `form`, orthonormal columns spanning W times the terms. A pixel of weight zero thus
-/// bends neither the fit nor the form.
+/// P removes the form terms that the specification does not count, in the least-squares sense of the weights: W P = (I
+/// - Q Q') W with Q = `form`, orthonormal columns spanning W times the terms. A pixel of weight zero thus influences
+/// neither the fit nor the form.
 ///
 /// Several tools or passes are one problem: A = [A_1 A_2 ...] (StackedRemoval), the dwell vectors one after the other,
 /// and for each a part that says its own smoothness and geometry; alpha |D t|^2 is then the sum over the parts.
@@ -42,7 +42,7 @@ struct DwellProblem {
   Vector target;                       // z, m [nm]
   Eigen::MatrixXd form;                // Q, m x 0..kMaxFormTerms
   Vector weights;                      // diagonal of W, m, >= 0; empty = all one
-  std::vector<DwellPart> parts;        // stretches of t, in order; empty = one of which nothing is known
+  std::vector<DwellPart> parts;        // stretches of t, in order; empty = one part of which nothing is known
   double alpha = 0.0;                  // >= 0 [nm^2/s^2]
   double beta = 0.0;                   // >= 0 [nm^2/s^2]
   double gamma = 0.0;                  // >= 0, price of a second [nm^2/s]
@@ -72,8 +72,8 @@ void for_parts(const DwellProblem& problem, const Visit& visit) {
   }
 }
 
-/// Throws std::invalid_argument naming the field, index and value of the first thing wrong: a size, NaN, infinity where
-/// none may be, a negative weight, l > u.
+/// Throws std::invalid_argument naming field, index and value of the first fault: a size, a NaN, an infinity where none
+/// is allowed, a negative weight, l > u.
 void validate(const DwellProblem& problem);
 
 /// Sum over the parts of alpha |D t|^2 [nm^2].
@@ -103,7 +103,7 @@ class DwellObjective {
   /// r = W P (A t - z). One application; none at t = 0.
   void residual(const Vector& t, Vector& r);
   /// Residual and gradient at t; returns the objective. Two applications; at t = 0 one, which also gives the scale of
-  /// the gradient: ask for that later.
+  /// the gradient, so that gradient_scale() costs nothing afterwards.
   double evaluate(const Vector& t, Vector& r, Vector& g);
   /// image = W P A d. One application.
   void image(const Vector& d, Vector& image);

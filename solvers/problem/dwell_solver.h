@@ -33,11 +33,11 @@ enum class SolverStatus {
   TimeLimit,
   Interrupted,  // the progress handle said stop
   Failed,
-  Stalled,  // another's solver gave up before any of our rules was met: feasible, but no optimum within tolerance
+  Stalled,  // a third-party solver gave up before any of our rules was met: feasible, but no optimum within tolerance
 };
 std::string to_string(SolverStatus status);
 
-/// What a solver says of itself while it runs.
+/// What a solver reports while it runs.
 struct SolverProgress {
   long iterations = 0;
   double coarse_pairs = 0.0;  // auto: transforms on coarser pixels so far, in operator pairs of the full problem
@@ -53,7 +53,7 @@ struct SolverOptions {
   double gradient_tolerance = 1e-6;
   /// Settled when half as much work again (at least `settle_iterations` iterations) lowers the objective by less than
   /// this share of itself. Relative; >= 0. The problem is ill-posed: the objective goes on falling, ever slower, long
-  /// after the residual has stopped to change and while the gradient is still far from its tolerance.
+  /// after the residual has stopped changing and while the gradient is still far from its tolerance.
   double objective_tolerance = 5e-3;
   long settle_iterations = 20;  // not for the coarse rounds of auto, which have rules of their own
   /// Iterations, each one operator pair (one apply, one adjoint); coarse work counts by its transforms. >= 0; 0 leaves
@@ -61,9 +61,9 @@ struct SolverOptions {
   long max_iterations = 2000;
   /// Wall clock [s]; > 0.
   double max_seconds = 3600.0;
-  /// Shown a line and asked for a stop once an iteration, and within long ones four times a second.
+  /// It is shown a line and asked whether to stop once an iteration, and four times a second within long ones.
   Progress progress{};
-  /// Given the numbers as often as `progress` is shown its line, and before it. May be empty.
+  /// It gets the numbers whenever `progress` gets a line, just before it. May be empty.
   std::function<void(const SolverProgress&)> trace{};
 };
 

@@ -8,9 +8,9 @@
 namespace dwell {
 
 /// The difference operator D of the dwell problem: how much the dwell per length changes between neighbours on the
-/// path. (D t)_k = s_(j+1) t_(j+1) - s_j t_j for every pair of dwell points j, j+1 joined without a lift, where
-/// s_j = mean length / length_j (1 for halts), so that D t is in seconds and smooth D t means smooth feed. Pairs across
-/// a lift are not linked. s_j is kept below 100: a stroke far shorter than the others cannot set the feed.
+/// path. (D t)_k = s_(j+1) t_(j+1) - s_j t_j for every pair of dwell points j, j+1 joined without a lift, where s_j =
+/// mean length / length_j (1 for halts), so that D t is in seconds and smooth D t means smooth feed. Pairs across a
+/// lift are not linked. s_j is kept below 100, so that a stroke far shorter than the others does not decide the feed.
 class PathSmoothness {
  public:
   PathSmoothness() = default;

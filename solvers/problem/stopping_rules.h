@@ -7,8 +7,8 @@
 
 namespace dwell {
 
-/// What ends a solve. Every solver and every adapter to another's solver asks these rules and no other, so that all of
-/// them stop for the same reasons and say so in the same words:
+/// What ends a solve. Every solver and every adapter to a third-party solver asks these rules and no other, so that all
+/// of them stop for the same reasons and say so in the same words:
 ///
 ///   converged       |projected gradient| <= gradient_tolerance * |A' W P z|
 ///   settled         half as much work again, at least settle_iterations, lowers the objective by less than

@@ -14,13 +14,14 @@ struct FewVariableProblem {
   double tolerance = 1e-3;   // ends when steps are smaller
   int max_evaluations = 20;  // ends after these
   /// Sets the objective and the constraints at x, which lies in the box; false = end the search. Called once an
-  /// evaluation. May throw: the search ends and what was thrown goes on to the caller.
+  /// evaluation. It may throw: the search then ends, and the exception goes on to the caller.
   std::function<bool(const std::vector<double>& x, double& objective, std::vector<double>& constraints)> evaluate;
 };
 
-/// Minimises by NLopt's LN_COBYLA (Powell 1994, linear models in a shrinking trust region): no derivatives, any
-/// number of variables from one, constraints and noise tolerated. Deterministic. What was found is for `evaluate` to
-/// remember, since with noise only what was evaluated can be trusted. Throws std::invalid_argument if the sizes differ.
+/// Minimises by NLopt's LN_COBYLA (Powell 1994, linear models in a shrinking trust region): no derivatives, any number
+/// of variables from one, constraints and noise tolerated. Deterministic. Nothing is returned: `evaluate` has to
+/// remember the best point, because under noise only points that were evaluated can be trusted. Throws
+/// std::invalid_argument if the sizes differ.
 void search_few_variables(const FewVariableProblem& problem);
 
 }  // namespace dwell

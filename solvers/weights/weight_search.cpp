@@ -220,9 +220,9 @@ class Search {
     return worst;
   }
 
-  /// No trial has met the targets yet: looks at the end of the range where they are easiest. Without that look the
-  /// search would creep towards it, where curves are flat. Whether a single weight misses its target even there; what
-  /// is easiest for one of two targets may not be so for the other.
+  /// If no trial has met the targets yet, tries the end of the range where they are easiest to meet; the curves are
+  /// flat there, so the search itself would only creep towards it. Returns whether a single weight misses its target
+  /// even there. For two weights it returns false, because what is easiest for one target need not be so for the other.
   bool out_of_reach() {
     if (places_.size() < kTrialsBeforeEnd * axes_.size() || meets(result_.trials[best()].trade_off)) return false;
     Place end;
@@ -231,7 +231,7 @@ class Search {
     return axes_.size() == 1 && (!at_end || !meets(result_.trials[*at_end].trade_off));
   }
 
-  /// Nothing is left to gain: every weight is set by a target, met closely or at the end of its range.
+  /// Whether nothing is left to gain: every weight has a target that is met closely, or lies at the end of its range.
   bool settled(std::size_t k) const {
     const TradeOff& t = result_.trials[k].trade_off;
     if (!meets(t)) return false;

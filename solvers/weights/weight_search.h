@@ -16,7 +16,7 @@ struct Weights {
   friend bool operator==(const Weights&, const Weights&) = default;
 };
 
-/// What the dwell found with some weights trades.
+/// The quantities that the weights trade against each other, of the dwell found with some weights.
 struct TradeOff {
   double residual_rms = 0.0;  // |W P (A t - z)| / sqrt(m) [nm]
   double total = 0.0;         // 1't [s]
@@ -45,9 +45,10 @@ struct WeightRange {
   double corner_least = 0.0, corner_most = 0.0;
 };
 
-/// From next to no smoothing to a feed that hardly changes; the corner among weights at which a usual part still gains.
+/// From next to no smoothing to a feed that hardly changes; the corner is sought among weights at which an ordinary
+/// part still gains.
 inline constexpr WeightRange kSmoothnessRange{1e-5, 100.0, 1e-3, 10.0};
-/// `highest` [nm^2/s]: the price at which no dwell above the least pays.
+/// `highest` [nm^2/s]: the price from which on no dwell above the least pays.
 WeightRange time_price_range(double highest);
 
 struct WeightSearchOptions {

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "core/base/whole_file.h"
+#include "runs/reports/plan_files.h"
 #include "tests/cli/small_inputs.h"
 
 namespace dwell {
@@ -21,9 +22,12 @@ TEST(PlanCommand, WritesEveryFileAndPrintsWhatItDid) {
   const SmallInputs inputs;
   const ProgramResult result = inputs.run(SmallInputs::plan());
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_EQ(names_in(inputs / "plan"), (std::set<std::string>{"after.png", "before.png", "dwell.npy", "dwell.png",
-                                                              "feed.csv", "path.png", "path_detail.png", "program.nc",
-                                                              "residual.npy", "residual.npy.json", "summary.json"}));
+  std::set<std::string> files{std::string(plan_files().always)};
+  files.insert(plan_files().others.begin(), plan_files().others.end());
+  EXPECT_EQ(files.erase("search.csv"), 1u) << "of plans whose weights were searched";
+  for (const std::string_view figure : plan_files().figures) files.insert(std::string(figure) + ".png");
+  EXPECT_EQ(names_in(inputs / "plan"), files);
+  for (const char* name : {"summary.json", "feed.csv", "program.nc"}) EXPECT_TRUE(files.contains(name)) << name;
   EXPECT_EQ(names_in(inputs.folder.path()), (std::set<std::string>{"map.csv", "tif.csv", "plan"}));
   for (const char* line : {"map ", "before ", "tool ", "path ", "solver ", "dwell ", "feed ", "predicted ", "program ",
                            "written   plan\n"}) {
@@ -40,9 +44,10 @@ TEST(PlanCommand, WritesFiguresInTheFormatsAskedForAndReplacesThem) {
   const ProgramResult result = inputs.run(vectors);
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const std::set<std::string> names = names_in(inputs / "plan");
-  for (const char* name : {"before", "after", "dwell", "path", "path_detail"}) {
-    EXPECT_TRUE(names.contains(std::string(name) + ".svg") && names.contains(std::string(name) + ".pdf")) << name;
-    EXPECT_FALSE(names.contains(std::string(name) + ".png")) << name;
+  for (const std::string_view figure : plan_files().figures) {
+    const std::string name(figure);
+    EXPECT_TRUE(names.contains(name + ".svg") && names.contains(name + ".pdf")) << name;
+    EXPECT_FALSE(names.contains(name + ".png")) << name;
   }
   const std::string svg = read_whole_file(inputs / "plan/before.svg");
   for (const char* words : {"Before: RMS", "x [mm]", ">nm<"}) expect_has(svg, words);

@@ -15,7 +15,7 @@ namespace dwell {
 namespace {
 
 constexpr double kRadiusInExtents = 2.25;      // of 30 % of the peak: 3.5 sigma of a Gaussian
-constexpr double kLeastRadiusInExtents = 1.2;  // that edge or neighbour must leave
+constexpr double kLeastRadiusInExtents = 1.2;  // room that an edge or a neighbour must leave
 
 void check(const SpotOptions& o) {
   if (!(std::isfinite(o.dwell_time) && o.dwell_time > 0.0)) {
@@ -59,7 +59,7 @@ std::vector<FoundSpot> spots_of(const HeightMap& depth, const SpotOptions& optio
   return chosen;
 }
 
-/// As far as spots reach where the user does not say: not into a neighbour, nor over the edge.
+/// How far spots reach if the user does not say: neither into a neighbour nor over the edge.
 double radius_of(const HeightMap& depth, const std::vector<FoundSpot>& spots) {
   const Grid& g = depth.grid;
   double extent = 0.0, room = HUGE_VAL;
@@ -105,7 +105,7 @@ double half_width(const SpotPatch& patch, double radius) {
   return 2.0 * std::sqrt(static_cast<double>(above) * g.pitch_x * g.pitch_y / std::numbers::pi);
 }
 
-/// Refuses a spot that was registered away from the place given for it: it is another one, or the noise there.
+/// Refuses a spot that was registered away from the place given for it: then it is another spot, or noise.
 void refuse_jumps(const std::vector<SpotPatch>& patches, double radius, const std::vector<Point>& at) {
   for (std::size_t k = 0; k < at.size(); ++k) {
     const Point found = patches[k].centre;
@@ -119,7 +119,7 @@ void refuse_jumps(const std::vector<SpotPatch>& patches, double radius, const st
   }
 }
 
-/// The apex of the paraboloid through what is above 70 % of the peak, weighted by how far above.
+/// The apex of the paraboloid through the values above 70 % of the peak, each weighted by its excess over that level.
 Point apex(const HeightMap& map, double peak, double radius) {
   Eigen::Matrix<double, 6, 6> normal = Eigen::Matrix<double, 6, 6>::Zero();
   Eigen::Matrix<double, 6, 1> right = Eigen::Matrix<double, 6, 1>::Zero();
@@ -178,6 +178,33 @@ double cut_noise(HeightMap& rates, double radius, double level) {
   return (before - after) / before;
 }
 
+/// Cuts out all spots. Refuses one where the surface has risen.
+std::vector<SpotPatch> cut_spots(const HeightMap& depth, const std::vector<FoundSpot>& spots, double radius,
+                                 SpotBaseline baseline) {
+  std::vector<Point> centres;
+  centres.reserve(spots.size());
+  for (const FoundSpot& s : spots) centres.push_back(s.centre);
+  std::vector<SpotPatch> patches;
+  for (const Point p : centres) {
+    patches.push_back(cut_spot(depth, p, radius, centres, baseline));
+    const Sums sums = sums_of(patches.back().depth, p, radius);
+    if (sums.volume > 0.0) continue;
+    double rise = 0.0;
+    for (const double v : patches.back().depth.values) rise = std::max(rise, -v);
+    refuse_rise(rise, sums.peak);
+  }
+  return patches;
+}
+
+void append_history(std::vector<std::string>& history, const SpotOptions& options, std::size_t spots, double radius,
+                    double level) {
+  history.push_back(fmt::format("tif: {} spot{} of {} s, baseline {} from {:.4g} to {:.4g} mm around", spots,
+                                spots > 1 ? "s averaged" : "", options.dwell_time, word(options.baseline), radius,
+                                1.6 * radius));
+  history.push_back(fmt::format("tif: rates below {:.4g} nm/s and beyond {:.4g} mm set to 0, tool axis at {}", level,
+                                radius, word(options.centre)));
+}
+
 }  // namespace
 
 SpotCentre parse_spot_centre(const std::string& text) {
@@ -225,23 +252,11 @@ SpotCalibration calibrate_spots(const HeightMap& depth, const SpotOptions& optio
   SpotCalibration result;
   result.radius = options.radius ? *options.radius : radius_of(depth, spots);
   const double radius = result.radius, per_second = 1.0 / options.dwell_time;
-  std::vector<Point> centres;
-  centres.reserve(spots.size());
-  for (const FoundSpot& s : spots) centres.push_back(s.centre);
-  std::vector<SpotPatch> patches;
-  for (const Point p : centres) {
-    patches.push_back(cut_spot(depth, p, radius, centres, options.baseline));
-    const Sums sums = sums_of(patches.back().depth, p, radius);
-    if (!(sums.volume > 0.0)) {
-      double rise = 0.0;
-      for (const double v : patches.back().depth.values) rise = std::max(rise, -v);
-      refuse_rise(rise, sums.peak);
-    }
-    result.filled_pixels += patches.back().filled_inside;
-  }
+  std::vector<SpotPatch> patches = cut_spots(depth, spots, radius, options.baseline);
+  for (const SpotPatch& patch : patches) result.filled_pixels += patch.filled_inside;
   register_spots(patches, radius, options.registration);
   refuse_jumps(patches, radius, options.at);
-  SpotMean mean = mean_of_spots(patches);
+  SpotMean mean = average_spots(patches);
   double scatter = 0.0;
   for (const SpotPatch& patch : patches) {
     const Sums sums = sums_of(patch.depth, patch.centre, radius);
@@ -265,12 +280,7 @@ SpotCalibration calibrate_spots(const HeightMap& depth, const SpotOptions& optio
   result.rates.grid.origin = result.rates.grid.origin - axis;
   result.deviation.grid.origin = result.rates.grid.origin;
   result.rates.history = depth.history;
-  result.rates.history.push_back(fmt::format("tif: {} spot{} of {} s, baseline {} from {:.4g} to {:.4g} mm around",
-                                             patches.size(), patches.size() > 1 ? "s averaged" : "", options.dwell_time,
-                                             word(options.baseline), radius, 1.6 * radius));
-  result.rates.history.push_back(
-      fmt::format("tif: rates below {:.4g} nm/s and beyond {:.4g} mm set to 0, tool axis at {}", level, radius,
-                  word(options.centre)));
+  append_history(result.rates.history, options, patches.size(), radius, level);
   return result;
 }
 

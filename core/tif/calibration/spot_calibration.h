@@ -56,12 +56,12 @@ struct SpotCalibration {
 HeightMap removed_depth(const HeightMap& before, const HeightMap& after);
 
 /// The removal function from the removed depth [nm] (removed_depth, or minus the map after where the surface was flat
-/// before: level and tilt go with the baseline). Spots are cut out, their baseline taken off, registered to each other,
-/// averaged, divided by the dwell time, cut where below noise or beyond the radius, and centred. Throws InputError
-/// naming the spot or the option; among them before and after swapped (the volume is not positive), and a spot that is
-/// registered farther from its place in `at` than half the diameter of the disc of its area above half its peak, and a
-/// pixel. Cost O(pixels of
-/// the map + 100 of the spots).
+/// before: level and tilt go with the baseline). Each spot is cut out and its baseline taken off; the spots are
+/// registered to each other, averaged and divided by the dwell time; the mean is set to zero below the noise and beyond
+/// the radius, and centred. Throws InputError naming the spot or the option: also if before and after seem to be
+/// swapped (the volume is not positive), and if a spot is registered too far from its place in `at`, by more than a
+/// pixel plus half the diameter of the disc that has its area above half its peak. Cost O(pixels of the map + 100 times
+/// those of the spots).
 SpotCalibration calibrate_spots(const HeightMap& depth, const SpotOptions& options);
 
 }  // namespace dwell

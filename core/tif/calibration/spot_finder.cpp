@@ -30,7 +30,7 @@ struct Region {
 };
 
 /// The map less its plane, each pixel the mean of the finite ones of 3 x 3.
-HeightMap smoothed(const HeightMap& depth, const Plane& plane) {
+HeightMap smooth_depth(const HeightMap& depth, const Plane& plane) {
   const Grid& g = depth.grid;
   HeightMap result(g);
   for (Index r = 0; r < g.rows; ++r) {
@@ -108,7 +108,7 @@ std::vector<FoundSpot> find_spots(const HeightMap& depth) {
   if (pixels.size() < 25) {
     throw InputError(fmt::format("{} pixels with data; at least 25 are required to find a spot", pixels.size()));
   }
-  const HeightMap smooth = smoothed(depth, robust_plane(depth, pixels, true));
+  const HeightMap smooth = smooth_depth(depth, robust_plane(depth, pixels, true));
   const double scatter = robust_plane(smooth, pixels, false).scatter;
   double deepest = 0.0, highest = 0.0;
   for (const Index i : pixels) {

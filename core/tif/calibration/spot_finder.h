@@ -20,7 +20,7 @@ struct FoundSpot {
 /// Cost O(pixels).
 std::vector<FoundSpot> find_spots(const HeightMap& depth);
 
-/// Throws InputError that says how to mend it: the surface rises where it should have gone down.
+/// Throws InputError because the surface rises where it should have gone down; the message says how to mend that.
 [[noreturn]] void refuse_rise(double rise, double fall);
 
 }  // namespace dwell

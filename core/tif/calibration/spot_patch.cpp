@@ -64,8 +64,8 @@ Plane surroundings(const HeightMap& depth, Point centre, double radius, const st
       baseline == SpotBaseline::Plane ? "constant or none" : "none"));
 }
 
-/// Pixels without data take the mean of their neighbours that have some, ring by ring from the rim of the hole; off the
-/// map all is zero.
+/// Pixels without data take the mean of their neighbours with data, ring by ring from the rim of the hole. Off the map,
+/// all is zero.
 void fill_holes(SpotPatch& patch) {
   const Grid& g = patch.depth.grid;
   std::vector<char> open = patch.filled;

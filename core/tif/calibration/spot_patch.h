@@ -22,13 +22,14 @@ struct SpotPatch {
 enum class SpotBaseline { Plane, Constant, None };
 
 /// Cuts out the spot near `centre`. `others`: centres of all spots, this one among them. Throws InputError if more than
-/// 5 % of the pixels within `radius` have no data or lie off the map, if they are less than 12, or if the surroundings
-/// are too few or on one side only.
+/// 5 % of the pixels within `radius` have no data or lie off the map, if there are fewer than 12 such pixels, or if the
+/// surroundings are too few or on one side only.
 SpotPatch cut_spot(const HeightMap& depth, Point centre, double radius, const std::vector<Point>& others,
                    SpotBaseline baseline);
 
-/// Centroid of a patch's values above `share` of its largest, less that level, within `radius` of the place itself
-/// (iterated): blind to noise that is lower. In the coordinates of the map.
+/// The centroid, in the coordinates of the map, of a patch's values above `share` of its largest, less that level, so
+/// that lower noise does not count. Only values within `radius` of the centroid itself count, which is found by
+/// iteration from `start`.
 Point spot_centroid(const SpotPatch& patch, Point start, double radius, double share);
 
 }  // namespace dwell

@@ -13,10 +13,9 @@ namespace {
 
 constexpr int kRounds = 3, kSteps = 10;
 
-/// The patch under the binomial filter 1 4 6 4 1 both ways. White noise loses part of its variance where it is
-/// interpolated between pixels, so that a least-squares shift is drawn to half pixels by it; filtered, it loses next to
-/// none.
-SpotPatch softened(SpotPatch patch) {
+/// The patch under the binomial filter 1 4 6 4 1 in x and in y. Interpolation between pixels lowers the variance of
+/// white noise, which biases a least-squares shift towards half pixels; of filtered noise it lowers next to none.
+SpotPatch soften_patch(SpotPatch patch) {
   constexpr std::array<double, 5> kFilter{1.0 / 16, 4.0 / 16, 6.0 / 16, 4.0 / 16, 1.0 / 16};
   HeightMap& map = patch.depth;
   const Index rows = map.grid.rows, cols = map.grid.cols;
@@ -65,7 +64,7 @@ Point shift_of(const SpotPatch& patch, const HeightMap& reference, double radius
 
 }  // namespace
 
-SpotMean mean_of_spots(const std::vector<SpotPatch>& patches) {
+SpotMean average_spots(const std::vector<SpotPatch>& patches) {
   Grid grid = patches.front().depth.grid;
   grid.origin = grid.origin - patches.front().centre;
   SpotMean result{HeightMap(grid), HeightMap(grid)};
@@ -75,7 +74,7 @@ SpotMean mean_of_spots(const std::vector<SpotPatch>& patches) {
     const Point p = grid.centre(i);
     double sum = 0.0, square = 0.0;
     for (std::size_t k = 0; k < patches.size(); ++k) {
-      // The first spot's own pixels are taken as they are; the spline gives them back to rounding only.
+      // The first spot's own pixels are taken as they are, because the spline would change their last bits.
       at_pixel[k] =
           k == 0 ? patches[0].depth.values[static_cast<std::size_t>(i)] : patches[k].surface(patches[k].centre + p);
       sum += at_pixel[k];
@@ -93,9 +92,9 @@ void register_spots(std::vector<SpotPatch>& patches, double radius, SpotRegistra
   if (how == SpotRegistration::Centroid || patches.size() < 2) return;
   std::vector<SpotPatch> soft;
   soft.reserve(patches.size());
-  for (const SpotPatch& patch : patches) soft.push_back(softened(patch));
+  for (const SpotPatch& patch : patches) soft.push_back(soften_patch(patch));
   for (int round = 0; round < kRounds; ++round) {
-    const HeightMap reference = mean_of_spots(soft).mean;
+    const HeightMap reference = average_spots(soft).mean;
     std::vector<Point> shifts;
     shifts.reserve(soft.size());
     for (const SpotPatch& patch : soft) shifts.push_back(shift_of(patch, reference, radius));

@@ -8,6 +8,7 @@
 #include "core/base/errors.h"
 #include "core/base/rotation.h"
 #include "core/map/robust_plane.h"
+#include "core/numerics/median.h"
 #include "core/tif/calibration/spot_finder.h"
 
 namespace dwell {
@@ -40,12 +41,6 @@ struct Bins {
   double mean(std::size_t i) const { return sum[i] / static_cast<double>(count[i]); }
   double at(std::size_t i) const { return place[i] / static_cast<double>(count[i]); }
 };
-
-double median_of(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 void check(const TrenchOptions& o) {
   if (!(std::isfinite(o.feed) && o.feed > 0.0)) {
@@ -130,7 +125,7 @@ void choose_stretch(const std::vector<TrackPixel>& pixels, TrenchCalibration& tr
   for (std::size_t i = 0; i < along.sum.size(); ++i) {
     if (whole(i) && along.mean(i) > 0.5 * most) volumes.push_back(along.mean(i));
   }
-  const double usual = volumes.empty() ? 0.0 : median_of(volumes);
+  const double usual = volumes.empty() ? 0.0 : upper_median(volumes);
   std::size_t best_from = 0, best_to = 0;
   for (std::size_t i = 0, from = 0; i <= along.sum.size(); ++i) {
     const bool good = i < along.sum.size() && whole(i) && std::abs(along.mean(i) - usual) <= 0.05 * usual;

@@ -33,8 +33,9 @@ struct TrenchCalibration {
 /// surroundings. Moved at speed f along u, the tool takes
 ///   depth(v) = (1 / f) integral of b(u, v) du,
 /// so that depth times feed is the Abel transform of b (Lin et al. 2014, eq. 2-5 for a straight line), inverted by
-/// abel_inversion. An asymmetric tool cannot be told from one trench: `asymmetry` says how far from symmetric the
-/// section is across the track, nothing about along it. Throws InputError naming option or finding. Cost O(pixels).
+/// abel_inversion. One trench does not show whether the tool is rotationally symmetric: `asymmetry` says how far from
+/// symmetric the section is across the track, and nothing about the direction along it. Throws InputError naming option
+/// or finding. Cost O(pixels).
 TrenchCalibration calibrate_trench(const HeightMap& depth, const TrenchOptions& options);
 
 }  // namespace dwell

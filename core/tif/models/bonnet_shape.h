@@ -15,9 +15,10 @@ struct BonnetContact {
   double angle = 0.0;       // towards which the spin axis leans in the first position [deg], counter-clockwise from +x
 };
 
-/// A spinning spherical cap pressed on the part until its contact is a disc of radius a, its spin axis through the
-/// centre of the sphere inclined by the precession angle. Preston's rate: pressure (1 - r^2/a^2)^q times the sliding
-/// speed; the centre is h = sqrt(R^2 - a^2) above the part and, with the axis leaning towards +x,
+/// The removal of a spinning spherical cap that is pressed on the part until its contact is a disc of radius a. Its
+/// spin axis passes through the centre of the sphere and is inclined by the precession angle. Preston's rate is
+/// pressure (1 - r^2/a^2)^q times the sliding speed; the centre is h = sqrt(R^2 - a^2) above the part and, with the
+/// axis leaning towards +x,
 ///   |v| / w = sqrt(r^2 cos^2 + h^2 sin^2 + 2 h x sin cos)   [mm], sin and cos of the precession,
 /// averaged over the positions (Xie, Gao, Yao, Yuan 2007, https://doi.org/10.1504/IJCAT.2007.015258: Preston in
 /// precession). The speed is zero where the spin axis meets the part, at x = -h tan. Throws InputError naming what is

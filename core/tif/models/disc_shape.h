@@ -5,8 +5,8 @@
 
 namespace dwell {
 
-/// r within the radius of a spinning disc, with a ramp of the width `blur` in place of its rim, so that a fit can find
-/// it. Both [mm], radius > 0.
+/// The removal of a spinning disc: r within its radius. A ramp of the width `blur` replaces the jump at the rim,
+/// because a fit cannot follow a jump. Both [mm], radius > 0.
 RemovalShape disc_shape(double radius, double blur);
 
 /// Its row in removal_models(). A specification gives the slope of the rate, and keeps the closed form.

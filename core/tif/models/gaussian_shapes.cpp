@@ -104,8 +104,8 @@ RemovalModel mrf_model() {
     }
     return starts;
   };
-  // A D turned half round with its steep and its long side exchanged is the same D: the long side is taken to be
-  // upstream.
+  // A D that is turned by 180 degrees and has its steep and its long side exchanged is the same D. The form shown is
+  // the one whose long side is upstream.
   model.make_canonical = [](std::span<double> v, const std::vector<bool>& held) {
     if (held[0] || held[1] || held[3] || v[0] >= v[1]) return;
     std::swap(v[0], v[1]);

@@ -50,7 +50,7 @@ struct Motion {
   }
 };
 
-/// Values over a stretch of radii at places that crowd towards both ends, where the half angle has the slope of a root.
+/// Values over a stretch of radii. The places crowd towards both ends, where the half angle grows like a square root.
 struct Stretch {
   double from, to;
   std::vector<double> values;

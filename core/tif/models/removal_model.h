@@ -44,8 +44,8 @@ struct RemovalModel {
   bool preston = false;  // its shape is pressure share x speed / angular velocity [mm]: Preston's law gives the rate
   /// The shape of these parameters, in their order. Jumps are ramps of the width `blur` [mm]. Throws InputError.
   RemovalShape (*shape)(std::span<const double> values, double blur);
-  /// Starts of a fit; more than one where the moments do not tell (which way a D looks, how far a pad is out of its
-  /// axis).
+  /// Starts of a fit; more than one where the moments do not decide (which way a D points, how far a pad lies from the
+  /// tool axis).
   std::vector<ModelStart> (*starts)(const RemovalMoments& moments);
 
   /// The removal function of a specification, for models that have a closed form and keys of their own; null: the
@@ -54,13 +54,13 @@ struct RemovalModel {
   /// The specification of fitted values that a user may copy, for models with keys of their own; null: peak and
   /// parameters.
   std::string (*spec)(double peak, std::span<const double> values) = nullptr;
-  /// Of two sets of values that are the same form, puts the one that is shown; null: there are none. held: which values
-  /// may not change.
+  /// Where two sets of values describe the same form, replaces `values` by the set that is shown to users; null: no
+  /// form has two. held: which values may not change.
   void (*make_canonical)(std::span<double> values, const std::vector<bool>& held) = nullptr;
-  /// Whether a parameter means nothing beside the values that are held (NaN: not held); null: none ever.
+  /// Whether the values that are held (NaN: not held) leave a parameter without meaning; null: never.
   bool (*idle)(std::size_t parameter, std::span<const double> held) = nullptr;
 
-  /// Whether a fit needs no more than the samples: no parameter must be held.
+  /// Whether a fit needs the samples alone, because no parameter has to be held.
   bool fits_alone() const {
     for (const ModelParameter& p : parameters) {
       if (!p.fitted && !p.fallback) return false;

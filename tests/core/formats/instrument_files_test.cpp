@@ -5,10 +5,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 
 #include "core/base/whole_file.h"
+#include "core/formats/map_formats.h"
 #include "core/formats/map_io.h"
 #include "tests/core/base/expect_error.h"
 #include "tests/core/base/temporary_folder.h"
@@ -45,6 +47,18 @@ void expect_the_part(const HeightMap& map, const InstrumentFile& file) {
         ASSERT_NEAR(map.at(r, c), height, file.tolerance) << file.name << " " << r << " " << c;
       }
     }
+  }
+}
+
+TEST(InstrumentFiles, HoldEveryFormat) {
+  for (const MapFormat& format : map_formats()) {
+    const std::vector<InstrumentFile> files = test::instrument_files();
+    EXPECT_TRUE(std::any_of(files.begin(), files.end(),
+                            [&](const InstrumentFile& file) {
+                              return map_format_of(read_whole_file(committed(file)),
+                                                   committed(file).extension().string()) == &format;
+                            }))
+        << format.name << " has no file in instrument_files.h";
   }
 }
 

@@ -20,24 +20,24 @@ TEST(BlockAverage, IsTheMeanByHandWithTheHalfRule) {
   const HeightMap map(Grid{3, 8, 0.5, 0.25, {1.0, -2.0}}, {1, 2, 3, n, n, 5, 10, 20,  //
                                                            4, n, 6, n, 1, n, 30, 40,  //
                                                            7, 8, 9, 5, n, 1, 50, 60});
-  const HeightMap mean = decimated(map, 2, 3);
+  const HeightMap mean = decimate_map(map, 2, 3);
   // Row 1 of blocks is half a block high: full rows of it have just half. Column 2 is two thirds wide: 4 of 6, 2 of 6.
   const HeightMap expected(Grid{2, 3, 1.5, 0.5, {1.5, -1.875}}, {3.2, n, 25.0, 8.0, n, n});
   test::expect_same_map(mean, expected);
-  test::expect_same_map(decimated(map, 1, 1), map);
+  test::expect_same_map(decimate_map(map, 1, 1), map);
 }
 
 TEST(BlockAverage, LeavesOutBlocksThatCannotBeHalfFull) {
   const HeightMap map = map_of({7, 9, 0.3, 0.2, {}}, [](double x, double y) { return x + y; });
-  EXPECT_EQ(decimated(map, 5, 4).grid.rows, 1);  // 2 of 5 rows left over
-  EXPECT_EQ(decimated(map, 4, 4).grid.rows, 2);  // 3 of 4
-  EXPECT_EQ(decimated(map, 5, 4).grid.cols, 2);  // 1 of 4
-  EXPECT_EQ(decimated(map, 5, 6).grid.cols, 2);  // 3 of 6
+  EXPECT_EQ(decimate_map(map, 5, 4).grid.rows, 1);  // 2 of 5 rows left over
+  EXPECT_EQ(decimate_map(map, 4, 4).grid.rows, 2);  // 3 of 4
+  EXPECT_EQ(decimate_map(map, 5, 4).grid.cols, 2);  // 1 of 4
+  EXPECT_EQ(decimate_map(map, 5, 6).grid.cols, 2);  // 3 of 6
 }
 
 TEST(BlockAverage, PutsTheMeanOfAPlaneWhereThePlaneHasIt) {
   const auto plane = [](double x, double y) { return 3.0 * x - 2.0 * y + 1.0; };
-  const HeightMap mean = decimated(map_of({8, 12, 0.3, 0.2, {-1.0, 4.0}}, plane), 4, 3);
+  const HeightMap mean = decimate_map(map_of({8, 12, 0.3, 0.2, {-1.0, 4.0}}, plane), 4, 3);
   for (Index i = 0; i < mean.grid.size(); ++i) {
     const Point p = mean.grid.centre(i);
     EXPECT_NEAR(mean.values[static_cast<std::size_t>(i)], plane(p.x, p.y), 1e-12);
@@ -46,17 +46,17 @@ TEST(BlockAverage, PutsTheMeanOfAPlaneWhereThePlaneHasIt) {
 
 TEST(BlockAverage, RefusesFactorsThatLeaveNothing) {
   const HeightMap map = uneven_map();
-  expect_input_error([&] { decimated(map, 0, 2); }, {"0 x 2", "at least 1 x 1"});
-  expect_input_error([&] { decimated(map, 19, 2); }, {"too large"});
-  expect_input_error([&] { decimated(map, Index{1} << 62, Index{1} << 62); }, {"too large"});
+  expect_input_error([&] { decimate_map(map, 0, 2); }, {"0 x 2", "at least 1 x 1"});
+  expect_input_error([&] { decimate_map(map, 19, 2); }, {"too large"});
+  expect_input_error([&] { decimate_map(map, Index{1} << 62, Index{1} << 62); }, {"too large"});
   HeightMap sparse(Grid{4, 4, 1, 1, {}});
   sparse.at(0, 0) = 1.0;
-  expect_input_error([&] { decimated(sparse, 4, 4); }, {"no block"});
+  expect_input_error([&] { decimate_map(sparse, 4, 4); }, {"no block"});
 }
 
 TEST(Resample, FinerKeepsTheHeightsOfTheOldPixels) {
   const HeightMap map = uneven_map();
-  const HeightMap fine = resampled(map, {0.15, 0.05}, 2);
+  const HeightMap fine = resample_map(map, {0.15, 0.05}, 2);
   EXPECT_EQ(fine.grid.cols, 27);
   EXPECT_EQ(fine.grid.rows, 33);
   EXPECT_EQ(fine.grid.origin, map.grid.origin);
@@ -75,7 +75,7 @@ TEST(Resample, CoarserAveragesFirst) {
   // A ripple of two pixels would alias to a constant of 5 without averaging; its mean is zero.
   const HeightMap map = map_of({40, 60, 0.3, 0.2, {2.0, -1.0}},
                                [](double x, double) { return std::llround((x - 2.0) / 0.3) % 2 == 0 ? 5.0 : -5.0; });
-  const HeightMap coarse = resampled(map, {0.6, 0.2});
+  const HeightMap coarse = resample_map(map, {0.6, 0.2});
   EXPECT_EQ(coarse.grid.cols, 30);
   EXPECT_EQ(coarse.grid.rows, 40);
   EXPECT_NEAR(coarse.grid.origin.x, 2.15, 1e-12);
@@ -86,7 +86,7 @@ TEST(Resample, FollowsASmoothSurfaceAtAnyPitch) {
   const auto height = [](double x, double y) { return 20.0 * std::sin(0.2 * x) * std::cos(0.17 * y + 0.3); };
   const HeightMap map = map_of({90, 120, 0.3, 0.2, {-7.0, 4.0}}, height);
   for (const Point pitch : {Point{0.17, 0.11}, Point{0.44, 0.37}, Point{1.0, 0.7}, Point{0.2, 0.9}}) {
-    const HeightMap result = resampled(map, pitch);
+    const HeightMap result = resample_map(map, pitch);
     EXPECT_EQ(result.grid.pitch_x, pitch.x);
     EXPECT_EQ(result.grid.pitch_y, pitch.y);
     EXPECT_EQ(result.valid_pixels(), result.grid.size());
@@ -103,10 +103,10 @@ TEST(Resample, FollowsASmoothSurfaceAtAnyPitch) {
 TEST(Resample, RefusesAPitchThatIsNoneOrTooFine) {
   const HeightMap map = uneven_map();
   for (const double pitch : {0.0, -1.0, kNoData, 1.0 / 0.0}) {
-    expect_input_error([&] { resampled(map, {pitch, 0.2}); }, {"pitch", "finite and > 0"});
+    expect_input_error([&] { resample_map(map, {pitch, 0.2}); }, {"pitch", "finite and > 0"});
   }
-  expect_input_error([&] { resampled(map, {1e-9, 1e-9}); }, {"pixels are accepted"});
-  expect_input_error([&] { resampled(map, {1e9, 1e9}); }, {"no block of"});
+  expect_input_error([&] { resample_map(map, {1e-9, 1e-9}); }, {"pixels are accepted"});
+  expect_input_error([&] { resample_map(map, {1e9, 1e9}); }, {"no block of"});
 }
 
 }  // namespace

@@ -41,7 +41,7 @@ TEST(Extend, KeepsTheDataToTheBitAndReachesAsFarAsTheWidth) {
   for (const Extension how :
        {Extension::Zero, Extension::Nearest, Extension::Decay, Extension::Harmonic, Extension::Gerchberg}) {
     ExtendSummary summary;
-    const HeightMap wide = extended(map, options_of(how, 0.65), summary);
+    const HeightMap wide = extend_map(map, options_of(how, 0.65), summary);
     EXPECT_EQ(wide.grid.cols, 14 + 2 * 3);
     EXPECT_EQ(wide.grid.rows, 9 + 2 * 4);
     EXPECT_LE(distance(wide.grid.centre(4, 3), map.grid.origin), 1e-12);
@@ -69,9 +69,9 @@ TEST(Extend, NearestDecayAndZeroAreTheirFormulas) {
   const HeightMap map =
       map_of({5, 7, 0.31, 0.2, {-1.0, 2.0}}, [](double x, double y) { return 5.0 + x * x + 3.0 * y; });
   ExtendSummary summary;
-  const HeightMap zero = extended(map, options_of(Extension::Zero, 0.7), summary);
-  const HeightMap nearest = extended(map, options_of(Extension::Nearest, 0.7), summary);
-  const HeightMap decay = extended(map, options_of(Extension::Decay, 0.7), summary);
+  const HeightMap zero = extend_map(map, options_of(Extension::Zero, 0.7), summary);
+  const HeightMap nearest = extend_map(map, options_of(Extension::Nearest, 0.7), summary);
+  const HeightMap decay = extend_map(map, options_of(Extension::Decay, 0.7), summary);
   for (Index i = 0; i < zero.grid.size(); ++i) {
     const auto k = static_cast<std::size_t>(i);
     const Nearest near = nearest_by_search(map, zero.grid.centre(i));
@@ -85,7 +85,7 @@ TEST(Extend, NearestDecayAndZeroAreTheirFormulas) {
 TEST(Extend, HarmonicIsTheMeanOfItsNeighboursEverywhere) {
   const HeightMap map = uneven_map();
   ExtendSummary summary;
-  const HeightMap wide = extended(map, options_of(Extension::Harmonic, 1.1), summary);
+  const HeightMap wide = extend_map(map, options_of(Extension::Harmonic, 1.1), summary);
   const Grid& g = wide.grid;
   for (Index r = 0; r < g.rows; ++r) {
     for (Index c = 0; c < g.cols; ++c) {
@@ -119,7 +119,7 @@ TEST(Extend, GerchbergContinuesABandLimitedSurface) {
   options.iterations = 20000;
   options.tolerance = 1e-9;
   ExtendSummary summary;
-  const HeightMap wide = extended(map, options, summary);
+  const HeightMap wide = extend_map(map, options, summary);
   EXPECT_EQ(wide.grid.rows, 48);
   EXPECT_EQ(wide.grid.cols, 60);
   double worst = 0.0, by_nearest = 0.0;
@@ -139,17 +139,17 @@ TEST(Extend, GerchbergEndsAtItsLimitAndSaysSo) {
   options.iterations = 3;
   options.tolerance = 0.0;
   ExtendSummary summary;
-  extended(uneven_map(), options, summary);
+  extend_map(uneven_map(), options, summary);
   EXPECT_EQ(summary.iterations, 3);
   EXPECT_GT(summary.change, 0.0);
-  EXPECT_THROW(extended(uneven_map(), options, summary, 1, Progress{{}, [] { return true; }}), Interrupted);
+  EXPECT_THROW(extend_map(uneven_map(), options, summary, 1, Progress{{}, [] { return true; }}), Interrupted);
 }
 
 TEST(Extend, RefusesOptionsOutOfRange) {
   ExtendSummary summary;
   const HeightMap map = uneven_map();
   const auto refused = [&](ExtendOptions options, std::initializer_list<std::string> words) {
-    expect_input_error([&] { extended(map, options, summary); }, words);
+    expect_input_error([&] { extend_map(map, options, summary); }, words);
   };
   for (const double width : {0.0, -1.0, kNoData, 1.0 / 0.0}) refused(options_of(Extension::Zero, width), {"width"});
   refused(options_of(Extension::Zero, 1e9), {"width = 1000000000 mm", "pixels are accepted"});

@@ -33,7 +33,7 @@ TEST_P(MapTurn, PutsEveryHeightWhereTheMatrixSaysAboutTheMiddleAndAboutAPoint) {
   const HeightMap map = uneven_map();
   const Point middle{-1.1 + 0.5 * 13 * 0.3, 2.3 + 0.5 * 8 * 0.2};
   for (const auto& about : {std::optional<Point>(), std::optional<Point>({0.7, -1.9}), std::optional<Point>(Point{})}) {
-    const HeightMap result = turned(map, turn, about);
+    const HeightMap result = turn_map(map, turn, about);
     const Point centre = about.value_or(middle);
     ASSERT_EQ(result.grid.size(), map.grid.size());
     EXPECT_EQ(result.valid_pixels(), map.valid_pixels());
@@ -41,7 +41,7 @@ TEST_P(MapTurn, PutsEveryHeightWhereTheMatrixSaysAboutTheMiddleAndAboutAPoint) {
     for (Index i = 0; i < map.grid.size(); ++i) {
       const Point p = map.grid.centre(i), d = p - centre;
       const Point q = centre + Point{xx * d.x + xy * d.y, yx * d.x + yy * d.y};
-      EXPECT_LE(distance(turned(p, turn, centre), q), 1e-12);
+      EXPECT_LE(distance(turn_point(p, turn, centre), q), 1e-12);
       const double before = map.values[static_cast<std::size_t>(i)], after = height_at(result, q);
       EXPECT_TRUE(before == after || (std::isnan(before) && std::isnan(after))) << i;
     }
@@ -61,13 +61,13 @@ TEST(MapTurns, ComposeToTheIdentity) {
   const HeightMap map = uneven_map();
   for (const auto& [turn, times] : {std::pair{GridTurn::FlipX, 2}, {GridTurn::FlipY, 2}, {GridTurn::Half, 2}}) {
     HeightMap result = map;
-    for (int i = 0; i < times; ++i) result = turned(result, turn);
+    for (int i = 0; i < times; ++i) result = turn_map(result, turn);
     test::expect_same_map(result, map);
   }
   for (const auto& [turn, times] :
        {std::pair{GridTurn::Quarter, 4}, {GridTurn::ThreeQuarters, 4}, {GridTurn::Transpose, 2}}) {
     HeightMap result = map;
-    for (int i = 0; i < times; ++i) result = turned(result, turn);
+    for (int i = 0; i < times; ++i) result = turn_map(result, turn);
     EXPECT_LE(distance(result.grid.origin, map.grid.origin), 1e-14);
     result.grid.origin = map.grid.origin;
     test::expect_same_map(result, map);

@@ -6,7 +6,6 @@
 
 #include "core/base/grid_limit.h"
 #include "core/map/map_sampler.h"
-#include "core/map/map_turn.h"
 #include "tests/core/base/expect_error.h"
 #include "tests/core/map/uneven_map.h"
 
@@ -80,7 +79,7 @@ TEST(MapSampler, SlopesAreThoseOfItsSurface) {
 
 TEST(MapWarp, IdentityOntoItsOwnGridChangesNothing) {
   const HeightMap map = uneven_map();
-  const HeightMap same = warped(map, {}, map.grid);
+  const HeightMap same = warp_map(map, {}, map.grid);
   EXPECT_EQ(same.valid_pixels(), map.valid_pixels());
   EXPECT_EQ(same.history, map.history);
   for (const Index i : finite_pixels(map)) {
@@ -101,7 +100,7 @@ TEST(MapWarp, RotatesABumpCounterClockwiseToWhereTheFormulaSays) {
       const Point d = bump - about;
       const Point there =
           about + Point{std::cos(angle) * d.x - std::sin(angle) * d.y, std::sin(angle) * d.x + std::cos(angle) * d.y};
-      const HeightMap result = rotated(map, degrees, about, 2);
+      const HeightMap result = rotate_map(map, degrees, about, 2);
       const HeightMap expected = map_of(result.grid, height(there));
       EXPECT_GT(result.valid_pixels(), 9 * grid.size() / 10);
       double worst = 0.0;
@@ -136,8 +135,8 @@ TEST(MapWarp, CoveringGridHoldsAllMovedPixels) {
 
 TEST(MapWarp, RefusesWhatItCannotMove) {
   const HeightMap map = uneven_map();
-  test::expect_input_error([&] { warped(map, {1, 2, 2, 4, {}}, map.grid); }, {"determinant 0"});
-  test::expect_input_error([&] { warped(map, {1, 0, 0, 1, {50, 0}}, map.grid); }, {"no data", "overlap"});
+  test::expect_input_error([&] { warp_map(map, {1, 2, 2, 4, {}}, map.grid); }, {"determinant 0"});
+  test::expect_input_error([&] { warp_map(map, {1, 0, 0, 1, {50, 0}}, map.grid); }, {"no data", "overlap"});
   test::expect_input_error([&] { covering_grid(map.grid, similarity({}, {}, 0.0, 1e6)); }, {"pixels are accepted"});
 }
 

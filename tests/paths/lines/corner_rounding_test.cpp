@@ -24,7 +24,7 @@ ToolPath path_of(const std::vector<Point>& points, std::vector<char> lifted = {}
 TEST(CornerRounding, PutsPointsOnTheArcOfARightAngle) {
   // Legs of 4 mm to the east and of 3 mm to the north, meeting at (14, -2).
   const ToolPath path = path_of({{10, -2}, {11, -2}, {12, -2}, {13, -2}, {14, -2}, {14, -1}, {14, 0}, {14, 1}});
-  const ToolPath round = rounded_corners(path, 1.5);
+  const ToolPath round = round_corners(path, 1.5);
   const Point centre{12.5, -0.5};
   // Kept: x = 10, 11, 12 (2.5 and 1.5 mm or more from the corner); then 4 points, 22.5 degrees apart; then y = 0 and 1.
   ASSERT_EQ(round.size(), 9u);
@@ -43,7 +43,7 @@ TEST(CornerRounding, PutsPointsOnTheArcOfARightAngle) {
   // Turning right is the mirror image.
   ToolPath mirror = path;
   for (Point& p : mirror.points) p.y = -p.y;
-  const ToolPath right = rounded_corners(mirror, 1.5);
+  const ToolPath right = round_corners(mirror, 1.5);
   ASSERT_EQ(right.size(), round.size());
   for (std::size_t j = 0; j < round.size(); ++j) {
     EXPECT_LE(distance(right.points[j], {round.points[j].x, -round.points[j].y}), 1e-12);
@@ -54,7 +54,7 @@ TEST(CornerRounding, KeepsTheSpacingOfTheLegsOnTheArc) {
   std::vector<Point> points;
   for (int i = 0; i <= 50; ++i) points.push_back({0.1 * i, 0.0});
   for (int i = 1; i <= 30; ++i) points.push_back({5.0, 0.1 * i});
-  const ToolPath round = rounded_corners(path_of(points), 1.0);
+  const ToolPath round = round_corners(path_of(points), 1.0);
   // An arc of 1.571 mm in 16 parts; 2 mm of legs, 19 points, replaced.
   EXPECT_EQ(round.size(), points.size() - 19 + 16);
   EXPECT_LE(test::longest_move_on_part(round), 0.11);
@@ -63,7 +63,7 @@ TEST(CornerRounding, KeepsTheSpacingOfTheLegsOnTheArc) {
 TEST(CornerRounding, TakesNoMoreThanHalfOfALeg) {
   // A square wave of legs of 1 mm: radius 0.5 at most.
   const ToolPath path = path_of({{0, 0}, {1, 0}, {1, 1}, {2, 1}, {2, 0}, {3, 0}});
-  const ToolPath round = rounded_corners(path, 2.0);
+  const ToolPath round = round_corners(path, 2.0);
   EXPECT_EQ(round.size(), 2u + 4u * 4u);
   EXPECT_EQ(round.notes[0], "corners rounded with radius 2 mm: 4, 4 of them with less for want of room (least 0.5 mm)");
   for (std::size_t j = 1; j <= 4; ++j) EXPECT_NEAR(distance(round.points[j], {0.5, 0.5}), 0.5, 1e-12);
@@ -74,8 +74,8 @@ TEST(CornerRounding, RespectsLiftsEndsAndSmallCorners) {
   const double small = 14.0 * std::numbers::pi / 180.0;
   const std::vector<Point> points{{0, 0}, {2, 0}, {2, 3}, {5, 3}, {6, 3}, {6 + std::cos(small), 3 + std::sin(small)}};
   const ToolPath lifted = path_of(points, {1, 0, 1, 0, 0, 0});
-  EXPECT_TRUE(test::same_bytes(rounded_corners(lifted, 0.5), lifted)) << "the corners at (2, 0) and (2, 3) are lifts";
-  const ToolPath joined = rounded_corners(path_of(points), 0.5);
+  EXPECT_TRUE(test::same_bytes(round_corners(lifted, 0.5), lifted)) << "the corners at (2, 0) and (2, 3) are lifts";
+  const ToolPath joined = round_corners(path_of(points), 0.5);
   EXPECT_EQ(joined.size(), points.size() + 6u);
   EXPECT_EQ(joined.points.front(), points.front());
   EXPECT_EQ(joined.points.back(), points.back());
@@ -84,12 +84,12 @@ TEST(CornerRounding, RespectsLiftsEndsAndSmallCorners) {
 
 TEST(CornerRounding, KeepsTurnBacksAndHalts) {
   const ToolPath back = path_of({{0, 0}, {3, 0}, {0, 0.05}, {0, 2}});
-  const ToolPath round = rounded_corners(back, 0.2);
+  const ToolPath round = round_corners(back, 0.2);
   EXPECT_EQ(round.points[1], (Point{3, 0})) << "a corner of 179 degrees";
   EXPECT_NE(round.notes[0].find("turn-backs of more than 175 degrees kept: 1"), std::string::npos);
   const ToolPath halt = path_of({{0, 0}, {1, 0}, {1, 0}, {1, 1}});
-  EXPECT_TRUE(test::same_bytes(rounded_corners(halt, 0.2), halt));
-  EXPECT_TRUE(test::same_bytes(rounded_corners(back, 0.0), back));
+  EXPECT_TRUE(test::same_bytes(round_corners(halt, 0.2), halt));
+  EXPECT_TRUE(test::same_bytes(round_corners(back, 0.0), back));
 }
 
 TEST(CornerRounding, HoldsItsPromisesOnRandomPaths) {
@@ -117,7 +117,7 @@ TEST(CornerRounding, HoldsItsPromisesOnRandomPaths) {
     if (turned_back) continue;
     const ToolPath path = path_of(points, lifted);
     const double radius = draw(0.01, 2.0);
-    const ToolPath round = rounded_corners(path, radius);
+    const ToolPath round = round_corners(path, radius);
     ASSERT_NO_THROW(validate(round));
     EXPECT_LE(test::sharpest_corner(round), 30.0 + 1e-6) << trial;
     EXPECT_LE(test::longest_move_on_part(round), 1.5);
@@ -145,10 +145,10 @@ TEST(CornerRounding, HoldsItsPromisesOnRandomPaths) {
 
 TEST(CornerRounding, RefusesBadInput) {
   const ToolPath path = path_of({{0, 0}, {1, 0}, {1, 1}});
-  EXPECT_EQ(test::message_of([&] { rounded_corners(path, -1.0); }), "file: corner = -1 mm; required finite and >= 0");
-  EXPECT_EQ(test::message_of([&] { rounded_corners(path, test::kNaN); }),
+  EXPECT_EQ(test::message_of([&] { round_corners(path, -1.0); }), "file: corner = -1 mm; required finite and >= 0");
+  EXPECT_EQ(test::message_of([&] { round_corners(path, test::kNaN); }),
             "file: corner = nan mm; required finite and >= 0");
-  EXPECT_NE(test::message_of([&] { rounded_corners(path_of({{0, 0}, {test::kInf, 0}}), 1.0); }), "");
+  EXPECT_NE(test::message_of([&] { round_corners(path_of({{0, 0}, {test::kInf, 0}}), 1.0); }), "");
 }
 
 }  // namespace

@@ -118,15 +118,15 @@ TEST(Sheet, TakesAnyTextAndStillDrawsWhatFollows) {
 TEST(Sheet, BreaksTextAtSpacesOrWithinWords) {
   const TextStyle style{10.0};
   const double room = Sheet::text_width("two words", style) + 0.5;
-  EXPECT_EQ(broken_into_lines("two words more", style, room), (std::vector<std::string>{"two words", "more"}));
-  EXPECT_EQ(broken_into_lines("", style, room), std::vector<std::string>{});
+  EXPECT_EQ(break_into_lines("two words more", style, room), (std::vector<std::string>{"two words", "more"}));
+  EXPECT_EQ(break_into_lines("", style, room), std::vector<std::string>{});
   std::string all;
-  for (const std::string& line : broken_into_lines(std::string(60, 'W'), style, room)) {
+  for (const std::string& line : break_into_lines(std::string(60, 'W'), style, room)) {
     EXPECT_LE(Sheet::text_width(line, style), room);
     all += line;
   }
   EXPECT_EQ(all, std::string(60, 'W'));
-  EXPECT_EQ(broken_into_lines("\xc2\xb2\xc2\xb2", style, 1.0), (std::vector<std::string>{"\xc2\xb2", "\xc2\xb2"}));
+  EXPECT_EQ(break_into_lines("\xc2\xb2\xc2\xb2", style, 1.0), (std::vector<std::string>{"\xc2\xb2", "\xc2\xb2"}));
 }
 
 TEST(Sheet, RefusesSizesThatAreNone) {

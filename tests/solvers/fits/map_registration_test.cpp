@@ -183,7 +183,7 @@ TEST(RegisterMaps, WhatIsSubtractedAfterRegistrationIsGone) {
   options.range = {2.0, 3.0};
   const HeightMap moving = moved(truth), fixed = fixed_map();
   const MapRegistration found = register_maps(moving, fixed, options);
-  const HeightMap left = difference(fixed, warped(moving, found.transform, fixed.grid));
+  const HeightMap left = difference(fixed, warp_map(moving, found.transform, fixed.grid));
   double worst = 0.0;
   for (const Index i : finite_pixels(left)) worst = std::max(worst, std::abs(left.values[static_cast<std::size_t>(i)]));
   EXPECT_GT(left.valid_pixels(), 3500);
