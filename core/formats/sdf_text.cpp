@@ -20,6 +20,8 @@ namespace {
 
 constexpr char kBcrComment = ';';       // of BCR
 constexpr std::string_view kEnd = "*";  // of header, data and trailer
+/// DDMMYYYYHHMM. Always the same, so that the same map gives the same bytes, and a date, since other readers parse it.
+constexpr std::string_view kFixedDate = "010120000000";
 constexpr double kMetresPerNm = 1e-9;
 constexpr double kMmPerMetre = 1e3;
 
@@ -126,6 +128,14 @@ void read_trailer(TextLines& lines, const std::string& where, MapHeader& header)
   }
 }
 
+/// What the trailer holds for a character of a header line. The file is ASCII, and readers that split it at every
+/// asterisk would take one in the history for the end of the trailer.
+std::string in_trailer(char c) {
+  if (c == '\n') return "\r\n";
+  const bool printable = c >= ' ' && c <= '~';
+  return std::string(1, printable && c != kEnd.front() ? c : '?');
+}
+
 }  // namespace
 
 bool is_sdf(std::string_view bytes) {
@@ -184,10 +194,11 @@ std::string sdf_text(const HeightMap& map) {
   fmt::memory_buffer buffer;
   auto out = std::back_inserter(buffer);
   fmt::format_to(out,
-                 "aISO-1.0\r\nManufacID = dwell\r\nCreateDate = 000000000000\r\nModDate = 000000000000\r\n"
-                 "NumPoints = {}\r\nNumProfiles = {}\r\nXscale = {}\r\nYscale = {}\r\nZscale = {}\r\n"
+                 "aISO-1.0\r\nManufacID = dwell\r\nCreateDate = {0}\r\nModDate = {0}\r\n"
+                 "NumPoints = {1}\r\nNumProfiles = {2}\r\nXscale = {3}\r\nYscale = {4}\r\nZscale = {5}\r\n"
                  "Zresolution = -1\r\nCompression = 0\r\nDataType = 7\r\nCheckType = 0\r\n*\r\n",
-                 grid.cols, grid.rows, grid.pitch_x / kMmPerMetre, grid.pitch_y / kMmPerMetre, kMetresPerNm);
+                 kFixedDate, grid.cols, grid.rows, grid.pitch_x / kMmPerMetre, grid.pitch_y / kMmPerMetre,
+                 kMetresPerNm);
   for (Index row = 0; row < grid.rows; ++row) {
     for (Index col = 0; col < grid.cols; ++col) {
       if (col > 0) buffer.push_back(' ');
@@ -202,7 +213,7 @@ std::string sdf_text(const HeightMap& map) {
   }
   fmt::format_to(out, "*\r\n");
   std::string text = fmt::to_string(buffer);
-  for (const char c : header_lines(map)) text += c == '\n' ? "\r\n" : std::string(1, c);
+  for (const char c : header_lines(map)) text += in_trailer(c);
   return text + "*\r\n";
 }
 

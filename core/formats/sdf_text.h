@@ -21,7 +21,8 @@ bool is_sdf(std::string_view bytes);
 MapSource parse_sdf_text(std::string_view text, const std::string& where);
 
 /// The map as aISO-1.0, heights in nm (Zscale 1e-9), every number with the digits that read back equal. The date
-/// fields are zeros, so that the same map gives the same bytes. Pitch, origin and history are also in the trailer.
+/// fields hold one fixed date, so that the same map gives the same bytes. Pitch, origin and history are also in the
+/// trailer, where an asterisk and characters outside printable ASCII become '?'.
 /// Throws InputError for a map of removal rates, which the format has no word for.
 std::string sdf_text(const HeightMap& map);
 

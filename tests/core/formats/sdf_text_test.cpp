@@ -1,7 +1,9 @@
 #include "core/formats/sdf_text.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -136,9 +138,18 @@ TEST(SdfText, ReadsBackEqualWithoutAnyOption) {
 TEST(SdfText, WritesTheHeaderOfTheStandard) {
   const HeightMap map(Grid{2, 3, 0.01, 0.25, {}}, {1.5, NAN, -3, 4, 0.5, 6});
   EXPECT_TRUE(sdf_text(map).starts_with(
-      "aISO-1.0\r\nManufacID = dwell\r\nCreateDate = 000000000000\r\nModDate = 000000000000\r\nNumPoints = 3\r\n"
+      "aISO-1.0\r\nManufacID = dwell\r\nCreateDate = 010120000000\r\nModDate = 010120000000\r\nNumPoints = 3\r\n"
       "NumProfiles = 2\r\nXscale = 1e-05\r\nYscale = 0.00025\r\nZscale = 1e-09\r\nZresolution = -1\r\n"
       "Compression = 0\r\nDataType = 7\r\nCheckType = 0\r\n*\r\n1.5 BAD -3\r\n4 0.5 6\r\n*\r\n"));
+}
+
+// Other readers take the file as ASCII and split it at every asterisk.
+TEST(SdfText, WritesATrailerOfAsciiWithoutAsterisks) {
+  HeightMap map(Grid{1, 2, 0.01, 0.25, {}}, {1.5, 2.0});
+  map.history = {"subtract:file=caf\u00e9*.csv"};
+  const std::string text = sdf_text(map);
+  EXPECT_THAT(text, testing::HasSubstr("# made: subtract:file=caf???.csv\r\n*\r\n"));
+  EXPECT_EQ(std::count(text.begin(), text.end(), '*'), 3);
 }
 
 TEST(SdfText, OptionsMustAgree) {
