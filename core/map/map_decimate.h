@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/base/progress.h"
 #include "core/map/height_map.h"
 
 namespace dwell {
@@ -8,13 +9,14 @@ namespace dwell {
 /// the blocks start at pixel (0, 0). A new pixel is the mean of the finite pixels of its block, and has data if these
 /// are at least half of the block, counted whole where it sticks out over the map's end; a row or column of blocks that
 /// can not reach half is left out. In a block that is not full, a slope shows: its mean belongs to the middle of what
-/// it has. Throws InputError for a factor < 1 or if no block has data. Cost O(pixels).
-HeightMap decimated(const HeightMap& map, Index row_factor, Index col_factor);
+/// it has. Throws InputError for a factor < 1 or if no block has data; Interrupted. Cost
+/// O(pixels).
+HeightMap decimated(const HeightMap& map, Index row_factor, Index col_factor, const Progress& progress = {});
 
 /// The map at other pitches [mm, in x and y]: by block average over the whole number of pixels that a new one spans in
 /// each direction, if that is more than one (anti-aliasing), then by cubic B-spline (core/map/map_sampler.h). The first
 /// pixel of the new map lies on the first one of the map, or of the averaged map, and the last one not beyond the last
-/// of it. Throws InputError unless the pitches are finite and > 0 and the result has at most kMaxPixels.
-HeightMap resampled(const HeightMap& map, Point pitch, int threads = 1);
+/// of it. Throws InputError unless ranges::kPitch holds the pitches and the result has at most kMaxPixels; Interrupted.
+HeightMap resampled(const HeightMap& map, Point pitch, int threads = 1, const Progress& progress = {});
 
 }  // namespace dwell
