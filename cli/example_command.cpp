@@ -5,6 +5,7 @@
 #include "cli/commands.h"
 #include "cli/json_option.h"
 #include "cli/progress_line.h"
+#include "cli/result_folder.h"
 #include "cli/terminal.h"
 #include "runs/example/example_files.h"
 
@@ -21,7 +22,7 @@ struct ExampleArguments {
 int run_example(ExampleArguments& arguments) {
   arguments.mirror.shape = arguments.shape == "round" ? ExampleOptions::Shape::Round : ExampleOptions::Shape::Rectangle;
   arguments.json.check({}, arguments.out);
-  OutputFolder folder(arguments.out, example_files());
+  OutputFolder folder = result_folder(arguments.out, example_files());
   const Progress progress = terminal_progress();
   const Example example = write_example(folder.path(""), arguments.mirror, arguments.tif, progress);
   finish_progress();

@@ -75,11 +75,11 @@ void check_outputs(const MapArguments& a, const JobOptions& options) {
 }
 
 /// The map as read and prepared by the steps, within the aperture; `valid_pixels` are those before the aperture.
-HeightMap prepared_map(const JobOptions& options, std::vector<InputFile>& inputs, Index& valid_pixels) {
-  HeightMap whole = load_map(options, inputs, terminal_progress());
-  finish_progress();
+HeightMap prepared_map(const JobOptions& options, std::vector<InputFile>& inputs, Index& valid_pixels,
+                       const Progress& progress) {
+  HeightMap whole = load_map(options, inputs, progress);
   valid_pixels = whole.valid_pixels();
-  HeightMap map = within(std::move(whole), options.aperture);
+  HeightMap map = within(std::move(whole), options.aperture, progress);
   if (options.aperture.kind != Aperture::Kind::Map) map.history.push_back("aperture " + to_string(options.aperture));
   return map;
 }
@@ -106,8 +106,7 @@ std::string told(const HeightMap& map, const MapReport& report, const std::optio
 PendingFiles files_of(const MapArguments& a, const HeightMap& map, const MapReport& report,
                       const std::optional<MapProfile>& profile) {
   const std::string removed = to_string(report.removed);
-  const std::string title = fmt::format("{}: RMS {:.4g} nm, PV {:.4g} nm ({} removed)", name_of(a.file),
-                                        report.statistics.rms, report.statistics.pv, removed);
+  const std::string title = fmt::format("{}: {} ({} removed)", name_of(a.file), in_words(report.statistics), removed);
   PendingFiles files;
   files.add_map(a.write, map);
   files.add(a.write_image, [&] { return height_image_png(map); });
@@ -134,15 +133,18 @@ int run_map(const MapArguments& arguments, const CLI::App& command) {
   check_outputs(arguments, options);
   std::vector<InputFile> inputs;
   Index valid_pixels = 0;
-  const HeightMap map = prepared_map(options, inputs, valid_pixels);
-  const MapReport report = map_report(map, wanted);
+  const Progress progress = terminal_progress();
+  const HeightMap map = prepared_map(options, inputs, valid_pixels, progress);
+  const MapReport report = map_report(map, wanted, progress);
   std::optional<MapProfile> profile;
   if (line) profile = map_profile(report.figure, *line);
   const std::string text = told(map, report, profile, inputs[0]);
   const std::string json =
       map_report_json(report, map_figures(report, options.map, map, valid_pixels, to_string(options.aperture)), inputs,
                       profile ? &*profile : nullptr);
+  progress.step("writing");
   files_of(arguments, map, report, profile).write();
+  finish_progress();
   arguments.json.deliver(json, text);
   return say_limits(report.broken_limits());
 }

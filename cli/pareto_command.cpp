@@ -7,6 +7,7 @@
 #include "cli/job_arguments.h"
 #include "cli/json_option.h"
 #include "cli/progress_line.h"
+#include "cli/result_folder.h"
 #include "cli/terminal.h"
 #include "runs/campaigns/pareto_output.h"
 
@@ -45,7 +46,7 @@ int run_pareto(const ParetoArguments& arguments) {
     ranges.smoothnesses = parse_weight_list(arguments.smoothnesses, "--smoothnesses");
   if (!arguments.time_prices.empty()) ranges.time_prices = parse_weight_list(arguments.time_prices, "--time-prices");
   arguments.json.check(arguments.job->files_read(options), options.out);
-  OutputFolder folder(options.out, pareto_files());
+  OutputFolder folder = result_folder(options.out, pareto_files());
   const ParetoSweep sweep = sweep_weights(options, ranges, terminal_progress());
   const std::string json = write_pareto(sweep, folder);
   folder.commit();

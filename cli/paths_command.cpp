@@ -8,6 +8,7 @@
 #include "cli/job_arguments.h"
 #include "cli/json_option.h"
 #include "cli/progress_line.h"
+#include "cli/result_folder.h"
 #include "cli/terminal.h"
 #include "core/base/errors.h"
 #include "paths/path_catalogue.h"
@@ -39,7 +40,7 @@ int run_paths(const PathsArguments& arguments) {
     throw InputError("--paths: required; for instance raster,spiral,random (--kinds lists all)");
   const JobOptions options = arguments.job->options();
   arguments.json.check(arguments.job->files_read(options), options.out);
-  OutputFolder folder(options.out, path_comparison_files());
+  OutputFolder folder = result_folder(options.out, path_comparison_files());
   const PathComparison comparison =
       compare_paths(options, arguments.list, arguments.pitch, folder, terminal_progress());
   const std::string json = write_path_comparison(comparison, folder);

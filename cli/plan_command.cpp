@@ -6,6 +6,7 @@
 #include "cli/job_arguments.h"
 #include "cli/json_option.h"
 #include "cli/progress_line.h"
+#include "cli/result_folder.h"
 #include "cli/terminal.h"
 #include "core/base/units.h"
 #include "runs/job/job_file.h"
@@ -28,8 +29,7 @@ std::string plan_text(const PlannedJob& plan, const WrittenPlan& written) {
   const Grid& g = plan.part().map.grid;
   text += fmt::format("map       {} rows x {} columns of {:.6g} mm, {} pixels in the aperture\n", g.rows, g.cols,
                       g.pitch_x, plan.part().before.valid_pixels);
-  text += fmt::format("before    RMS {:.4g} nm, PV {:.4g} nm ({} removed)\n", plan.part().before.rms,
-                      plan.part().before.pv, to_string(plan.part().form));
+  text += fmt::format("before    {} ({} removed)\n", in_words(plan.part().before), to_string(plan.part().form));
   text += fmt::format("tool      {}, peak {:.4g} nm/s, volume {:.4g} nm mm^2/s, FWHM {:.4g} mm, radius {:.4g} mm\n",
                       kind_of(plan.part().tif), plan.part().tif.peak, plan.part().tif.volume, plan.part().tif.fwhm,
                       plan.part().tif.radius);
@@ -50,10 +50,9 @@ std::string plan_text(const PlannedJob& plan, const WrittenPlan& written) {
   text += fmt::format("feed      {:.4g} to {:.4g} mm/min, {} of {} segments at a limit\n",
                       units::mm_per_min(plan.program.feed.min_speed), units::mm_per_min(plan.program.feed.max_speed),
                       plan.program.feed.segments_limited, plan.laid.path.size());
-  text += fmt::format("predicted RMS {:.4g} nm, PV {:.4g} nm by the solver\n", plan.dwell.residual.rms,
-                      plan.dwell.residual.pv);
-  text += fmt::format("program   RMS {:.4g} nm, PV {:.4g} nm by simulating program.nc as read back, {:.2f} s\n",
-                      written.simulated.rms, written.simulated.pv, written.program_seconds);
+  text += fmt::format("predicted {} by the solver\n", in_words(plan.dwell.residual));
+  text += fmt::format("program   {} by simulating program.nc as read back, {:.2f} s\n", in_words(written.simulated),
+                      written.program_seconds);
   return text;
 }
 
@@ -64,7 +63,7 @@ int run_plan(const PlanArguments& arguments) {
     return kDone;
   }
   arguments.json.check(arguments.job->files_read(options), options.out);
-  OutputFolder folder(options.out, plan_files());
+  OutputFolder folder = result_folder(options.out, plan_files());
   const Progress progress = terminal_progress();
   const PlannedJob plan = plan_job(options, progress);
   const WrittenPlan written = write_plan(plan, folder, progress);

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <optional>
 
 #include "cli/commands.h"
 #include "cli/job_arguments.h"
@@ -19,7 +18,7 @@ namespace {
 
 struct SimulateArguments {
   std::unique_ptr<JobArguments> job;
-  std::string program, gcode, residual, png;
+  std::string program, gcode, g4, residual, png;
   JsonOption json;
   bool exact = false;
 };
@@ -39,28 +38,34 @@ std::string simulation_text(const Simulation& s) {
                                       "{:.3g} nm\n",
                                       s.spline_error->rms, s.spline_error->largest)
                                 : "";
+  std::string notes;
+  for (const std::string& note : s.program.notes) notes += fmt::format("          {}\n", note);
   return fmt::format("program   {}: {} steps, {:.6g} mm with removal, {:.2f} s\n", s.program.file,
                      s.program.steps.size(), s.program.removing_length(), s.program.total_seconds()) +
-         fmt::format("before    RMS {:.4g} nm, PV {:.4g} nm ({} removed, {} pixels)\n", s.before.rms, s.before.pv,
-                     to_string(s.terms), s.before.valid_pixels) +
-         fmt::format("after     RMS {:.4g} nm, PV {:.4g} nm\n", s.after.rms, s.after.pv) + exact;
+         notes +
+         fmt::format("before    {} ({} removed, {} pixels)\n", in_words(s.before), to_string(s.terms),
+                     s.before.valid_pixels) +
+         fmt::format("after     {} ({} removed)\n", in_words(s.after), to_string(s.terms)) + exact;
 }
 
 int run_simulate(const SimulateArguments& arguments) {
-  std::optional<GcodeDialect> dialect;
-  if (!arguments.gcode.empty()) dialect = parse_gcode_dialect(arguments.gcode);
+  GcodeReading reading;
+  if (!arguments.gcode.empty()) reading.dialect = parse_gcode_dialect(arguments.gcode);
+  if (!arguments.g4.empty()) reading.halts = parse_halt_unit(arguments.g4);
   const JobOptions options = arguments.job->options();
   check_outputs(arguments, options);
-  const Simulation s = simulate_file(arguments.program, dialect, options, terminal_progress(), arguments.exact);
-  finish_progress();
+  const Progress progress = terminal_progress();
+  const Simulation s = simulate_file(arguments.program, reading, options, progress, arguments.exact);
+  progress.step("writing");
   PendingFiles files;
   files.add_map(arguments.residual, s.residual);
   files.add(arguments.png, [&] {
-    const std::string title = fmt::format("After {}: RMS {:.4g} nm, PV {:.4g} nm ({} removed)", s.program.file,
-                                          s.after.rms, s.after.pv, to_string(s.terms));
+    const std::string title =
+        fmt::format("After {}: {} ({} removed)", s.program.file, in_words(s.after), to_string(s.terms));
     return map_picture(s.residual, {title, "nm", true, {}, {}}, figure_format_of_file(arguments.png));
   });
   files.write();
+  finish_progress();
   arguments.json.deliver(simulation_json(s), simulation_text(s));
   return kDone;
 }
@@ -87,6 +92,11 @@ void add_simulate_command(CLI::App& program, int& exit_code) {
       ->add_option("--gcode", arguments->gcode,
                    "what F means in a G93 program that does not say so: g93-per-minute or g93-seconds")
       ->type_name("DIALECT");
+  command
+      ->add_option("--g4", arguments->g4,
+                   "unit of P in G4 of a program that does not say so: s or ms (default: P with a decimal point is in "
+                   "seconds, a whole number is refused)")
+      ->type_name("UNIT");
   command->add_option("--residual", arguments->residual, "write the residual map [nm]: " + written_map_extensions())
       ->type_name("FILE");
   command->add_option("--png", arguments->png, "draw the residual map: .png, .svg or .pdf")->type_name("FILE");

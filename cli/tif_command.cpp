@@ -45,8 +45,9 @@ int run_tif(const TifArguments& arguments) {
   job.job.tif = arguments.tif;
   if (!arguments.fit_png.empty() && job.fits.empty()) throw InputError("--fit-png: needs --fit");
   check_outputs(arguments, job.job);
-  const TifResult result = make_tif(job, terminal_progress());
-  finish_progress();
+  const Progress progress = terminal_progress();
+  const TifResult result = make_tif(job, progress);
+  progress.step("writing");
   PendingFiles files;
   files.add_map(arguments.write, result.rates);
   files.add(arguments.png, [&] { return tif_picture(result, figure_format_of_file(arguments.png)); });
@@ -55,6 +56,7 @@ int run_tif(const TifArguments& arguments) {
   files.add(arguments.fit_png, [&] { return fit_picture(result, figure_format_of_file(arguments.fit_png)); });
   files.add(arguments.mtf_png, [&] { return transfer_picture(result, figure_format_of_file(arguments.mtf_png)); });
   files.write();
+  finish_progress();
   arguments.json.deliver(tif_json(result), tif_text(result));
   return say_limits(unfinished_fits(result));
 }

@@ -8,6 +8,7 @@
 
 #include "core/base/errors.h"
 #include "core/base/poll.h"
+#include "core/map/part_distance.h"
 #include "paths/curves/circles.h"
 #include "paths/curves/fibonacci.h"
 #include "paths/curves/spiral.h"
@@ -138,6 +139,10 @@ ToolPath plan_nearest(const NearestOptions& options, const PathJob& job) {
 
 ToolPath plan_from_file(const PathFromFile& spec, const PathJob& job) {
   ToolPath path = read_path_file(spec.file, job.progress);
+  for (std::size_t j = 0; j < path.size(); ++j) {
+    check_near_part(path.points[j], job.target.grid, job.tif.radius,
+                    [&] { return fmt::format("{}: dwell point {}", spec.file.string(), j + 1); });
+  }
   refuse_outside(path, job, spec.file.string());
   return path;
 }

@@ -12,7 +12,9 @@
 #include "core/base/number_text.h"
 #include "core/base/poll.h"
 #include "core/base/text_lines.h"
+#include "core/base/units.h"
 #include "core/base/whole_file.h"
+#include "core/map/value_units.h"
 
 namespace dwell {
 namespace {
@@ -64,7 +66,8 @@ class PathFileReader {
 
  private:
   void take_line(std::string_view line) {
-    if (line.empty() || (line.front() == '#' && !starts_with_spreadsheet_error(line))) return;
+    if (line.empty()) return;
+    if (line.front() == '#' && !starts_with_spreadsheet_error(line)) return check_comment(line.substr(1));
     split_fields(line, fields_);
     if (columns_ == 0) {
       take_header(line);
@@ -73,9 +76,39 @@ class PathFileReader {
     }
   }
 
+  /// A comment that names a unit, a scale or an origin is not skipped: coordinates are mm in the map's system. The
+  /// words of a feed table, which may be read as a path, say the same.
+  void check_comment(std::string_view comment) const {
+    const std::size_t end = comment.find_first_of(":=");
+    if (end == std::string_view::npos) return;
+    const std::string key = lower_case(trim(comment.substr(0, end)));
+    const std::string_view value = trim(comment.substr(end + 1));
+    const bool unit = key.find("unit") != std::string::npos;
+    const bool place = key.find("origin") != std::string::npos || key.find("offset") != std::string::npos ||
+                       key.find("scale") != std::string::npos;
+    const bool says_mm = known_length_unit(value) == units::kNmPerMm || value.starts_with("x_mm and y_mm mm");
+    if (!place && (!unit || says_mm)) return;
+    throw InputError(
+        fmt::format("{}: line {}: comment \"{}\" may change what the coordinates mean; accepted: mm, in the "
+                    "map's coordinates",
+                    name_, line_number_, printable_text(trim(comment))));
+  }
+
+  /// A column that is named almost as one that is read would be skipped in silence.
+  void refuse_almost(std::string_view column) const {
+    const std::string name = lower_case(column);
+    if (column == "lift" || (name.find("lift") == std::string::npos && name != "x_mm" && name != "y_mm")) return;
+    if (column == "x_mm" || column == "y_mm") return;
+    throw InputError(
+        fmt::format("{}: line {}: column \"{}\"; accepted: x_mm, y_mm, lift, exactly so, and columns of "
+                    "other meaning",
+                    name_, line_number_, printable_text(column)));
+  }
+
   void take_header(std::string_view line) {
     columns_ = fields_.size();
     for (std::size_t i = 0; i < columns_; ++i) {
+      refuse_almost(fields_[i]);
       if (fields_[i] == "x_mm") assign(x_, i);
       if (fields_[i] == "y_mm") assign(y_, i);
       if (fields_[i] == "lift") assign(lift_, i);

@@ -8,6 +8,7 @@
 
 #include "core/base/errors.h"
 #include "core/base/number_text.h"
+#include "core/base/value_range.h"
 
 namespace dwell {
 namespace {
@@ -63,6 +64,7 @@ std::optional<double> SpecText::optional_number(std::string_view key) const {
   if (!value) return std::nullopt;
   const std::optional<double> number = parse_number(*value);
   if (!number || std::isnan(*number)) fail(*this, fmt::format("{} = \"{}\"; a number is required", key, *value));
+  if (std::isfinite(*number) && !ranges::kNumber.holds(*number)) reject(key, ranges::kNumber.text());
   return number;
 }
 
@@ -81,6 +83,8 @@ std::optional<Point> SpecText::optional_point(std::string_view key) const {
   if (slash != std::string::npos) {
     const std::optional<double> x = parse_number(value->substr(0, slash));
     const std::optional<double> y = parse_number(value->substr(slash + 1));
+    const auto far = [](double v) { return std::isfinite(v) && !ranges::kPlace.holds(v); };
+    if (x && y && (far(*x) || far(*y))) reject(key, "each " + ranges::kPlace.text());
     if (x && y) return Point{*x, *y};
   }
   reject(key, fmt::format("X/Y in mm, for instance {}=-10/2.5", key));

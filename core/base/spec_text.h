@@ -22,7 +22,7 @@ struct SpecText {
   bool has(std::string_view key) const;
   std::optional<std::string> word(std::string_view key) const;
 
-  /// A number, possibly infinite, never NaN; the range is for the caller to check.
+  /// A number, possibly infinite, never NaN, else within ranges::kNumber; a narrower range is for the caller to check.
   double number(std::string_view key) const;                   // required
   double number(std::string_view key, double fallback) const;  // fallback if the key is not given
   std::optional<double> optional_number(std::string_view key) const;

@@ -1,18 +1,30 @@
 #pragma once
 
-#include "core/form/form_terms.h"
+#include <string>
+
+#include "core/form/form.h"
 #include "core/map/height_map.h"
 
 namespace dwell {
 
+/// What is left after the form terms are removed [nm].
 struct MapStatistics {
   Index valid_pixels = 0;
-  double pv = 0.0;   // peak to valley [nm]
-  double rms = 0.0;  // root mean square about zero after the form terms are removed [nm]
+  double pv = 0.0;    // peak to valley
+  double rms = 0.0;   // root mean square about the mean, and so never more than half of the PV
+  double mean = 0.0;  // 0 to rounding if piston is removed
+
+  /// Root mean square about zero: what a solver makes small. The same as `rms` if piston is removed.
+  double rms_about_zero() const;
 };
 
-/// PV and RMS over the finite pixels after removing `terms` by least squares on them. With piston not removed, RMS
-/// is about zero, not about the mean. Throws InputError if no pixel is finite. Cost O(pixels).
+/// "RMS 1.473 nm, PV 4.98 nm", and the mean where there is one.
+std::string in_words(const MapStatistics& statistics);
+/// ", mean 22.48 nm" where there is a mean, else nothing.
+std::string mean_in_words(const MapStatistics& statistics);
+
+/// PV, RMS and mean over the finite pixels after removing `terms` by least squares on them. Throws InputError if no
+/// pixel is finite. Cost O(pixels).
 MapStatistics map_statistics(const HeightMap& map, const FormTerms& terms, int threads = 1);
 
 /// The map with the form terms removed on its finite pixels; NaN stays NaN.

@@ -7,6 +7,7 @@
 #include "core/base/errors.h"
 #include "core/base/number_text.h"
 #include "core/base/spec_text.h"
+#include "core/base/value_range.h"
 
 namespace dwell {
 namespace {
@@ -33,11 +34,11 @@ void parse_circle(PolynomialSpec& spec, const std::string& text, const std::stri
   circle.accept_only({"x", "y", "radius", "obscuration"});
   if (circle.has("x") != circle.has("y")) refuse(text, "x and y of the centre are given together or not at all");
   if (circle.has("x")) spec.centre = Point{circle.number("x"), circle.number("y")};
-  if (spec.centre && !(std::isfinite(spec.centre->x) && std::isfinite(spec.centre->y))) {
-    refuse(text, "the centre must be finite");
+  if (spec.centre && !(ranges::kPlace.holds(spec.centre->x) && ranges::kPlace.holds(spec.centre->y))) {
+    refuse(text, "the centre must be finite, x and y each " + ranges::kPlace.text());
   }
   spec.radius = circle.optional_number("radius");
-  if (spec.radius && !(*spec.radius > 0.0 && std::isfinite(*spec.radius))) refuse(text, "radius must be > 0, finite");
+  if (spec.radius && !ranges::kSize.holds(*spec.radius)) refuse(text, "radius must be > 0, " + ranges::kSize.text());
   spec.obscuration = circle.number("obscuration", 0.0);
   if (!(spec.obscuration >= 0.0 && spec.obscuration < 1.0)) refuse(text, "obscuration must be >= 0 and < 1");
 }

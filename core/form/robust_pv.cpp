@@ -13,7 +13,7 @@ std::optional<RobustPv> robust_pv(const HeightMap& map, int threads) {
   const PolynomialFit fit = remove_polynomials(residual, kFringe36, threads);
   if (map.valid_pixels() < static_cast<Index>(fit.terms.size())) return std::nullopt;
   RobustPv result;
-  result.residual_rms = map_statistics(residual, {}, threads).rms;
+  result.residual_rms = map_statistics(residual, {}, threads).rms_about_zero();
   for (std::size_t i = 0; i < map.values.size(); ++i) residual.values[i] = map.values[i] - residual.values[i];
   result.fit_pv = map_statistics(residual, {}, threads).pv;
   result.pvr = result.fit_pv + 3.0 * result.residual_rms;

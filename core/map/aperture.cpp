@@ -11,6 +11,8 @@
 
 #include "core/base/errors.h"
 #include "core/base/number_text.h"
+#include "core/base/poll.h"
+#include "core/base/value_range.h"
 
 namespace dwell {
 namespace {
@@ -28,6 +30,7 @@ std::vector<double> numbers(const std::string& text, std::string_view list) {
   for (const std::string_view field : split(list, ',')) {
     const std::optional<double> value = finite_number(field);
     if (!value) refuse(text, fmt::format("'{}' is not a finite number", field));
+    if (!ranges::kPlace.holds(*value)) refuse(text, fmt::format("'{}' is not {}", field, ranges::kPlace.text()));
     values.push_back(*value);
   }
   return values;
@@ -150,14 +153,17 @@ class RowTest {
   std::vector<Edge> edges_;
 };
 
-HeightMap mask_map(HeightMap map, const Aperture& area, bool keep_inside) {
+HeightMap mask_map(HeightMap map, const Aperture& area, bool keep_inside, const Progress& progress) {
   const Grid grid = map.grid;
   const Index with_data = map.valid_pixels();
   // The boundary is closed: a pixel centre that rounding (0.1 * 3 > 0.3) puts a hair outside belongs to it.
   RowTest test(area, 1e-9 * std::min(grid.pitch_x, grid.pitch_y));
+  constexpr std::uint32_t kBetweenLooks = 4096;  // a polygon may have many corners
+  Poll poll(progress, kBetweenLooks);
   for (Index row = 0; row < grid.rows; ++row) {
     test.enter_row(grid.y(row));
     for (Index col = 0; col < grid.cols; ++col) {
+      poll.step();
       if (test.contains(grid.centre(row, col)) != keep_inside) {
         map.at(row, col) = std::numeric_limits<double>::quiet_NaN();
       }
@@ -214,8 +220,12 @@ std::string to_string(const Aperture& area) {
   return text;
 }
 
-HeightMap within(HeightMap map, const Aperture& aperture) { return mask_map(std::move(map), aperture, true); }
+HeightMap within(HeightMap map, const Aperture& aperture, const Progress& progress) {
+  return mask_map(std::move(map), aperture, true, progress);
+}
 
-HeightMap outside(HeightMap map, const Aperture& aperture) { return mask_map(std::move(map), aperture, false); }
+HeightMap outside(HeightMap map, const Aperture& aperture, const Progress& progress) {
+  return mask_map(std::move(map), aperture, false, progress);
+}
 
 }  // namespace dwell

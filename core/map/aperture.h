@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/progress.h"
 #include "core/map/height_map.h"
 
 namespace dwell {
@@ -27,9 +28,9 @@ std::string to_string(const Aperture& aperture);
 /// Copy of the map with every pixel whose centre is outside the aperture (beyond its closed boundary) set to NaN.
 /// Throws InputError if no finite pixel is left, saying where the map lies. Cost O(pixels), for a polygon times the
 /// edges that a row of pixels meets.
-HeightMap within(HeightMap map, const Aperture& aperture);
+HeightMap within(HeightMap map, const Aperture& aperture, const Progress& progress = {});
 
 /// Copy of the map with every pixel that `within` keeps set to NaN. Throws likewise.
-HeightMap outside(HeightMap map, const Aperture& aperture);
+HeightMap outside(HeightMap map, const Aperture& aperture, const Progress& progress = {});
 
 }  // namespace dwell

@@ -8,6 +8,8 @@
 
 #include "core/base/errors.h"
 #include "core/base/grid_limit.h"
+#include "core/base/poll.h"
+#include "core/base/value_range.h"
 #include "core/map/map_warp.h"
 
 namespace dwell {
@@ -41,7 +43,7 @@ Index span_of(double pitch, double old_pitch, Index pixels) {
 
 }  // namespace
 
-HeightMap decimate_map(const HeightMap& map, Index row_factor, Index col_factor) {
+HeightMap decimate_map(const HeightMap& map, Index row_factor, Index col_factor, const Progress& progress) {
   const Grid& g = map.grid;
   if (row_factor < 1 || col_factor < 1) {
     throw InputError(fmt::format("blocks of {} x {} pixels; at least 1 x 1 required", row_factor, col_factor));
@@ -58,8 +60,10 @@ HeightMap decimate_map(const HeightMap& map, Index row_factor, Index col_factor)
                         cols * g.pitch_x,
                         rows * g.pitch_y,
                         {g.origin.x + 0.5 * (cols - 1.0) * g.pitch_x, g.origin.y + 0.5 * (rows - 1.0) * g.pitch_y}});
+  Poll poll(progress);
   for (Index r = 0; r < result.grid.rows; ++r) {
     for (Index c = 0; c < result.grid.cols; ++c) {
+      poll.step();
       result.at(r, c) = block_mean(map, r * row_factor, c * col_factor, row_factor, col_factor);
     }
   }
@@ -70,14 +74,15 @@ HeightMap decimate_map(const HeightMap& map, Index row_factor, Index col_factor)
   return result;
 }
 
-HeightMap resample_map(const HeightMap& map, Point pitch, int threads) {
-  if (!(std::isfinite(pitch.x) && pitch.x > 0.0 && std::isfinite(pitch.y) && pitch.y > 0.0)) {
-    throw InputError(fmt::format("pitch = {} x {} mm; both must be finite and > 0", pitch.x, pitch.y));
+HeightMap resample_map(const HeightMap& map, Point pitch, int threads, const Progress& progress) {
+  if (!ranges::kPitch.holds(pitch.x) || !ranges::kPitch.holds(pitch.y)) {
+    throw InputError(
+        fmt::format("pitch = {} x {} mm; both must be finite and > 0, {}", pitch.x, pitch.y, ranges::kPitch.text()));
   }
   const Index across = span_of(pitch.x, map.grid.pitch_x, map.grid.cols);
   const Index along = span_of(pitch.y, map.grid.pitch_y, map.grid.rows);
   const bool coarser = across > 1 || along > 1;
-  const HeightMap averaged = coarser ? decimate_map(map, along, across) : HeightMap();
+  const HeightMap averaged = coarser ? decimate_map(map, along, across, progress) : HeightMap();
   const HeightMap& source = coarser ? averaged : map;
   constexpr double kRounding = 1e-9;  // pixels
   const auto points = [](double old_pitch, Index pixels, double new_pitch) {
@@ -86,7 +91,7 @@ HeightMap resample_map(const HeightMap& map, Point pitch, int threads) {
   const Grid& g = source.grid;
   const Grid target = limited_grid(points(g.pitch_y, g.rows, pitch.y), points(g.pitch_x, g.cols, pitch.x), pitch,
                                    g.origin, fmt::format("pitch = {} x {} mm", pitch.x, pitch.y));
-  return warp_map(source, {}, target, threads);
+  return warp_map(source, {}, target, threads, progress);
 }
 
 }  // namespace dwell

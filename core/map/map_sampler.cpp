@@ -71,13 +71,18 @@ double mean_of(const HeightMap& map) {
 
 }  // namespace
 
-MapSampler::MapSampler(const HeightMap& map) : grid_(map.grid), mean_(mean_of(map)) {
+MapSampler::MapSampler(const HeightMap& map, const Progress& progress) : grid_(map.grid), mean_(mean_of(map)) {
   valid_.reserve(map.values.size());
   for (const double height : map.values) valid_.push_back(std::isfinite(height) ? 1 : 0);
   HeightMap wide = pad_map(map, mean_);
-  for (Index ring = 0; ring < kRings; ++ring) add_ring(wide);
+  for (Index ring = 0; ring < kRings; ++ring) {
+    progress.check();
+    add_ring(wide);
+  }
+  progress.check();
   const std::vector<Index> nearest = nearest_pixels(wide);
   for (std::size_t i = 0; i < nearest.size(); ++i) wide.values[i] = wide.values[static_cast<std::size_t>(nearest[i])];
+  progress.check();
   surface_ = SplineSurface(wide.grid, wide.values);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/base/progress.h"
 #include "core/map/height_map.h"
 #include "core/numerics/spline_surface.h"
 
@@ -11,8 +12,8 @@ namespace dwell {
 /// pixel. They do not count as data.
 class MapSampler {
  public:
-  /// Throws InputError if no pixel is finite. Cost and memory O(pixels).
-  explicit MapSampler(const HeightMap& map);
+  /// Throws InputError if no pixel is finite, Interrupted. Cost and memory O(pixels).
+  explicit MapSampler(const HeightMap& map, const Progress& progress = {});
 
   /// Whether there is data at p: every pixel that bilinear interpolation would use is finite. A pixel's own centre (to
   /// 1e-9 pixels) needs that pixel only; there is no data in the cells that a hole touches, and nothing is

@@ -11,13 +11,21 @@
 
 namespace dwell {
 
-HeightMap warp_map(const HeightMap& map, const PlaneTransform& forward, const Grid& target, int threads) {
+HeightMap warp_map(const HeightMap& map, const PlaneTransform& forward, const Grid& target, int threads,
+                   const Progress& progress) {
   const PlaneTransform back = forward.inverse();
-  const MapSampler sampler(map);
+  progress.step("the spline through the map");
+  const MapSampler sampler(map, progress);
   HeightMap result(target);
+  constexpr Index kBetweenLooks = Index{1} << 20;  // pixels: a tenth of a second
+  const Index band = std::max<Index>(threads, kBetweenLooks / target.cols);
+  for (Index first = 0; first < target.rows; first += band) {
+    progress.step(fmt::format("resampling: {} %", 100 * first / target.rows));
+    const Index end = std::min(first + band, target.rows);
 #pragma omp parallel for num_threads(threads) schedule(static)
-  for (Index row = 0; row < target.rows; ++row) {
-    for (Index col = 0; col < target.cols; ++col) result.at(row, col) = sampler(back(target.centre(row, col)));
+    for (Index row = first; row < end; ++row) {
+      for (Index col = 0; col < target.cols; ++col) result.at(row, col) = sampler(back(target.centre(row, col)));
+    }
   }
   if (result.valid_pixels() == 0) {
     throw InputError(
@@ -41,9 +49,9 @@ Grid covering_grid(const Grid& grid, const PlaneTransform& forward) {
   return result;
 }
 
-HeightMap rotate_map(const HeightMap& map, double degrees, Point about, int threads) {
+HeightMap rotate_map(const HeightMap& map, double degrees, Point about, int threads, const Progress& progress) {
   const PlaneTransform forward = similarity(about, {}, degrees, 1.0);
-  return warp_map(map, forward, covering_grid(map.grid, forward), threads);
+  return warp_map(map, forward, covering_grid(map.grid, forward), threads, progress);
 }
 
 }  // namespace dwell

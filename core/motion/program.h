@@ -23,6 +23,8 @@ struct ProgramStep {
 struct Program {
   std::string file;
   std::vector<ProgramStep> steps;
+  /// What the file left open and how it was read, a sentence each.
+  std::vector<std::string> notes{};
 
   double total_seconds() const;    // all steps [s]
   double removing_length() const;  // [mm]

@@ -27,6 +27,10 @@ class PaddedConvolution {
     return r * fft_.cols() + c;
   }
 
+  /// By how many nodes the lattice is wider than the map on every side.
+  Index half_rows() const { return half_rows_; }
+  Index half_cols() const { return half_cols_; }
+
   std::span<double> field() { return fft_.real(); }
   void clear_field();
 

@@ -1,5 +1,6 @@
 #include "core/removal/lattice_removal.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -24,6 +25,18 @@ bool same_shift(const Grid& map, Point a, Point b, LatticePosition shift) {
   const double du = (a.x - b.x) / map.pitch_x - static_cast<double>(shift.col);
   const double dv = (a.y - b.y) / map.pitch_y - static_cast<double>(shift.row);
   return std::abs(du) <= kTolerance && std::abs(dv) <= kTolerance;
+}
+
+/// Whether a stroke is not much longer than the map, which is padded by its length, and its distance from another a
+/// number of pixels that can be counted.
+bool lies_near(const Grid& map, const Stroke& s, const Stroke& other) {
+  constexpr double kFar = 1e9;
+  const auto within = [&map](Point a, Point b, double pixels) {
+    return std::abs(a.x - b.x) <= pixels * map.pitch_x && std::abs(a.y - b.y) <= pixels * map.pitch_y;
+  };
+  constexpr Index kShort = 64;  // on the smallest of maps
+  const auto longest = static_cast<double>(kShort + 4 * std::max(map.rows, map.cols));
+  return within(s.start, s.via, longest) && within(s.finish, s.via, longest) && within(s.via, other.via, kFar);
 }
 
 LatticePosition shift_between(const Grid& map, Point a, Point b) {
@@ -52,6 +65,7 @@ std::vector<double> averaged_kernel(const Grid& map, const RemovalKernel& kernel
 bool LatticeRemoval::commensurate(const Grid& map, const std::vector<Stroke>& strokes) {
   for (const Stroke& s : strokes) {
     const Stroke& first = strokes.front();
+    if (!lies_near(map, s, first)) return false;
     const LatticePosition shift = shift_between(map, s.via, first.via);
     if (!same_shift(map, s.via, first.via, shift) || !same_shift(map, s.start, first.start, shift) ||
         !same_shift(map, s.finish, first.finish, shift)) {

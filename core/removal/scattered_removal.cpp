@@ -38,12 +38,13 @@ struct NodeBox {
 /// boxes, and nodes at the cuts have several entries.
 class StrokeSpreader {
  public:
-  StrokeSpreader(const Grid& map, const PaddedConvolution& convolution) : map_(map), convolution_(convolution) {}
+  StrokeSpreader(const Grid& map, const PaddedConvolution& convolution)
+      : map_(map), convolution_(convolution), reach_(reach_of(map, convolution)) {}
 
   /// Appends the entries of a stroke.
   void spread(const Stroke& stroke, std::vector<NodeWeight>& entries) {
     points_.clear();
-    append_stroke_quadrature(stroke, map_, points_);
+    append_stroke_quadrature(stroke, map_, reach_, points_);
     supports_.clear();
     for (const QuadraturePoint& q : points_) add_support(q);
     for (std::size_t begin = 0; begin < supports_.size();) begin = spread_box(begin, entries);
@@ -56,12 +57,18 @@ class StrokeSpreader {
     std::array<double, 4> wx, wy;  // wy with the point's own weight
   };
 
+  /// Where a point must lie to reach a node that a pixel feels: a point reaches two nodes on either side.
+  static LatticeBox reach_of(const Grid& map, const PaddedConvolution& convolution) {
+    const auto beyond_x = static_cast<double>(convolution.half_cols() + 2),
+               beyond_y = static_cast<double>(convolution.half_rows() + 2);
+    return {-beyond_x, static_cast<double>(map.cols - 1) + beyond_x, -beyond_y,
+            static_cast<double>(map.rows - 1) + beyond_y};
+  }
+
   void add_support(const QuadraturePoint& q) {
     const double u = (q.position.x - map_.origin.x) / map_.pitch_x;
     const double v = (q.position.y - map_.origin.y) / map_.pitch_y;
     const double fu = std::floor(u), fv = std::floor(v);
-    constexpr double kFar = 1e9;  // beyond any lattice, and beyond what the conversion below can hold
-    if (!(std::abs(fu) < kFar && std::abs(fv) < kFar)) return;
     const auto row = static_cast<Index>(fv), col = static_cast<Index>(fu);
     Support support{{row - 1, row + 2, col - 1, col + 2}, bspline_weights(u - fu), bspline_weights(v - fv)};
     for (double& w : support.wy) w *= q.weight;
@@ -101,6 +108,7 @@ class StrokeSpreader {
 
   const Grid& map_;
   const PaddedConvolution& convolution_;
+  LatticeBox reach_;
   std::vector<QuadraturePoint> points_;
   std::vector<Support> supports_;
   std::vector<double> cells_;

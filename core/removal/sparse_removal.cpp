@@ -10,7 +10,10 @@ namespace {
 void append_column(const Grid& map, const std::vector<Index>& row_of, const RemovalKernel& kernel, const Stroke& s,
                    Index j, std::vector<QuadraturePoint>& points, std::vector<Eigen::Triplet<double, Index>>& entries) {
   points.clear();
-  append_stroke_quadrature(s, map, points);
+  const auto beyond_x = static_cast<double>(kernel.half_cols + 2), beyond_y = static_cast<double>(kernel.half_rows + 2);
+  const LatticeBox near{-beyond_x, static_cast<double>(map.cols - 1) + beyond_x, -beyond_y,
+                        static_cast<double>(map.rows - 1) + beyond_y};
+  append_stroke_quadrature(s, map, near, points);
   const Point reach{map.pitch_x * static_cast<double>(kernel.half_cols + 2),
                     map.pitch_y * static_cast<double>(kernel.half_rows + 2)};
   const PixelRange range = touched_pixels(map, s, -1.0 * reach, reach);

@@ -65,6 +65,8 @@ StrokeAverage::StrokeAverage(const RemovalFunction& tif)
   const Grid& g = spline_->grid();  // B3 reaches two pitches beyond its coefficients
   low_ = {g.x(-2), g.y(-2)};
   high_ = {g.x(g.cols + 1), g.y(g.rows + 1)};
+  reach_ = {(low_.x - samples_.origin.x) / samples_.pitch_x, (high_.x - samples_.origin.x) / samples_.pitch_x,
+            (low_.y - samples_.origin.y) / samples_.pitch_y, (high_.y - samples_.origin.y) / samples_.pitch_y};
 }
 
 double StrokeAverage::rate(Point displacement) const {
@@ -93,7 +95,7 @@ double StrokeAverage::spline_average(const Stroke& stroke, Point point) const {
   // Kept from call to call, because every entry of a matrix would allocate it anew.
   thread_local std::vector<QuadraturePoint> points;
   points.clear();
-  append_stroke_quadrature({point - stroke.start, point - stroke.via, point - stroke.finish}, samples_, points);
+  append_stroke_quadrature({point - stroke.start, point - stroke.via, point - stroke.finish}, samples_, reach_, points);
   double sum = 0.0;
   for (const QuadraturePoint& q : points) sum += q.weight * (*spline_)(q.position);
   return sum;

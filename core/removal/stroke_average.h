@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "core/motion/stroke_quadrature.h"
 #include "core/motion/tool_path.h"
 #include "core/numerics/spline_surface.h"
 #include "core/tif/removal_function.h"
@@ -39,6 +40,7 @@ class StrokeAverage {
   std::optional<SplineSurface> spline_;
   Grid samples_;
   Point low_, high_;
+  LatticeBox reach_{};  // the same in pitches of the samples
 };
 
 }  // namespace dwell

@@ -8,6 +8,7 @@
 #include "core/base/errors.h"
 #include "core/base/number_text.h"
 #include "core/base/spec_text.h"
+#include "core/base/value_range.h"
 
 namespace dwell {
 namespace {
@@ -71,17 +72,18 @@ PsdLimitCheck check_psd_limit(const PsdCurve& curve, const PsdLine& limit, doubl
 }
 
 PsdLimit parse_psd_limit(const std::string& text) {
+  constexpr ValueRange kDensities{1e-30, 1e30, ""}, kExponents{-20.0, 20.0, ""};
   const auto [kind, rest] = split_kind(text);
   const bool has_kind = text.find(':') != std::string::npos;
   const auto fields = split(has_kind ? std::string_view(rest) : std::string_view(text), ',');
   if ((!has_kind || lower_case(trim(kind)) == "radial") && fields.size() == 2) {
     const auto a = finite_number(fields[0]), b = finite_number(fields[1]);
-    if (a && b && *a > 0.0) return {has_kind, {*a, *b}};
+    if (a && b && kDensities.holds(*a) && kExponents.holds(*b)) return {has_kind, {*a, *b}};
   }
   throw InputError(fmt::format(
       "limit \"{}\"; accepted: A,B for the spectra along x and y (A > 0 in nm^2 mm, the density at 1/mm), or "
-      "radial:A,B (A in nm^2 mm^2)",
-      text));
+      "radial:A,B (A in nm^2 mm^2); A {}, B {}",
+      text, kDensities.text(), kExponents.text()));
 }
 
 }  // namespace dwell

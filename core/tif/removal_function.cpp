@@ -7,14 +7,14 @@
 #include <numbers>
 
 #include "core/base/errors.h"
+#include "core/base/value_range.h"
 
 namespace dwell {
 namespace {
 
-void require_positive(double value, const char* name, const char* unit) {
-  if (!(std::isfinite(value) && value > 0.0)) {
-    throw InputError(fmt::format("removal function: {} = {} {}; required finite and > 0", name, value, unit));
-  }
+void require_within(double value, const char* name, const ValueRange& range) {
+  if (range.holds(value)) return;
+  throw InputError(fmt::format("removal function: {} = {} {}; required {}", name, value, range.unit, range.text()));
 }
 
 Point centroid(const HeightMap& rates) {
@@ -62,9 +62,9 @@ double reach(const HeightMap& rates) {
 }  // namespace
 
 RemovalFunction gaussian_removal(double peak, double fwhm, double radius) {
-  require_positive(peak, "peak", "nm/s");
-  require_positive(fwhm, "fwhm", "mm");
-  require_positive(radius, "radius", "mm");
+  require_within(peak, "peak", ranges::kRate);
+  require_within(fwhm, "fwhm", ranges::kSize);
+  require_within(radius, "radius", ranges::kSize);
   RemovalFunction tif;
   tif.kind = RemovalFunction::Kind::Gaussian;
   tif.peak = peak;
@@ -77,8 +77,11 @@ RemovalFunction gaussian_removal(double peak, double fwhm, double radius) {
 }
 
 RemovalFunction spinning_disc_removal(double slope, double radius) {
-  require_positive(slope, "slope", "nm/s/mm");
-  require_positive(radius, "radius", "mm");
+  require_within(radius, "radius", ranges::kSize);
+  if (!(std::isfinite(slope) && slope > 0.0)) {
+    throw InputError(fmt::format("removal function: slope = {} nm/s/mm; required finite and > 0", slope));
+  }
+  require_within(slope * radius, "slope x radius, its fastest removal,", ranges::kRate);
   RemovalFunction tif;
   tif.kind = RemovalFunction::Kind::Disc;
   tif.slope = slope;
@@ -102,6 +105,9 @@ RemovalFunction measured_removal(const HeightMap& rates, const TifCentre& centre
     throw InputError(
         fmt::format("removal function: its largest rate is {} nm/s; at least one sample must be > 0", tif.peak));
   }
+  require_within(tif.peak, "its largest rate", ranges::kRate);
+  const double lowest = *std::min_element(values.begin(), values.end());
+  require_within(std::max(tif.peak, -lowest), "its largest negative rate, without its sign,", ranges::kRate);
   Grid& grid = tif.samples.grid;
   grid.origin = grid.origin - axis_of(tif.samples, centre);
   const double cell = grid.pitch_x * grid.pitch_y;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/base/utf8_text.h"
 #include "core/base/version.h"
 #include "solvers/solver_catalogue.h"
 
@@ -9,6 +10,24 @@ namespace dwell {
 
 nlohmann::ordered_json json_of_command(const std::string& command) {
   return {{"schema", kJsonSchema}, {"version", version()}, {"command", command}};
+}
+
+namespace {
+
+void escape_bytes(nlohmann::ordered_json& json) {
+  if (json.is_string()) {
+    const auto& text = json.get_ref<const std::string&>();
+    if (!is_utf8(text)) json = with_escaped_bytes(text);
+  } else if (json.is_structured()) {
+    for (auto& part : json) escape_bytes(part);
+  }
+}
+
+}  // namespace
+
+std::string json_text(nlohmann::ordered_json json) {
+  escape_bytes(json);
+  return json.dump(2) + "\n";
 }
 
 nlohmann::ordered_json finite_or_null(double value) {
@@ -35,7 +54,8 @@ nlohmann::ordered_json map_block(const MapFigures& map) {
                 {"aperture_pixels", map.statistics.valid_pixels},
                 {"removed", map.removed},
                 {"pv_nm", map.statistics.pv},
-                {"rms_nm", map.statistics.rms}});
+                {"rms_nm", map.statistics.rms},
+                {"mean_nm", map.statistics.mean}});
   return block;
 }
 
@@ -49,7 +69,7 @@ nlohmann::ordered_json tif_block(const RemovalFunction& tif, const std::string& 
 }
 
 nlohmann::ordered_json residual_block(const std::string& removed, const MapStatistics& left) {
-  return {{"removed", removed}, {"rms_nm", left.rms}, {"pv_nm", left.pv}};
+  return {{"removed", removed}, {"rms_nm", left.rms}, {"pv_nm", left.pv}, {"mean_nm", left.mean}};
 }
 
 nlohmann::ordered_json path_block(const std::string& kind, const PathMetrics& metrics,
@@ -76,8 +96,9 @@ nlohmann::ordered_json dwell_block(const DwellFigures& dwell) {
   return {{"total_s", dwell.total}, {"min_s", dwell.min}, {"max_s", dwell.max}, {"step_rms_s", dwell.step_rms}};
 }
 
-ProgramFigures program_figures(const Program& program, const MapStatistics& residual) {
-  return {program.file, program.steps.size(), program.removing_length(), program.total_seconds(), residual};
+ProgramFigures program_figures(const Program& program, const MapStatistics& residual, const std::string& removed) {
+  return {program.file, program.steps.size(), program.removing_length(), program.total_seconds(), residual,
+          removed,      program.notes};
 }
 
 nlohmann::ordered_json program_block(const ProgramFigures& program) {
@@ -85,8 +106,11 @@ nlohmann::ordered_json program_block(const ProgramFigures& program) {
           {"steps", program.steps},
           {"removing_length_mm", program.removing_length},
           {"total_s", program.seconds},
+          {"removed", program.removed},
           {"residual_rms_nm", program.residual.rms},
-          {"residual_pv_nm", program.residual.pv}};
+          {"residual_pv_nm", program.residual.pv},
+          {"residual_mean_nm", program.residual.mean},
+          {"notes", program.notes}};
 }
 
 nlohmann::ordered_json trial_block(const Weights& weights, const TradeOff& trade_off, double objective,

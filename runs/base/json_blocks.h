@@ -26,6 +26,10 @@ inline constexpr int kJsonSchema = 2;
 /// "schema", "version" and "command", with which the JSON of every command begins.
 nlohmann::ordered_json json_of_command(const std::string& command);
 
+/// The JSON as text, indented by two, with a line end. Bytes that are no UTF-8, as names of files may hold, are escaped
+/// (core/base/utf8_text.h).
+std::string json_text(nlohmann::ordered_json json);
+
 /// The number, or null where it is not finite: JSON has neither infinity nor NaN.
 nlohmann::ordered_json finite_or_null(double value);
 nlohmann::ordered_json finite_or_null(const std::optional<double>& value);
@@ -50,7 +54,7 @@ nlohmann::ordered_json map_block(const MapFigures& map);
 nlohmann::ordered_json tif_block(const RemovalFunction& tif, const std::string& kind,
                                  const std::vector<std::string>& history, std::optional<double> volume_factor = {});
 
-/// A surface that is left: "removed", "rms_nm", "pv_nm".
+/// A surface that something leaves: "removed", "rms_nm", "pv_nm", "mean_nm".
 nlohmann::ordered_json residual_block(const std::string& removed, const MapStatistics& left);
 
 nlohmann::ordered_json path_block(const std::string& kind, const PathMetrics& metrics,
@@ -73,8 +77,10 @@ struct ProgramFigures {
   double removing_length = 0.0;  // [mm]
   double seconds = 0.0;          // [s]
   MapStatistics residual;        // by simulation, form terms removed
+  std::string removed;           // which
+  std::vector<std::string> notes;
 };
-ProgramFigures program_figures(const Program& program, const MapStatistics& residual);
+ProgramFigures program_figures(const Program& program, const MapStatistics& residual, const std::string& removed);
 nlohmann::ordered_json program_block(const ProgramFigures& program);
 
 /// A solve with given weights and its result: a trial of a search, or a point of a sweep.

@@ -86,6 +86,24 @@ const ResultFiles& pareto_files() {
   return kFiles;
 }
 
+bool is_result(const fs::path& folder, const ResultFiles& files) { return foreign_entry(folder, files).empty(); }
+
+void refuse_inside_result(const fs::path& target, const ResultFiles& files,
+                          const std::vector<const ResultFiles*>& kinds) {
+  const fs::path place = normal(target, files);
+  for (fs::path above = place.parent_path(); above.has_relative_path(); above = above.parent_path()) {
+    for (const ResultFiles* kind : kinds) {
+      const bool one_of_many = kind->in_folders == &files && above == place.parent_path();
+      if (one_of_many || !is_result(above, *kind)) continue;
+      refuse_out(
+          target, "a folder outside of it",
+          fmt::format("'{}' lies in '{}', which holds an earlier {} and could then no longer be replaced; give a "
+                      "folder outside of it",
+                      target.string(), above.string(), kind->kind));
+    }
+  }
+}
+
 OutputFolder::OutputFolder(const fs::path& target, const ResultFiles& files) : target_(normal(target, files)) {
   check_target(target_, target, files);
   made_parents_.make(target_.parent_path());

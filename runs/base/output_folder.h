@@ -25,6 +25,14 @@ struct ResultFiles {
 };
 const ResultFiles& pareto_files();
 
+/// Whether a folder holds an earlier result of the kind and nothing else.
+bool is_result(const std::filesystem::path& folder, const ResultFiles& files);
+
+/// Throws InputError if the target lies in a folder that holds a result of one of the kinds and, with the target in it,
+/// would no longer be known as one: it could never be replaced. `files` are those of the target.
+void refuse_inside_result(const std::filesystem::path& target, const ResultFiles& files,
+                          const std::vector<const ResultFiles*>& kinds);
+
 /// A folder of results that appears whole or not at all. Files go to a temporary folder beside the target; commit()
 /// puts it in place in one step (an earlier result is exchanged with it and then removed); without commit() the
 /// temporary folder is removed, with the parents that were made for it, and the target is as it was.

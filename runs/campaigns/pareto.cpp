@@ -9,6 +9,7 @@
 
 #include "core/base/errors.h"
 #include "core/base/number_text.h"
+#include "core/base/value_range.h"
 #include "runs/plan/plan_problem.h"
 
 namespace dwell {
@@ -26,17 +27,18 @@ std::vector<double> logarithmic(double from, double to, std::size_t count) {
 
 /// The weights that the text names, in any order; none if it is not a list of weights.
 std::vector<double> weights_in(const std::string& text) {
+  constexpr ValueRange kWeights{1e-15, 1e15, ""};  // or 0
   const std::vector<std::string_view> range = split(text, ':');
   if (range.size() == 3) {
     const auto from = finite_number(range[0]), to = finite_number(range[1]), count = finite_number(range[2]);
-    const bool usable = from && to && count && *from > 0.0 && *to > 0.0 && *count >= 2.0 &&
+    const bool usable = from && to && count && kWeights.holds(*from) && kWeights.holds(*to) && *count >= 2.0 &&
                         *count <= static_cast<double>(kMostWeights) && *count == std::floor(*count);
     return usable ? logarithmic(*from, *to, static_cast<std::size_t>(*count)) : std::vector<double>();
   }
   std::vector<double> values;
   for (const std::string_view word : split(text, ',')) {
     const auto value = finite_number(word);
-    if (!value || *value < 0.0) return {};
+    if (!value || (*value != 0.0 && !kWeights.holds(*value))) return {};
     values.push_back(*value);
   }
   return values;

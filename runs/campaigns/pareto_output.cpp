@@ -47,7 +47,7 @@ std::string pareto_json_text(const ParetoSweep& sweep) {
                   {"limits", sweep.limits},
                   {"options", options},
                   {"inputs", inputs_json(sweep.job.inputs)}});
-  return summary.dump(2) + "\n";
+  return json_text(std::move(summary));
 }
 
 std::string write_pareto(const ParetoSweep& sweep, const OutputFolder& folder) {

@@ -11,6 +11,7 @@
 
 #include "core/base/errors.h"
 #include "core/base/units.h"
+#include "core/base/value_range.h"
 #include "paths/domain/widest_place.h"
 #include "paths/metrics/path_coverage.h"
 #include "paths/tours/spanning_tree.h"
@@ -132,8 +133,8 @@ void mark_front(std::vector<ComparedPath>& paths) {
 PathComparison compare_paths(const JobOptions& options, const std::string& list, std::optional<double> pitch,
                              const OutputFolder& folder, const Progress& progress) {
   const auto started = std::chrono::steady_clock::now();
-  if (pitch && !(*pitch > 0.0 && std::isfinite(*pitch))) {
-    throw InputError(fmt::format("--pitch: {}; required a finite number > 0, in mm", *pitch));
+  if (pitch && !ranges::kPitch.holds(*pitch)) {
+    throw InputError(fmt::format("--pitch: {}; required {}", *pitch, ranges::kPitch.text()));
   }
   parse_path_list(list, pitch.value_or(1.0));  // refuses a wrong list before any work is done
   PathComparison comparison;

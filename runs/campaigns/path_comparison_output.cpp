@@ -4,7 +4,9 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <utility>
 
+#include "core/base/utf8_text.h"
 #include "runs/base/inputs_json.h"
 #include "runs/drawing/line_chart.h"
 #include "runs/reports/figure_output.h"
@@ -129,7 +131,8 @@ std::string spectra_picture(const PathComparison& comparison, FigureFormat forma
 }
 
 /// A field of a CSV file.
-std::string quote_field(std::string text) {
+std::string quote_field(const std::string& field) {
+  std::string text = with_escaped_bytes(field);
   if (text.find_first_of(",\"\n") == std::string::npos) return text;
   for (std::size_t at = text.find('"'); at != std::string::npos; at = text.find('"', at + 2)) text.insert(at, 1, '"');
   return '"' + text + '"';
@@ -219,15 +222,15 @@ std::string path_comparison_json(const PathComparison& comparison) {
                   {"limits", comparison.limits},
                   {"options", options},
                   {"inputs", inputs_json(comparison.job.inputs)}});
-  return summary.dump(2) + "\n";
+  return json_text(std::move(summary));
 }
 
 std::string path_comparison_text(const PathComparison& comparison) {
   std::size_t widest = 4;
   for (const ComparedPath& p : comparison.paths) widest = std::max(widest, p.listed.name.size());
-  std::string text = fmt::format("before    RMS {:.4g} nm, PV {:.4g} nm; pitch {:.6g} mm where a path says none ({})\n",
-                                 comparison.job.part->before.rms, comparison.job.part->before.pv, comparison.pitch,
-                                 comparison.pitch_given ? "given" : "a quarter of the removal function's FWHM");
+  std::string text =
+      fmt::format("before    {}; pitch {:.6g} mm where a path says none ({})\n", in_words(comparison.job.part->before),
+                  comparison.pitch, comparison.pitch_given ? "given" : "a quarter of the removal function's FWHM");
   text += fmt::format("  {:<{}} {:>12} {:>11} {:>9} {:>11} {:>8} {:>10} {:>6} {:>9} {:>10}\n", "path", widest,
                       "residual[nm]", "mid RMS[nm]", "total[s]", "step RMS[s]", "points", "length[mm]", "lifts",
                       "ripple[%]", "anisotropy");

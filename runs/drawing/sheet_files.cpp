@@ -10,6 +10,8 @@
 #include <map>
 #include <stdexcept>
 
+#include "core/base/utf8_text.h"
+
 namespace dwell {
 namespace {
 
@@ -120,27 +122,6 @@ std::string renumber_elements(const std::string& svg) {
     at = end;
   }
   return out;
-}
-
-/// How many bytes the character at the front takes, or 0 if these are no UTF-8.
-std::size_t utf8_length(std::string_view text) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  const unsigned first = byte(0);
-  const std::size_t length = first < 0x80                    ? 1
-                             : first >= 0xC2 && first < 0xE0 ? 2
-                             : first >= 0xE0 && first < 0xF0 ? 3
-                             : first >= 0xF0 && first < 0xF5 ? 4
-                                                             : 0;
-  if (length == 0 || length > text.size()) return 0;
-  for (std::size_t i = 1; i < length; ++i) {
-    if ((byte(i) & 0xC0U) != 0x80U) return 0;
-  }
-  if (length < 3) return length;
-  // Encodings that are longer than needed, halves of surrogate pairs, and numbers beyond the last character.
-  const unsigned second = byte(1);
-  const bool wrong = (first == 0xE0 && second < 0xA0) || (first == 0xED && second >= 0xA0) ||
-                     (first == 0xF0 && second < 0x90) || (first == 0xF4 && second >= 0x90);
-  return wrong ? 0 : length;
 }
 
 }  // namespace

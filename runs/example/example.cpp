@@ -8,6 +8,7 @@
 
 #include "core/base/errors.h"
 #include "core/base/numbers.h"
+#include "core/base/value_range.h"
 #include "runs/example/random_numbers.h"
 
 namespace dwell {
@@ -15,7 +16,7 @@ namespace {
 
 constexpr double kLargestEdge = 4096.0;  // pixels
 constexpr int kModes = 400;
-constexpr double kHuge = 1e9;  // any length or amplitude beyond it is a slip of the pen
+constexpr double kHuge = ranges::kHeight.most;  // amplitudes
 
 void require(bool accepted, const char* owner, const char* field, double value, const char* what) {
   if (!accepted) throw InputError(fmt::format("{}.{} = {}; required {}", owner, field, value, what));
@@ -36,7 +37,7 @@ void check(const ExampleOptions& o) {
   }
   for (const Field f : {Field{"width", o.width}, Field{"height", o.height}, Field{"pitch", o.pitch},
                         Field{"edge_width", o.edge_width}}) {
-    require(f.value > 0.0 && f.value <= kHuge, kOwner, f.name, f.value, "> 0 and at most 1e9");
+    require(ranges::kSize.holds(f.value), kOwner, f.name, f.value, "> 0, from 1e-6 to 1e6 mm");
   }
   for (const Field f : {Field{"roughness_rms", o.roughness_rms}, Field{"noise_rms", o.noise_rms}}) {
     require(f.value >= 0.0 && f.value <= kHuge, kOwner, f.name, f.value, ">= 0 and at most 1e9");

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <utility>
 
 #include "core/base/errors.h"
 #include "core/base/version.h"
@@ -65,7 +66,7 @@ std::string example_json(const Example& example, std::uint64_t seed) {
   json["tif"] = tif_block(tif, kind_of(tif), tif.samples.history);
   json["seed"] = seed;
   json["files"] = {"mirror.csv", "tif.csv", "demo.toml", "MANIFEST"};
-  return json.dump(2) + "\n";
+  return json_text(std::move(json));
 }
 
 }  // namespace dwell

@@ -21,6 +21,7 @@ namespace dwell {
 HeightMap load_map(const JobOptions& options, std::vector<InputFile>& inputs, const Progress& progress) {
   if (options.map.empty()) throw InputError("--map: required; a height-error map, for instance mirror.csv");
   const MapReadOptions read{options.map_pixel_mm, options.map_origin_mm, height_unit_nm(options.map_unit), "map"};
+  progress.step("reading the map");
   HeightMap map = read_map(options.map, read);
   inputs.push_back({"map", options.map, sha256_of_file(split_map_name(options.map).file)});
   MapStepContext context{read, &inputs, thread_count(options.threads), progress.of_part("map")};

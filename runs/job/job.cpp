@@ -29,7 +29,7 @@ Job load_job(const JobOptions& options, const Progress& progress) {
   job.options = options;
   HeightMap map = load_map(options, job.inputs, progress);
   job.map_pixels = map.valid_pixels();
-  map = within(std::move(map), options.aperture);
+  map = within(std::move(map), options.aperture, progress);
   progress.check();
   RemovalFunction tif = load_removal_function(options, job.inputs);
   job.part = std::make_shared<const Part>(

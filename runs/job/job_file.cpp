@@ -9,6 +9,7 @@
 #include "core/base/errors.h"
 #include "core/base/number_text.h"
 #include "core/base/spec_text.h"
+#include "core/base/utf8_text.h"
 #include "core/base/version.h"
 #include "core/base/whole_file.h"
 #include "core/tif/models/removal_models.h"
@@ -125,6 +126,12 @@ std::string job_file_text(const JobOptions& options) {
       version(), kJobSchema);
   for (const JobOptionRecord& record : job_option_table()) {
     const std::string value = record.get(options);
+    if (!is_utf8(value)) {
+      throw InputError(
+          fmt::format("--{} '{}': a job file is UTF-8 and can name no other bytes (shown as \\xE9); rename "
+                      "the file",
+                      record.flag, with_escaped_bytes(value)));
+    }
     std::ostringstream quoted;
     quoted << toml::value<std::string>(value);
     text += fmt::format("\n# {}\n", record.help);

@@ -6,6 +6,7 @@
 
 #include "core/base/errors.h"
 #include "core/base/number_text.h"
+#include "core/base/value_range.h"
 #include "core/form/form.h"
 #include "core/map/aperture.h"
 #include "core/map/value_units.h"
@@ -23,32 +24,21 @@
 namespace dwell {
 namespace {
 
-double number(const std::string& text, const char* required, bool (*accepted)(double)) {
+double number(const std::string& text, const ValueRange& range) {
   const auto value = parse_number(text);
-  if (!value || !std::isfinite(*value) || !accepted(*value))
-    throw InputError(fmt::format("'{}'; required {}", text, required));
+  if (!value || !range.holds(*value)) throw InputError(fmt::format("'{}'; required {}", text, range.text()));
   return *value;
-}
-
-double positive(const std::string& text) {
-  return number(text, "a number > 0", [](double v) { return v > 0.0; });
-}
-
-double not_negative(const std::string& text) {
-  return number(text, "a number >= 0", [](double v) { return v >= 0.0; });
 }
 
 void check_height_or_rate_unit(const std::string& unit) {
   unit_factor(unit, known_rate_unit(unit) ? MapQuantity::Rate : MapQuantity::Height);
 }
 
-double any_angle(const std::string& text) {
-  return number(text, "an angle from -360 to 360 degrees", [](double v) { return v >= -360.0 && v <= 360.0; });
-}
-
 int whole(const std::string& text) {
-  return static_cast<int>(number(text, "a whole number from 0 to 1024",
-                                 [](double v) { return v >= 0.0 && v <= 1024.0 && v == std::floor(v); }));
+  constexpr ValueRange kThreads{0.0, 1024.0, ""};
+  const auto value = parse_number(text);
+  if (value && kThreads.holds(*value) && *value == std::floor(*value)) return static_cast<int>(*value);
+  throw InputError(fmt::format("'{}'; required a whole number from 0 to 1024", text));
 }
 
 /// A number as the job file and the summary write it: the shortest that reads back equal.
@@ -81,7 +71,7 @@ std::vector<JobOptionRecord> make_table() {
       {"map", "map", "FILE", "height-error map: a file in any map format; NaN = outside the part", true, false,
        [](Options& o, const std::string& t) { o.map = t; }, [](const Options& o) { return o.map; }},
       {"map-pixel", "map_pixel_mm", "MM", "pixel pitch of the map, for formats that carry none", false, true,
-       [](Options& o, const std::string& t) { o.map_pixel_mm = positive(t); },
+       [](Options& o, const std::string& t) { o.map_pixel_mm = number(t, ranges::kPitch); },
        [](const Options& o) { return shown(o.map_pixel_mm); }},
       {"map-unit", "map_unit", "UNIT", "unit of the heights: nm, um, mm or m", false, false,
        [](Options& o, const std::string& t) { height_unit_nm(t), o.map_unit = t; },
@@ -100,7 +90,7 @@ std::vector<JobOptionRecord> make_table() {
                    other_models()),
        true, false, [](Options& o, const std::string& t) { o.tif = t; }, [](const Options& o) { return o.tif; }},
       {"tif-pixel", "tif_pixel_mm", "MM", "pixel pitch of the removal function's file, for formats that carry none",
-       false, true, [](Options& o, const std::string& t) { o.tif_pixel_mm = positive(t); },
+       false, true, [](Options& o, const std::string& t) { o.tif_pixel_mm = number(t, ranges::kPitch); },
        [](const Options& o) { return shown(o.tif_pixel_mm); }},
       {"tif-unit", "tif_unit", "UNIT",
        "unit of the removal rates: nm/s, um/s, um/min or m/s (of the surface that spots left: nm, um, mm or m)", false,
@@ -110,7 +100,7 @@ std::vector<JobOptionRecord> make_table() {
        "the removal function's file is a surface, flat before, after the tool stood on it for so many seconds at one "
        "or "
        "more spots; dwell tif shows and does more",
-       false, true, [](Options& o, const std::string& t) { o.tif_dwell_time_s = positive(t); },
+       false, true, [](Options& o, const std::string& t) { o.tif_dwell_time_s = number(t, ranges::kTime); },
        [](const Options& o) { return shown(o.tif_dwell_time_s); }},
       {"tif-centre", "tif_centre", "WHERE",
        "the tool axis in the removal function's file: middle (of its grid), centroid, X,Y in mm, or auto: 0,0 of a "
@@ -121,7 +111,7 @@ std::vector<JobOptionRecord> make_table() {
       {"tif-angle", "tif_angle_deg", "DEG",
        "turns the removal function about the tool axis, counter-clockwise seen from +z, x to the right and y up, in "
        "degrees",
-       false, true, [](Options& o, const std::string& t) { o.tif_angle_deg = any_angle(t); },
+       false, true, [](Options& o, const std::string& t) { o.tif_angle_deg = number(t, ranges::kAngle); },
        [](const Options& o) { return shown(o.tif_angle_deg); }},
       {"tif-flip", "tif_flip", "AXIS",
        "mirrors the removal function before it is turned: x (+x becomes -x), y, or none", false, false,
@@ -144,10 +134,10 @@ std::vector<JobOptionRecord> make_table() {
        false, false, [](Options& o, const std::string& t) { o.aperture = parse_aperture(t); },
        [](const Options& o) { return to_string(o.aperture); }},
       {"min-dwell", "min_dwell_s", "S", "shortest dwell time at a point in s", false, true,
-       [](Options& o, const std::string& t) { o.min_dwell_s = not_negative(t); },
+       [](Options& o, const std::string& t) { o.min_dwell_s = number(t, ranges::kDwell); },
        [](const Options& o) { return shown(o.min_dwell_s); }},
       {"max-feed", "max_feed_mm_per_min", "MM/MIN", "fastest feed of the machine in mm/min", false, true,
-       [](Options& o, const std::string& t) { o.max_feed_mm_per_min = positive(t); },
+       [](Options& o, const std::string& t) { o.max_feed_mm_per_min = number(t, ranges::kFeed); },
        [](const Options& o) { return shown(o.max_feed_mm_per_min); }},
       {"smoothness", "smoothness", "WEIGHT",
        "weight of smooth feed against residual, dimensionless: 0 = none, 0.01 light, 1 strong; or auto, step<=S (RMS "
@@ -164,7 +154,7 @@ std::vector<JobOptionRecord> make_table() {
        [](Options& o, const std::string& t) { o.solver = parse_solver_kind(t); },
        [](const Options& o) { return to_string(o.solver); }},
       {"max-solve", "max_solve_s", "S", "time limit of the solver in s", false, true,
-       [](Options& o, const std::string& t) { o.max_solve_s = positive(t); },
+       [](Options& o, const std::string& t) { o.max_solve_s = number(t, ranges::kTime); },
        [](const Options& o) { return shown(o.max_solve_s); }},
       {"threads", "threads", "N", "threads; 0 = one for every processor", false, true,
        [](Options& o, const std::string& t) { o.threads = whole(t); },
@@ -173,7 +163,7 @@ std::vector<JobOptionRecord> make_table() {
        [](Options& o, const std::string& t) { o.gcode = parse_gcode_dialect(t); },
        [](const Options& o) { return to_string(o.gcode); }},
       {"lift-height", "lift_height_mm", "MM", "Z of lifted moves in program.nc in mm", false, true,
-       [](Options& o, const std::string& t) { o.lift_height_mm = positive(t); },
+       [](Options& o, const std::string& t) { o.lift_height_mm = number(t, ranges::kSize); },
        [](const Options& o) { return shown(o.lift_height_mm); }},
       {"figures", "figures", "FORMATS", "formats of the figures, separated by commas: png, svg, pdf", false, false,
        [](Options& o, const std::string& t) { o.figures = parse_figure_formats(t); },

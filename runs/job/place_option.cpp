@@ -4,6 +4,7 @@
 
 #include "core/base/errors.h"
 #include "core/base/number_text.h"
+#include "core/base/value_range.h"
 
 namespace dwell {
 
@@ -11,9 +12,9 @@ Point parse_point(const std::string& text) {
   const auto fields = split(text, ',');
   if (fields.size() == 2) {
     const auto x = finite_number(fields[0]), y = finite_number(fields[1]);
-    if (x && y) return {*x, *y};
+    if (x && y && ranges::kPlace.holds(*x) && ranges::kPlace.holds(*y)) return {*x, *y};
   }
-  throw InputError(fmt::format("'{}'; required X,Y in mm, for instance -12.5,3", text));
+  throw InputError(fmt::format("'{}'; required X,Y in mm, for instance -12.5,3, each {}", text, ranges::kPlace.text()));
 }
 
 std::string to_string(const Point& point) { return fmt::format("{},{}", point.x, point.y); }

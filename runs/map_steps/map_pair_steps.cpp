@@ -10,6 +10,7 @@
 
 #include "core/base/errors.h"
 #include "core/base/number_text.h"
+#include "core/base/value_range.h"
 #include "core/base/whole_file.h"
 #include "core/map/map_arithmetic.h"
 #include "core/map/map_warp.h"
@@ -62,6 +63,8 @@ std::vector<Point> points_of(const MapStep& step, const std::string& name) {
   for (const std::string_view field : split(text, '/')) {
     const auto value = finite_number(field);
     if (!value) step.refuse(fmt::format("{}: '{}' is not a finite number; X/Y/X/Y/... in mm required", name, field));
+    if (!ranges::kPlace.holds(*value))
+      step.refuse(fmt::format("{}: '{}'; required {}", name, field, ranges::kPlace.text()));
     numbers.push_back(*value);
   }
   if (numbers.size() % 2 != 0) {
@@ -82,12 +85,12 @@ std::string subtract_map(HeightMap& map, const MapStep& step, MapStepContext& co
   HeightMap other = read_other(step.word("file"), step, context);
   std::string what;
   if (how == "resample") {
-    other = warp_map(other, {}, map.grid, context.threads);
+    other = warp_map(other, {}, map.grid, context.threads, context.progress);
     what = "resampled; ";
   } else if (how == "register") {
     const RegistrationOptions options = registration_options(other, step);
     const MapRegistration found = register_maps(other, map, options, context.threads, context.progress);
-    other = warp_map(other, found.transform, map.grid, context.threads);
+    other = warp_map(other, found.transform, map.grid, context.threads, context.progress);
     what = describe_registration(found, options) + "; ";
   } else if (const std::string why = grid_difference(map.grid, other.grid); !why.empty()) {
     step.refuse(why + ", or give 'resample' or 'register'");
@@ -103,7 +106,7 @@ std::string average_maps(HeightMap& map, const MapStep& step, MapStepContext& co
   std::vector<HeightMap> maps{map};
   for (const std::string& file : files) {
     HeightMap other = read_other(file, step, context);
-    if (step.has("resample")) other = warp_map(other, {}, map.grid, context.threads);
+    if (step.has("resample")) other = warp_map(other, {}, map.grid, context.threads, context.progress);
     if (const std::string why = grid_difference(map.grid, other.grid); !why.empty()) {
       step.refuse(fmt::format("{}: {}, or give 'resample'", file, why));
     }
@@ -117,7 +120,7 @@ std::string register_on_map(HeightMap& map, const MapStep& step, MapStepContext&
   const HeightMap other = read_other(step.word("to"), step, context);
   const RegistrationOptions options = registration_options(map, step);
   const MapRegistration found = register_maps(map, other, options, context.threads, context.progress);
-  map = warp_map(map, found.transform, other.grid, context.threads);
+  map = warp_map(map, found.transform, other.grid, context.threads, context.progress);
   return describe_registration(found, options);
 }
 
@@ -130,7 +133,7 @@ std::string move_by_fiducials(HeightMap& map, const MapStep& step, MapStepContex
   for (std::size_t i = 0; i < from.size(); ++i) pairs.push_back({from[i], to[i]});
   const PointFit fit = fit_points(pairs, parse_point_fit_kind(step.word("fit")));
   const PlaneTransform& t = fit.transform;
-  map = warp_map(map, t, covering_grid(map.grid, t), context.threads);
+  map = warp_map(map, t, covering_grid(map.grid, t), context.threads, context.progress);
   const double degrees = std::atan2(t.yx - t.xy, t.xx + t.yy) * 180.0 / std::numbers::pi;
   std::string text =
       fmt::format("turned by {:.6g} degrees, scaled by {:.8g}, the origin to ({:.6g}, {:.6g}) mm; left: ", degrees,

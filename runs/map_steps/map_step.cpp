@@ -7,6 +7,7 @@
 
 #include "core/base/errors.h"
 #include "core/base/number_text.h"
+#include "core/base/value_range.h"
 
 namespace dwell {
 namespace {
@@ -59,6 +60,22 @@ const MapStepArgument* positional(const MapStep& step, std::string_view value) {
   return nullptr;
 }
 
+/// By the unit that stands for the value in help.
+const ValueRange& range_of(const MapStepArgument& argument) {
+  if (argument.value == "MM") return argument.name.starts_with("pi") ? ranges::kPitch : ranges::kPlace;
+  if (argument.value == "NM") return ranges::kHeight;
+  return ranges::kNumber;
+}
+
+void check_number(const std::string& text, const MapStepArgument& argument, const std::string& value,
+                  const std::string& form) {
+  const auto number = finite_number(value);
+  if (!number) refuse_text(text, fmt::format("{} = '{}'; a finite number is required{}", argument.name, value, form));
+  const ValueRange& range = range_of(argument);
+  if (range.holds(*number)) return;
+  refuse_text(text, fmt::format("{} = '{}'; {} is required{}", argument.name, value, range.text(), form));
+}
+
 void add_argument(MapStep& step, const std::string& text, std::string_view item) {
   const std::size_t equals = item.find('=');
   const bool keyed = equals != std::string_view::npos;
@@ -74,9 +91,7 @@ void add_argument(MapStep& step, const std::string& text, std::string_view item)
   if (argument->kind == Kind::Flag && keyed) {
     refuse_text(text, fmt::format("{} takes no value{}", argument->name, form));
   }
-  if (argument->kind == Kind::Number && !finite_number(value)) {
-    refuse_text(text, fmt::format("{} = '{}'; a finite number is required{}", argument->name, value, form));
-  }
+  if (argument->kind == Kind::Number) check_number(text, *argument, value, form);
   step.given.emplace_back(argument->name, argument->kind == Kind::Flag ? "" : value);
 }
 
@@ -123,9 +138,10 @@ std::optional<Point> MapStep::point(const std::string& name) const {
   const std::vector<std::string_view> fields = split(text, '/');
   if (fields.size() == 2) {
     const auto x = finite_number(fields[0]), y = finite_number(fields[1]);
-    if (x && y) return Point{*x, *y};
+    if (x && y && ranges::kPlace.holds(*x) && ranges::kPlace.holds(*y)) return Point{*x, *y};
   }
-  refuse(fmt::format("{} = '{}'; X/Y in mm is required, for instance -12.5/3", name, text));
+  refuse(fmt::format("{} = '{}'; X/Y in mm is required, for instance -12.5/3, each {}", name, text,
+                     ranges::kPlace.text()));
 }
 
 void MapStep::refuse(const std::string& why) const { refuse_text(to_string(*this, false), why); }

@@ -38,15 +38,19 @@ std::string run_crop(HeightMap& map, const MapStep& step, MapStepContext&) {
   return size_of(map);
 }
 
-std::string run_mask(HeightMap& map, const MapStep& step, bool keep) {
+std::string run_mask(HeightMap& map, const MapStep& step, bool keep, const Progress& progress) {
   const Index before = map.valid_pixels();
   const Aperture area = parse_aperture(step.area);
-  map = keep ? within(std::move(map), area) : outside(std::move(map), area);
+  map = keep ? within(std::move(map), area, progress) : outside(std::move(map), area, progress);
   return fmt::format("{} pixels removed, {} left", before - map.valid_pixels(), map.valid_pixels());
 }
 
-std::string run_keep(HeightMap& map, const MapStep& step, MapStepContext&) { return run_mask(map, step, true); }
-std::string run_drop(HeightMap& map, const MapStep& step, MapStepContext&) { return run_mask(map, step, false); }
+std::string run_keep(HeightMap& map, const MapStep& step, MapStepContext& context) {
+  return run_mask(map, step, true, context.progress);
+}
+std::string run_drop(HeightMap& map, const MapStep& step, MapStepContext& context) {
+  return run_mask(map, step, false, context.progress);
+}
 
 std::string describe_place(const HeightMap& map) {
   return fmt::format("first pixel at ({:.9g}, {:.9g}) mm", map.grid.origin.x, map.grid.origin.y);
@@ -72,7 +76,7 @@ std::string run_rotate(HeightMap& map, const MapStep& step, MapStepContext& cont
     if (quarters > 0.0) map = turn_map(map, kTurns[static_cast<int>(quarters) - 1], step.point("about"));
     return "exact, " + describe_place(map);
   }
-  map = rotate_map(map, degrees, step.point("about").value_or(middle_of(map.grid)), context.threads);
+  map = rotate_map(map, degrees, step.point("about").value_or(middle_of(map.grid)), context.threads, context.progress);
   return fmt::format("{}, {}", size_of(map), describe_place(map));
 }
 
@@ -96,17 +100,17 @@ std::string run_limit(HeightMap& map, const MapStep& step, MapStepContext&) {
   return fmt::format("{} pixels removed", removed);
 }
 
-std::string run_decimate(HeightMap& map, const MapStep& step, MapStepContext&) {
+std::string run_decimate(HeightMap& map, const MapStep& step, MapStepContext& context) {
   const Index most = 1'000'000;
   const Index across = step.whole("factor", 1, most);
   const Index along = step.has("factor-y") ? step.whole("factor-y", 1, most) : across;
-  map = decimate_map(map, along, across);
+  map = decimate_map(map, along, across, context.progress);
   return fmt::format("{} of {:.9g} x {:.9g} mm", size_of(map), map.grid.pitch_x, map.grid.pitch_y);
 }
 
 std::string run_resample(HeightMap& map, const MapStep& step, MapStepContext& context) {
   const double pitch = step.number("pitch");
-  map = resample_map(map, {pitch, step.optional_number("pitch-y").value_or(pitch)}, context.threads);
+  map = resample_map(map, {pitch, step.optional_number("pitch-y").value_or(pitch)}, context.threads, context.progress);
   return fmt::format("{}, {}", size_of(map), describe_place(map));
 }
 

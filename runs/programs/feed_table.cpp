@@ -10,6 +10,7 @@
 #include "core/base/errors.h"
 #include "core/base/poll.h"
 #include "core/base/units.h"
+#include "core/base/utf8_text.h"
 #include "paths/feed/plan_program.h"
 #include "runs/programs/number_text.h"
 
@@ -20,7 +21,7 @@ std::string one_line(std::string text) {
   for (char& c : text) {
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
   }
-  return text;
+  return with_escaped_bytes(text);
 }
 
 double total(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
@@ -69,7 +70,7 @@ std::string feed_table_text(const FeedTable& table, const Progress& progress) {
   if (!table.path.kind.empty()) fmt::format_to(out, "# path: {}\n", one_line(table.path.kind));
   fmt::format_to(out, "# rows: {}\n", n);
   fmt::format_to(out, "# total_dwell_s: {:.12g}\n", total(table.dwell_s));
-  fmt::format_to(out, "# units: x_mm and y_mm mm, dwell_s s, feed_mm_per_min mm/min\n");
+  fmt::format_to(out, "# units: {}\n", kFeedTableUnits);
   for (const auto& [name, hash] : table.inputs) {
     fmt::format_to(out, "# input: {} sha256={}\n", one_line(name), one_line(hash));
   }

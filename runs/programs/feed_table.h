@@ -13,6 +13,9 @@
 
 namespace dwell {
 
+/// The units of a feed table, as its header says them.
+inline constexpr std::string_view kFeedTableUnits = "x_mm and y_mm mm, dwell_s s, feed_mm_per_min mm/min";
+
 /// What feed.csv holds (docs/formats.md): dwell points in the order of the run, each with its dwell and feed.
 struct FeedTable {
   ToolPath path;
@@ -35,7 +38,8 @@ FeedTable feed_table_of(const ToolPath& path, const std::vector<double>& dwell_s
 /// columns differ in size or a number is not finite.
 std::string feed_table_text(const FeedTable& table, const Progress& progress = {});
 
-/// Reads feed.csv. Throws InputError naming file, line, value and what is accepted: a missing header line, another
+/// Reads feed.csv. Throws InputError naming file, line, value and what is accepted: a missing header line, one given
+/// twice or of another name about units, feeds, times and the like (others are skipped), another
 /// number of rows or another total than the header says, a gap in the sequence, a number that is not finite, a negative
 /// dwell, a feed above the maximum or one that is not stroke length / dwell (within 1e-6 relative and 4e-6 mm).
 FeedTable read_feed_table(const std::filesystem::path& file, const Progress& progress = {});

@@ -1,14 +1,18 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <string_view>
 
 #include "core/base/errors.h"
+#include "core/base/number_text.h"
 #include "core/base/poll.h"
 #include "core/base/text_lines.h"
 #include "core/base/units.h"
+#include "core/base/value_range.h"
 #include "core/base/whole_file.h"
 #include "paths/feed/plan_program.h"
 #include "runs/programs/feed_table.h"
@@ -76,14 +80,42 @@ class FeedTableReader {
       table_.version = line.substr(6);
       return;
     }
-    const std::size_t colon = line.find(": ");
+    const std::size_t colon = line.find_first_of(":=");
     if (colon == std::string_view::npos) return;
-    const std::string_view key = line.substr(0, colon);
-    const std::string_view value = line.substr(colon + 2);
+    const std::string_view key = trim(line.substr(0, colon));
+    const std::string_view value = trim(line.substr(colon + 1));
+    if (key == "input") return read_input(value);
+    if (key == "path" || is_quantity(key)) read_quantity(key, value);
+  }
+
+  /// Whether a header line of this name is about the numbers of the table: of these none is skipped. Others are the
+  /// user's own.
+  static bool is_quantity(std::string_view key) {
+    constexpr std::string_view kSeparators = " \t_-./()[]";
+    constexpr std::string_view kWords[] = {"unit",     "units", "motion", "feed",  "feedrate", "speed",
+                                           "velocity", "rows",  "dwell",  "scale", "factor",   "offset",
+                                           "origin",   "x",     "y",      "z",     "lift",     "mm",
+                                           "um",       "nm",    "ms",     "inch",  "inches",   "sequence"};
+    const std::string lower = lower_case(key);
+    std::string_view rest = lower;
+    while (true) {
+      rest.remove_prefix(std::min(rest.find_first_not_of(kSeparators), rest.size()));
+      if (rest.empty()) return false;
+      const std::string_view word = rest.substr(0, rest.find_first_of(kSeparators));
+      if (std::find(std::begin(kWords), std::end(kWords), word) != std::end(kWords)) return true;
+      rest.remove_prefix(word.size());
+    }
+  }
+
+  void read_quantity(std::string_view key, std::string_view value) {
+    if (std::find(seen_.begin(), seen_.end(), key) != seen_.end()) {
+      fail(fmt::format("{} = {} is the second header line of this name; accepted: one", key, value));
+    }
+    seen_.emplace_back(key);
     if (key == "motion") {
       read_motion(value);
     } else if (key == "max_feed_mm_per_min") {
-      table_.max_feed_mm_per_min = positive(key, value);
+      table_.max_feed_mm_per_min = within(key, value, ranges::kFeed);
       has_max_feed_ = true;
     } else if (key == "path") {
       table_.path.kind = value;
@@ -92,8 +124,11 @@ class FeedTableReader {
       if (!rows_) fail(fmt::format("rows = {}; required a whole number", value));
     } else if (key == "total_dwell_s") {
       total_ = number(key, value);
-    } else if (key == "input") {
-      read_input(value);
+    } else if (key != "units" || value != kFeedTableUnits) {
+      fail(
+          fmt::format("header line \"{}: {}\" may change what the numbers mean; accepted: motion, "
+                      "max_feed_mm_per_min, path, rows, total_dwell_s, input, and \"units: {}\"",
+                      key, value, kFeedTableUnits));
     }
   }
 
@@ -128,15 +163,9 @@ class FeedTableReader {
     return *value;
   }
 
-  double positive(std::string_view name, std::string_view text) const {
+  double within(std::string_view name, std::string_view text, const ValueRange& range) const {
     const double value = number(name, text);
-    if (!(value > 0.0)) fail(fmt::format("{} = {}; required > 0", name, text));
-    return value;
-  }
-
-  double not_negative(std::string_view name, std::string_view text) const {
-    const double value = number(name, text);
-    if (!(value >= 0.0)) fail(fmt::format("{} = {}; required >= 0", name, text));
+    if (!range.holds(value)) fail(fmt::format("{} = {}; required {}", name, text, range.text()));
     return value;
   }
 
@@ -157,8 +186,8 @@ class FeedTableReader {
     }
     if (fields[5] != "0" && fields[5] != "1") fail(fmt::format("lift = \"{}\"; accepted: 0, 1", fields[5]));
     table_.path.points.push_back({number("x_mm", fields[1]), number("y_mm", fields[2])});
-    table_.dwell_s.push_back(not_negative("dwell_s", fields[3]));
-    table_.feed_mm_per_min.push_back(not_negative("feed_mm_per_min", fields[4]));
+    table_.dwell_s.push_back(within("dwell_s", fields[3], {0.0, ranges::kTime.most, "s"}));
+    table_.feed_mm_per_min.push_back(within("feed_mm_per_min", fields[4], {0.0, ranges::kFeed.most, "mm/min"}));
     table_.path.lifted.push_back(fields[5] == "1");
     row_lines_.push_back(line_number_);
   }
@@ -217,6 +246,7 @@ class FeedTableReader {
   std::optional<std::size_t> rows_;
   std::optional<double> total_;
   std::vector<std::size_t> row_lines_;
+  std::vector<std::string> seen_;  // header lines, by name
 };
 
 }  // namespace

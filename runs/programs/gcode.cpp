@@ -10,6 +10,7 @@
 #include "core/base/errors.h"
 #include "core/base/poll.h"
 #include "core/base/units.h"
+#include "core/base/utf8_text.h"
 #include "runs/programs/number_text.h"
 
 namespace dwell {
@@ -21,7 +22,7 @@ std::string comment(std::string text) {
     if (c == ')') c = ']';
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
   }
-  return "(" + text + ")\n";
+  return "(" + with_escaped_bytes(text) + ")\n";
 }
 
 // A point as the program names it, and where the machine then goes.

@@ -9,29 +9,21 @@
 #include "core/base/poll.h"
 #include "core/base/text_lines.h"
 #include "core/base/units.h"
+#include "core/base/value_range.h"
+#include "runs/programs/gcode_block.h"
+#include "runs/programs/gcode_tool.h"
 #include "runs/programs/gcode_words.h"
 
 namespace dwell {
 namespace {
 
-constexpr const char* kAccepted =
-    "accepted: G0 G1 G4 G17 G21 G90 G91 G93 G94, M2 M30 M3 M5 M7 M8 M9, and F N P S X Y Z";
-
-// What the words of one line ask for.
-struct Block {
-  std::optional<double> x, y, z, f, p;
-  std::optional<int> motion;  // 0 or 1
-  std::optional<bool> incremental;
-  std::optional<int> feed_mode;  // 93 or 94
-  bool halt = false;
-  bool end = false;
-
-  bool has_axes() const { return x || y || z; }
-};
+// What our own programs say in "(dwell: ...)" of the height of the tool, which is as any program is read.
+constexpr std::string_view kAtWorkAtZero = "tool at work when Z=0";
+constexpr std::string_view kLiftedAbove = "lifted when Z>0";
 
 class GcodeInterpreter {
  public:
-  GcodeInterpreter(std::string file, std::optional<GcodeDialect> dialect) : file_(std::move(file)), dialect_(dialect) {
+  GcodeInterpreter(std::string file, const GcodeReading& reading) : file_(std::move(file)), reading_(reading) {
     program_.file = file_;
   }
 
@@ -46,10 +38,11 @@ class GcodeInterpreter {
       text.remove_prefix(newline == std::string_view::npos ? text.size() : newline + 1);
     }
     if (!ended) {
-      throw InputError(
-          fmt::format("{}: ends at line {} without M2 or M30; the program is truncated", file_, line_number_));
+      throw InputError(fmt::format("{}: ends at line {} without M2 or M30{}; the program is truncated", file_,
+                                   line_number_, framed_ ? ", or the % after it" : ""));
     }
     if (program_.steps.empty()) throw InputError(fmt::format("{}: holds no move and no halt", file_));
+    add_notes();
     return std::move(program_);
   }
 
@@ -59,16 +52,35 @@ class GcodeInterpreter {
   }
 
   bool run_line(std::string_view line) {
-    split_gcode_line(line, {file_, line_number_}, parts_);
+    if (is_tape_mark(line)) return take_tape_mark();
+    const GcodePlace where{file_, line_number_};
+    split_gcode_line(line, where, parts_);
     for (const std::string_view comment : parts_.comments) read_comment(comment);
-    const Block block = collect(parts_);
+    if (parts_.words.empty()) return false;
+    const GcodeBlock block = collect_gcode_block(parts_, where);
+    if (block.numbered && begun_)
+      fail("O: another program begins before the end of this one; required M2 or M30 first");
+    begun_ = true;
+    tool_.take(block);
+    if (block.millimetres) says_millimetres_ = true;
+    if (block.blending) blends_ = true;
     if (block.feed_mode) set_feed_mode(*block.feed_mode);
     if (block.f) set_feed(*block.f);
+    if (block.work_offset) set_work_offset(*block.work_offset);
     if (block.halt) halt(block);
     if (block.incremental) incremental_ = *block.incremental;
     if (block.motion) motion_ = block.motion;
     if (block.has_axes() && !block.halt) move(block);
+    if (block.pause || block.change_tool) wait_for_operator(block);
     return block.end;
+  }
+
+  // A % before the program and one after it; the second ends it.
+  bool take_tape_mark() {
+    if (framed_) return true;
+    if (begun_) fail("% after a program that does not begin with one; its beginning may be missing");
+    framed_ = true;
+    return false;
   }
 
   // "(dwell: gcode=g93-seconds, g4=seconds, ...)" states what the standard leaves to the controller.
@@ -83,9 +95,32 @@ class GcodeInterpreter {
       comment.remove_prefix(comma == std::string_view::npos ? comment.size() : comma + 1);
       while (entry.starts_with(' ')) entry.remove_prefix(1);
       while (!entry.empty() && (entry.back() == ' ' || entry.back() == '\r')) entry.remove_suffix(1);
-      if (entry.starts_with("gcode=")) read_dialect(std::string(entry.substr(6)));
-      if (entry.starts_with("g4=") && entry != "g4=seconds") fail(fmt::format("{}; accepted: g4=seconds", entry));
+      read_entry(entry);
     }
+  }
+
+  void read_entry(std::string_view entry) {
+    if (entry.starts_with("gcode=")) {
+      read_dialect(std::string(entry.substr(6)));
+    } else if (entry.starts_with("g4=")) {
+      read_halt_unit(entry);
+    } else if (entry.find_first_of("=<>") != std::string_view::npos && entry != kAtWorkAtZero &&
+               entry != kLiftedAbove) {
+      fail(fmt::format("\"{}\" in the comment \"(dwell: ...)\"; accepted: gcode=..., g4=..., {}, {}", entry,
+                       kAtWorkAtZero, kLiftedAbove));
+    }
+  }
+
+  void read_halt_unit(std::string_view entry) {
+    if (entry != "g4=seconds" && entry != "g4=milliseconds") {
+      fail(fmt::format("{}; accepted: g4=seconds, g4=milliseconds", entry));
+    }
+    const HaltUnit stated = entry == "g4=seconds" ? HaltUnit::Seconds : HaltUnit::Milliseconds;
+    if (reading_.halts && *reading_.halts != stated) {
+      fail(fmt::format("the program says {}, but P of G4 is to be read as {}; required the same", entry,
+                       to_string(*reading_.halts)));
+    }
+    reading_.halts = stated;
   }
 
   void read_dialect(const std::string& text) {
@@ -95,92 +130,21 @@ class GcodeInterpreter {
     } catch (const InputError& error) {
       fail(error.what());
     }
-    if (dialect_ && *dialect_ != stated) {
+    if (reading_.dialect && *reading_.dialect != stated) {
       fail(fmt::format("the program says gcode={}, but it is to be read as {}; required the same", text,
-                       to_string(*dialect_)));
+                       to_string(*reading_.dialect)));
     }
-    dialect_ = stated;
-  }
-
-  Block collect(const GcodeLine& line) const {
-    Block block;
-    for (const GcodeWord& word : line.words) {
-      switch (word.letter) {
-        case 'G':
-          collect_g(block, word);
-          break;
-        case 'M':
-          collect_m(block, word);
-          break;
-        case 'X':
-          once(block.x, word.value, word);
-          break;
-        case 'Y':
-          once(block.y, word.value, word);
-          break;
-        case 'Z':
-          once(block.z, word.value, word);
-          break;
-        case 'F':
-          once(block.f, word.value, word);
-          break;
-        case 'P':
-          once(block.p, word.value, word);
-          break;
-        case 'N':
-        case 'S':
-          break;
-        default:
-          fail(fmt::format("word \"{}\"; {}", word.text, kAccepted));
-      }
-    }
-    if (block.p && !block.halt) fail("P without G4; accepted only as the seconds of a halt, as G4 P0.5");
-    if (block.halt && (block.has_axes() || block.motion))
-      fail("G4 together with a move; required on a line of its own");
-    return block;
-  }
-
-  template <typename Value>
-  void once(std::optional<Value>& slot, Value value, const GcodeWord& word) const {
-    if (slot) fail(fmt::format("\"{}\" is the second word of its kind on this line; accepted: one", word.text));
-    slot = value;
-  }
-
-  void collect_g(Block& block, const GcodeWord& word) const {
-    if (word.value == 0.0 || word.value == 1.0) {
-      once(block.motion, word.value == 1.0 ? 1 : 0, word);
-    } else if (word.value == 4.0) {
-      block.halt = true;
-    } else if (word.value == 90.0 || word.value == 91.0) {
-      once(block.incremental, word.value == 91.0, word);
-    } else if (word.value == 93.0 || word.value == 94.0) {
-      once(block.feed_mode, word.value == 93.0 ? 93 : 94, word);
-    } else if (word.value == 20.0) {
-      fail(fmt::format("\"{}\": inches are not accepted; required millimetres (G21)", word.text));
-    } else if (word.value != 17.0 && word.value != 21.0) {
-      fail(fmt::format("word \"{}\"; {}", word.text, kAccepted));
-    }
-  }
-
-  void collect_m(Block& block, const GcodeWord& word) const {
-    if (word.value == 2.0 || word.value == 30.0) {
-      block.end = true;
-      return;
-    }
-    for (const double ignored : {3.0, 5.0, 7.0, 8.0, 9.0}) {
-      if (word.value == ignored) return;
-    }
-    fail(fmt::format("word \"{}\"; {}", word.text, kAccepted));
+    reading_.dialect = stated;
   }
 
   void set_feed_mode(int mode) {
     const bool inverse = mode == 93;
-    if (inverse && !dialect_) {
+    if (inverse && !reading_.dialect) {
       fail(
           "G93: controllers disagree on whether F is then seconds or 1/minutes; required the dialect g93-per-minute or "
           "g93-seconds, given or in a comment \"(dwell: gcode=...)\"");
     }
-    if (inverse && dialect_ == GcodeDialect::G94) fail("G93 in a program read as g94; accepted: G94");
+    if (inverse && reading_.dialect == GcodeDialect::G94) fail("G93 in a program read as g94; accepted: G94");
     if (inverse != inverse_time_) feed_.reset();
     inverse_time_ = inverse;
   }
@@ -190,11 +154,76 @@ class GcodeInterpreter {
     feed_ = f;
   }
 
-  void halt(const Block& block) {
-    if (!block.p || !(*block.p >= 0.0)) fail("G4 needs P, the seconds of the halt, >= 0, as G4 P0.5");
+  // The part's coordinates are those of one offset of the origin; of how far apart two are the program says nothing.
+  void set_work_offset(int offset) {
+    constexpr int kUsual = 540;
+    if (!work_offset_ && (x_ || y_ || z_)) work_offset_ = kUsual;
+    if (work_offset_ && *work_offset_ != offset) {
+      fail(
+          fmt::format("G{} after moves with G{}: where the one lies in the other the program does not say; required "
+                      "one of them throughout",
+                      offset / 10.0, *work_offset_ / 10.0));
+    }
+    work_offset_ = offset;
+  }
+
+  // Stops, and changes of the tool, take a time that the program does not say.
+  void wait_for_operator(const GcodeBlock& block) const {
+    if (z_ ? !at_work(*z_) : !x_ && !y_) return;
+    fail(
+        fmt::format("{} while the tool may be at work, for a time that the program does not say; required Z > 0 "
+                    "before it",
+                    block.change_tool ? "M6" : "M0 or M1"));
+  }
+
+  double halt_seconds(const GcodeWord& p) {
+    constexpr double kPerSecond = 1000.0;
+    if (!(p.value >= 0.0)) fail("G4 needs P, the time of the halt, >= 0, as G4 P0.5");
+    const bool has_point = p.text.find('.') != std::string_view::npos;
+    if (p.value == 0.0) return 0.0;
+    if (!reading_.halts && !has_point) {
+      fail(
+          fmt::format("G4 {}: a whole number is seconds on some controllers (RS274/NGC, LinuxCNC) and milliseconds "
+                      "on others (Fanuc, Haas); required --g4 s or --g4 ms, or a decimal point, which means "
+                      "seconds",
+                      p.text));
+    }
+    if (reading_.halts == HaltUnit::Milliseconds) {
+      if (has_point) {
+        fail(
+            fmt::format("G4 {}: milliseconds with a decimal point, which such controllers read as seconds or refuse; "
+                        "required a whole number",
+                        p.text));
+      }
+      return p.value / kPerSecond;
+    }
+    if (!reading_.halts) reads_halts_as_seconds_ = true;
+    return p.value;
+  }
+
+  void halt(const GcodeBlock& block) {
+    if (!block.p) fail("G4 needs P, the time of the halt, as G4 P0.5");
+    const double seconds = halt_seconds(*block.p);
+    if (!(seconds <= ranges::kTime.most)) {
+      fail(fmt::format("G4 {}: a halt of {:.3g} s; required at most {} s", block.p->text, seconds, ranges::kTime.most));
+    }
     if (!x_ || !y_ || !z_) fail("G4 at an unknown position; required X, Y and Z before it, as G0 Z10 and G0 X0 Y0");
     const Point at{*x_, *y_};
-    if (*block.p > 0.0) program_.steps.push_back({at, at, *block.p, at_work(*z_)});
+    if (seconds > 0.0) add_step({at, at, seconds, at_work(*z_)});
+  }
+
+  void add_step(const ProgramStep& step) {
+    if (step.removes) {
+      if (!at_work_) at_work_ = tool_;
+      const std::string difference = tool_difference(*at_work_, tool_);
+      if (!difference.empty()) {
+        fail(
+            fmt::format("{} than where the tool was first at work: another removal function, and one is given; "
+                        "required the same throughout",
+                        difference));
+      }
+    }
+    program_.steps.push_back(step);
   }
 
   static bool at_work(double z) { return std::abs(z) < 1e-9; }
@@ -210,7 +239,7 @@ class GcodeInterpreter {
     return sum;
   }
 
-  void move(const Block& block) {
+  void move(const GcodeBlock& block) {
     if (!motion_) fail("X, Y or Z before any G0 or G1; required one of them");
     const std::optional<double> x = target(block.x, x_, 'X');
     const std::optional<double> y = target(block.y, y_, 'Y');
@@ -238,10 +267,10 @@ class GcodeInterpreter {
           "required Z > "
           "0 before it, or G1 with F");
     }
-    if (x_ && y_) program_.steps.push_back({{*x_, *y_}, {*x, *y}, 0.0, false});
+    if (x_ && y_) add_step({{*x_, *y_}, {*x, *y}, 0.0, false});
   }
 
-  void feed_move(const Block& block, std::optional<double> x, std::optional<double> y, std::optional<double> z) {
+  void feed_move(const GcodeBlock& block, std::optional<double> x, std::optional<double> y, std::optional<double> z) {
     if (!x_ || !y_ || !z_) {
       fail("G1 from an unknown position; required X, Y and Z before it, as G0 Z10 and G0 X0 Y0");
     }
@@ -250,25 +279,47 @@ class GcodeInterpreter {
     const Point start{*x_, *y_};
     const Point finish{*x, *y};
     const double length = std::hypot(finish.x - start.x, finish.y - start.y, *z - *z_);
-    if (!(length > 0.0)) return;
+    if (!(length > 0.0)) {
+      if (!inverse_time_) return;
+      fail(
+          fmt::format("a move of no length with F{} after G93: a halt on some controllers and nothing on others; "
+                      "required a move, or for a halt G4",
+                      *feed_));
+    }
     const double seconds = seconds_of(length);
-    if (!std::isfinite(seconds))
-      fail(fmt::format("a move of {} mm with F{} never ends; required a larger F", length, *feed_));
-    program_.steps.push_back({start, finish, seconds, at_work(*z_) && at_work(*z)});
+    if (!(seconds <= ranges::kTime.most)) {
+      fail(fmt::format("a move of {} mm with F{} takes {:.3g} s; required at most {} s", length, *feed_, seconds,
+                       ranges::kTime.most));
+    }
+    add_step({start, finish, seconds, at_work(*z_) && at_work(*z)});
   }
 
   double seconds_of(double length) const {
     if (!inverse_time_) return length / *feed_ * units::kSecondsPerMinute;
-    return dialect_ == GcodeDialect::G93Seconds ? *feed_ : units::kSecondsPerMinute / *feed_;
+    return reading_.dialect == GcodeDialect::G93Seconds ? *feed_ : units::kSecondsPerMinute / *feed_;
+  }
+
+  // What the program left to its controller and how it was read.
+  void add_notes() {
+    if (!says_millimetres_) program_.notes.emplace_back("the program names no unit (G21): read as millimetres");
+    if (reads_halts_as_seconds_) program_.notes.emplace_back("P of G4, with a decimal point, read as seconds");
+    if (blends_)
+      program_.notes.emplace_back(
+          "G61, G64: moves are taken as written, their corners neither rounded nor slowed down");
   }
 
   std::string file_;
-  std::optional<GcodeDialect> dialect_;
+  GcodeReading reading_;
   Program program_;
   std::size_t line_number_ = 0;
-  GcodeLine parts_;  // of the line
+  GcodeLine parts_;                      // of the line
+  bool begun_ = false, framed_ = false;  // by a word, by a %
+  bool says_millimetres_ = false, blends_ = false, reads_halts_as_seconds_ = false;
+  GcodeTool tool_;
+  std::optional<GcodeTool> at_work_;  // the tool when it was first at work
   std::optional<double> x_, y_, z_;
   std::optional<int> motion_;
+  std::optional<int> work_offset_;
   std::optional<double> feed_;
   bool incremental_ = false;
   bool inverse_time_ = false;
@@ -276,9 +327,9 @@ class GcodeInterpreter {
 
 }  // namespace
 
-Program read_gcode(std::string_view text, const std::string& file, std::optional<GcodeDialect> dialect,
+Program read_gcode(std::string_view text, const std::string& file, const GcodeReading& reading,
                    const Progress& progress) {
-  return GcodeInterpreter(file, dialect).run(without_byte_order_mark(text), progress);
+  return GcodeInterpreter(file, reading).run(without_byte_order_mark(text), progress);
 }
 
 }  // namespace dwell

@@ -29,8 +29,11 @@ struct GcodePlace {
 };
 
 /// Splits a line into `result`, whose memory is used again. Letters in either case, blanks before letters and numbers
-/// optional, a line of % holds nothing. Numbers are decimal, without exponent. Throws InputError that begins with the
-/// place and names the text: a comment that is not closed, a letter without a number, a character that begins no word.
+/// optional. Numbers are decimal, without exponent. Throws InputError that begins with the place and names the text: a
+/// comment that is not closed or holds another, a letter without a number, a character that begins no word.
 void split_gcode_line(std::string_view line, const GcodePlace& where, GcodeLine& result);
+
+/// Whether a line is the % that stands before and after a program on tape.
+bool is_tape_mark(std::string_view line);
 
 }  // namespace dwell

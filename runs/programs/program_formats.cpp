@@ -9,8 +9,7 @@ namespace {
 
 bool is_feed_table(std::string_view text) { return text.starts_with("# dwell") || text.starts_with("sequence,"); }
 
-Program read_table(std::string_view text, const std::string& file, std::optional<GcodeDialect>,
-                   const Progress& progress) {
+Program read_table(std::string_view text, const std::string& file, const GcodeReading&, const Progress& progress) {
   Program program = program_of(parse_feed_table(text, file, progress));
   program.file = file;
   return program;
@@ -20,8 +19,14 @@ std::string write_table(const FeedTable& table, const ProgramWriting&, const Pro
   return feed_table_text(table, progress);
 }
 
+/// Whether a text begins with a comment, a % or a word: a letter and a number.
 bool is_gcode(std::string_view text) {
-  return !text.empty() && std::string_view("%(;GgMmNnFfSsXxYyZz").find(text.front()) != std::string_view::npos;
+  if (text.empty()) return false;
+  if (std::string_view("%(;/").find(text.front()) != std::string_view::npos) return true;
+  const std::size_t number = text.find_first_not_of(" \t", 1);
+  const bool letter = (text.front() >= 'A' && text.front() <= 'Z') || (text.front() >= 'a' && text.front() <= 'z');
+  return letter && number != std::string_view::npos &&
+         std::string_view("0123456789.+-").find(text[number]) != std::string_view::npos;
 }
 
 std::string write_gcode(const FeedTable& table, const ProgramWriting& writing, const Progress& progress) {

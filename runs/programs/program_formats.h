@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -8,6 +7,7 @@
 #include "core/motion/program.h"
 #include "runs/programs/feed_table.h"
 #include "runs/programs/gcode_dialect.h"
+#include "runs/programs/gcode_reading.h"
 
 namespace dwell {
 
@@ -21,16 +21,16 @@ struct ProgramWriting {
 /// What is known of a format of machine programs. One table of these records feeds the reader of programs, the files of
 /// a plan's folder, the tests and the list of fuzz targets: a new format is its two files and its row (docs/adding.md).
 struct ProgramFormat {
-  std::string name;      // as messages list it
-  std::string file;      // in a plan's folder: "feed.csv"
-  std::string about;     // one line
-  std::string fuzz;      // its target: tests/fuzz/reader_FUZZ.cpp with seeds/FUZZ
-  bool takes_a_dialect;  // a G-code dialect may be given for reading it
+  std::string name;   // as messages list it
+  std::string file;   // in a plan's folder: "feed.csv"
+  std::string about;  // one line
+  std::string fuzz;   // its target: tests/fuzz/reader_FUZZ.cpp with seeds/FUZZ
+  bool is_gcode;      // what a G-code program leaves to its controller may be given for reading it
   /// Whether a file is of this format, by its text from the first character on that is not blank.
   bool (*recognise)(std::string_view text);
   /// Reads the text of a file; `file` is the name for messages. Throws InputError naming file, line and what is
   /// accepted.
-  Program (*read)(std::string_view text, const std::string& file, std::optional<GcodeDialect> dialect,
+  Program (*read)(std::string_view text, const std::string& file, const GcodeReading& reading,
                   const Progress& progress);
   /// The bytes of the file. Throws InputError for an option out of range.
   std::string (*write)(const FeedTable& table, const ProgramWriting& writing, const Progress& progress);

@@ -19,7 +19,7 @@ std::string accepted() {
 
 }  // namespace
 
-Program read_program(const std::filesystem::path& file, std::optional<GcodeDialect> dialect, const Progress& progress) {
+Program read_program(const std::filesystem::path& file, const GcodeReading& reading, const Progress& progress) {
   const std::string text = read_whole_file(file);
   if (text.find_first_not_of(" \t\r\n") == std::string::npos) {
     throw InputError(fmt::format("{}: is empty; {}", file.string(), accepted()));
@@ -28,12 +28,13 @@ Program read_program(const std::filesystem::path& file, std::optional<GcodeDiale
   if (format == nullptr) {
     throw InputError(fmt::format("{}: begins like no machine program; {}", file.string(), accepted()));
   }
-  if (dialect && !format->takes_a_dialect) {
+  if (!format->is_gcode && (reading.dialect || reading.halts)) {
     const std::string kind = format->name.substr(0, format->name.find(" ("));
-    throw InputError(fmt::format("{}: is {}, for which a G-code dialect ({}) has no meaning", file.string(), kind,
-                                 to_string(*dialect)));
+    const std::string what = reading.dialect ? fmt::format("a G-code dialect ({})", to_string(*reading.dialect))
+                                             : fmt::format("a unit of P in G4 ({})", to_string(*reading.halts));
+    throw InputError(fmt::format("{}: is {}, for which {} has no meaning", file.string(), kind, what));
   }
-  return format->read(text, file.string(), dialect, progress);
+  return format->read(text, file.string(), reading, progress);
 }
 
 }  // namespace dwell

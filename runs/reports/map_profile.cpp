@@ -8,6 +8,7 @@
 
 #include "core/base/errors.h"
 #include "core/base/number_text.h"
+#include "core/base/value_range.h"
 #include "runs/drawing/line_chart.h"
 
 namespace dwell {
@@ -118,7 +119,7 @@ ProfileSpec parse_profile_spec(const std::string& text) {
   const std::string_view word = trim(text);
   if (word.size() > 2 && (word.substr(0, 2) == "x=" || word.substr(0, 2) == "y=")) {
     spec.kind = word[0] == 'y' ? ProfileSpec::Kind::AlongX : ProfileSpec::Kind::AlongY;
-    if (const auto at = finite_number(word.substr(2))) {
+    if (const auto at = finite_number(word.substr(2)); at && ranges::kPlace.holds(*at)) {
       spec.at = *at;
       return spec;
     }
@@ -127,14 +128,15 @@ ProfileSpec parse_profile_spec(const std::string& text) {
   if (fields.size() == 4) {
     const auto x0 = finite_number(fields[0]), y0 = finite_number(fields[1]), x1 = finite_number(fields[2]),
                y1 = finite_number(fields[3]);
-    if (x0 && y0 && x1 && y1 && (*x0 != *x1 || *y0 != *y1)) {
+    const auto near = [](std::optional<double> v) { return v && ranges::kPlace.holds(*v); };
+    if (near(x0) && near(y0) && near(x1) && near(y1) && (*x0 != *x1 || *y0 != *y1)) {
       return {ProfileSpec::Kind::Line, 0.0, {*x0, *y0}, {*x1, *y1}};
     }
   }
   throw InputError(fmt::format(
       "profile \"{}\"; accepted: y=MM (along x at this y), x=MM (along y at this x), or X0,Y0,X1,Y1 in mm (from one "
-      "point to another)",
-      text));
+      "point to another), each {}",
+      text, ranges::kPlace.text()));
 }
 
 MapProfile map_profile(const HeightMap& map, const ProfileSpec& spec) {

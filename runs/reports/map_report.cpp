@@ -18,10 +18,11 @@ std::pair<double, double> counted_range(const PsdCurve& curve, const std::vector
   return {from, to};
 }
 
-SpectrumReport spectrum_report(const HeightMap& figure, const MapReportOptions& options) {
+SpectrumReport spectrum_report(const HeightMap& figure, const MapReportOptions& options, const Progress& progress) {
   PsdOptions psd_options;
   psd_options.window = options.window;
   psd_options.threads = options.threads;
+  progress.step("spectrum: transform");
   const ArealPsd psd = areal_psd(figure, psd_options);
   SpectrumReport report;
   report.window = options.window;
@@ -32,6 +33,7 @@ SpectrumReport spectrum_report(const HeightMap& figure, const MapReportOptions& 
   report.holes = psd.holes;
   report.split = band_rms(psd, options.band_edges);
   report.limit = options.limit;
+  progress.step("spectrum: curves");
   for (PsdCurve& curve : std::vector<PsdCurve>{psd_along_x(psd), psd_along_y(psd), radial_psd(psd)}) {
     const auto [from, to] = counted_range(curve, options.band_edges);
     CurveReport c{std::move(curve), {}, {}};
@@ -67,21 +69,25 @@ MapFigures map_figures(const MapReport& report, const std::string& file, const H
   return {file, map.grid, map.history, valid_pixels, aperture, to_string(report.removed), report.statistics};
 }
 
-MapReport map_report(const HeightMap& map, const MapReportOptions& options) {
+MapReport map_report(const HeightMap& map, const MapReportOptions& options, const Progress& progress) {
   MapReport report;
   report.removed = options.removed;
   report.figure = map;
+  progress.step(fmt::format("removing {}", to_string(options.removed)));
   report.removed_fit = remove_polynomials(report.figure, options.removed, options.threads);
   report.statistics = map_statistics(report.figure, {}, options.threads);
+  progress.step("robust PV: 36 Zernike terms");
   report.robust = robust_pv(report.figure, options.threads);
+  progress.step("slopes");
   report.slope = slope_statistics(report.figure, options.threads);
   report.form = options.form;
   if (options.form) {
+    progress.step(fmt::format("fitting {}", to_string(*options.form)));
     HeightMap residual = map;
     report.form_fit = remove_polynomials(residual, *options.form, options.threads);
     report.form_residual = map_statistics(residual, {}, options.threads);
   }
-  if (options.spectrum) report.spectrum = spectrum_report(report.figure, options);
+  if (options.spectrum) report.spectrum = spectrum_report(report.figure, options, progress);
   return report;
 }
 

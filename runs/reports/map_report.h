@@ -66,8 +66,8 @@ struct MapReport {
 
 /// Lines are fitted and limits checked where both the spectrum is resolved (PsdCurve; fits up to half the Nyquist
 /// frequency, where noise and the instrument still matter little) and, with two band edges or more, between the first
-/// and the last of them. Throws InputError if the map has no finite pixel.
-MapReport map_report(const HeightMap& map, const MapReportOptions& options);
+/// and the last of them. Throws InputError if the map has no finite pixel, Interrupted.
+MapReport map_report(const HeightMap& map, const MapReportOptions& options, const Progress& progress = {});
 
 /// Lines of text, each "name      value unit".
 std::string map_report_text(const MapReport& report);

@@ -1,5 +1,7 @@
 #include <nlohmann/json.hpp>
 
+#include <utility>
+
 #include "runs/base/inputs_json.h"
 #include "runs/reports/map_report.h"
 
@@ -96,7 +98,7 @@ std::string map_report_json(const MapReport& report, const MapFigures& map, cons
   if (profile) json["profile"] = {{"line", profile->name}, {"pv_nm", profile->pv()}, {"rms_nm", profile->rms()}};
   json["limits"] = report.broken_limits();
   json["inputs"] = inputs_json(inputs);
-  return json.dump(2) + "\n";
+  return json_text(std::move(json));
 }
 
 }  // namespace dwell

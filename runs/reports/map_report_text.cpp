@@ -117,7 +117,8 @@ std::string map_report_text(const MapReport& report) {
   const std::string removed = to_string(report.removed);
   std::string text = fmt::format("PV        {:.6g} nm ({} removed)\n", report.statistics.pv, removed);
   text += robust_text(report);
-  text += fmt::format("RMS       {:.6g} nm ({} removed)\n", report.statistics.rms, removed);
+  text += fmt::format("RMS       {:.6g} nm{} ({} removed)\n", report.statistics.rms, mean_in_words(report.statistics),
+                      removed);
   text += fmt::format("slope     {} urad RMS in x, {} in y, {} together, from pixel to pixel\n",
                       slope_number(report.slope.x), slope_number(report.slope.y), slope_number(report.slope.total));
   text += dropped_text(report.removed_fit);

@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <utility>
+
 #include "core/base/units.h"
 #include "runs/base/inputs_json.h"
 #include "runs/reports/options_json.h"
@@ -69,7 +71,7 @@ std::string plan_summary_text(const PlannedJob& plan, const WrittenPlan& written
                   {"limits", written.limits},
                   {"options", options_json(plan.job)},
                   {"inputs", inputs_json(plan.job.inputs)}});
-  return summary.dump(2) + "\n";
+  return json_text(std::move(summary));
 }
 
 }  // namespace dwell

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/base/whole_file.h"
+#include "core/map/part_distance.h"
 #include "core/removal/simulate.h"
 #include "runs/base/inputs_json.h"
 #include "runs/job/job.h"
@@ -28,13 +29,27 @@ SplineError spline_error(const HeightMap& spline, const HeightMap& exact) {
   return error;
 }
 
+/// Refuses a tool at work far from the part. Lifted moves may come from anywhere.
+void check_steps(const Program& program, const Part& part) {
+  std::size_t number = 0;
+  for (const ProgramStep& step : program.steps) {
+    ++number;
+    if (!step.removes) continue;
+    for (const Point p : {step.start, step.finish}) {
+      check_near_part(p, part.map.grid, part.tif.radius, [&] {
+        return fmt::format("{}: the place of the tool at work in step {}", program.file, number);
+      });
+    }
+  }
+}
+
 }  // namespace
 
-Simulation simulate_file(const std::filesystem::path& program, std::optional<GcodeDialect> dialect,
-                         const JobOptions& options, const Progress& progress, bool exact) {
+Simulation simulate_file(const std::filesystem::path& program, const GcodeReading& reading, const JobOptions& options,
+                         const Progress& progress, bool exact) {
   Simulation s;
   progress.report("read: program, map and removal function");
-  s.program = read_program(program, dialect, progress);
+  s.program = read_program(program, reading, progress);
   s.inputs.push_back({"program", program.string(), sha256_of_file(program)});
   const Job job = load_job(options, progress);
   const Part& part = *job.part;
@@ -45,6 +60,7 @@ Simulation simulate_file(const std::filesystem::path& program, std::optional<Gco
            to_string(s.terms), s.before};
   s.tif = part.tif;
   s.volume_factor = part.kernel.volume_factor;
+  check_steps(s.program, part);
   progress.step(fmt::format("simulate: {} steps", s.program.steps.size()));
   s.removal = simulate(s.program, part.map, part.kernel, part.threads);
   if (exact) {
@@ -63,12 +79,12 @@ std::string simulation_json(const Simulation& s) {
   nlohmann::ordered_json json = json_of_command("simulate");
   json["map"] = map_block(s.map);
   json["tif"] = tif_block(s.tif, kind_of(s.tif), s.tif.samples.history, s.volume_factor);
-  json["program"] = program_block(program_figures(s.program, s.after));
+  json["program"] = program_block(program_figures(s.program, s.after, to_string(s.terms)));
   if (s.spline_error) {
     json["spline_error"] = {{"rms_nm", s.spline_error->rms}, {"largest_nm", s.spline_error->largest}};
   }
   json["inputs"] = inputs_json(s.inputs);
-  return json.dump(2) + "\n";
+  return json_text(std::move(json));
 }
 
 }  // namespace dwell

@@ -11,7 +11,7 @@
 #include "runs/base/input_file.h"
 #include "runs/base/json_blocks.h"
 #include "runs/job/job_options.h"
-#include "runs/programs/gcode_dialect.h"
+#include "runs/programs/gcode_reading.h"
 
 namespace dwell {
 
@@ -38,11 +38,11 @@ struct Simulation {
 };
 
 /// Simulates a program file (feed.csv or G-code) on the job's map with the job's removal function; the tool moves
-/// continuously. `exact`: with the removal function as given (simulate_exactly), which is slow. `dialect`: for a G93
-/// program that does not name its own. Of the job it uses map, tif, remove, aperture and threads. Throws InputError,
-/// Interrupted.
-Simulation simulate_file(const std::filesystem::path& program, std::optional<GcodeDialect> dialect,
-                         const JobOptions& options, const Progress& progress, bool exact = false);
+/// continuously. `exact`: with the removal function as given (simulate_exactly), which is slow. `reading`: for
+/// G-code that leaves something to its controller. Of the job it uses map, tif, remove, aperture and threads. Throws
+/// InputError, Interrupted.
+Simulation simulate_file(const std::filesystem::path& program, const GcodeReading& reading, const JobOptions& options,
+                         const Progress& progress, bool exact = false);
 
 /// The simulation as JSON text (docs/json.md), units in the keys.
 std::string simulation_json(const Simulation& simulation);

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <utility>
 
 #include "runs/base/inputs_json.h"
 #include "runs/base/json_blocks.h"
@@ -157,7 +158,7 @@ std::string tif_json(const TifResult& r) {
   json["fits"] = fits;
   json["limits"] = unfinished_fits(r);
   json["inputs"] = inputs_json(r.inputs);
-  return json.dump(2) + "\n";
+  return json_text(std::move(json));
 }
 
 }  // namespace dwell

@@ -118,6 +118,7 @@ RemovalFunction find_removal(const TifJob& job, TifResult& result, const Progres
   if (!job.spot.empty()) {
     const HeightMap depth = read_depth(job.spot, job, result.inputs, progress);
     result.source = "spot";
+    progress.step("spots: finding, aligning and averaging");
     try {
       result.spots = calibrate_spots(depth, spot_options(job));
       return measured_removal(result.spots->rates, {TifCentre::Kind::Given, {}});
@@ -127,6 +128,7 @@ RemovalFunction find_removal(const TifJob& job, TifResult& result, const Progres
   }
   const HeightMap depth = read_depth(job.trench, job, result.inputs, progress);
   result.source = "trench";
+  progress.step("trench: inverting its section");
   try {
     result.trench = calibrate_trench(depth, trench_options(job));
     return measured_removal(result.trench->rates, {TifCentre::Kind::Given, {}});

@@ -9,6 +9,7 @@
 
 #include "core/base/errors.h"
 #include "core/base/number_text.h"
+#include "core/base/value_range.h"
 
 namespace dwell {
 namespace {
@@ -33,12 +34,13 @@ std::vector<double> parse_band_edges(const std::string& text) {
   bool good = true;
   for (const std::string_view field : split(text, ',')) {
     const auto edge = finite_number(field);
-    good = good && edge && *edge > 0.0 && 1.0 / *edge < 1e300 && (edges.empty() || *edge < edges.back());
+    good = good && edge && ranges::kSize.holds(*edge) && (edges.empty() || *edge < edges.back());
     if (good) edges.push_back(*edge);
   }
   if (good && edges.size() <= 20) return edges;
   throw InputError(
-      fmt::format("bands \"{}\"; accepted: wavelengths in mm, descending, at most 20, for instance 33,0.12", text));
+      fmt::format("bands \"{}\"; accepted: wavelengths in mm, descending, at most 20, for instance 33,0.12, each {}",
+                  text, ranges::kSize.text()));
 }
 
 BandSplit band_rms(const ArealPsd& psd, const std::vector<double>& edges) {

@@ -143,7 +143,7 @@ DifferenceSize size_of_difference(const Pair& pair, const Parameters& q, bool le
   const std::vector<Index> pixels = common_pixels(pair, q);
   if (pixels.size() < 3) return {kNone, kNone};
   const HeightMap difference = difference_at(pair, q, pixels);
-  return {map_statistics(difference, {level, level, false}).rms,
+  return {map_statistics(difference, {level, level, false}).rms_about_zero(),
           level ? robust_plane(difference, pixels, true).scatter : robust_sigma(residuals(pair, q, pixels))};
 }
 

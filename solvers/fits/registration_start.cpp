@@ -59,6 +59,8 @@ double mismatch(const std::vector<HeightSample>& samples, const PlaneTransform& 
 
 Index steps_of(double range, double step) { return static_cast<Index>(std::min(std::ceil(range / step - 1e-9), 1e4)); }
 
+double count_of(Index steps) { return 2.0 * static_cast<double>(steps) + 1.0; }
+
 }  // namespace
 
 RegistrationStart coarse_registration(const HeightMap& moving, const HeightMap& fixed, const RegistrationRange& range,
@@ -78,6 +80,14 @@ RegistrationStart coarse_registration(const HeightMap& moving, const HeightMap& 
   const Index turns = steps_of(range.degrees, turn_step), across = steps_of(range.shift, b.grid.pitch_x),
               along = steps_of(range.shift, b.grid.pitch_y);
   const Index places = (2 * turns + 1) * (2 * across + 1) * (2 * along + 1);
+  constexpr double kMostPlaces = 5e7;
+  if (const double asked = count_of(turns) * count_of(across) * count_of(along); !(asked <= kMostPlaces)) {
+    throw InputError(fmt::format(
+        "registration: shifts up to {} mm and rotations up to {} degrees are {:.3g} places to try, {:.4g} mm and "
+        "{:.4g} "
+        "degrees apart; at most {:.0e} accepted, give a smaller range",
+        range.shift, range.degrees, asked, std::min(b.grid.pitch_x, b.grid.pitch_y), turn_step, kMostPlaces));
+  }
   const auto start_of = [&](Index place) {
     const auto step = [&](Index count, double size) {
       const Index k = place % (2 * count + 1) - count;
@@ -91,7 +101,7 @@ RegistrationStart coarse_registration(const HeightMap& moving, const HeightMap& 
   // Places tried between two questions whether to stop, about a tenth of a second.
   constexpr Index kBetweenLooks = 4096;
   for (Index begin = 0; begin < places; begin += kBetweenLooks) {
-    progress.check();
+    progress.step(fmt::format("registration: coarse start, {} of {} places", begin, places));
     const Index end = std::min(begin + kBetweenLooks, places);
 #pragma omp parallel for num_threads(threads) schedule(static)
     for (Index place = begin; place < end; ++place) {

@@ -1,18 +1,20 @@
 #pragma once
 
 #include <ceres/ceres.h>
+#include <fmt/format.h>
 
 #include "core/base/progress.h"
 
 namespace dwell {
 
-/// Lets Ceres ask after every iteration whether to stop. Ceres then ends as if it had failed, so whoever runs it asks
-/// progress.check() afterwards, which throws Interrupted.
+/// Lets Ceres say its iterations and ask after every one whether to stop. Ceres then ends as if it had failed, so
+/// whoever runs it asks progress.check() afterwards, which throws Interrupted.
 class StopCallback final : public ceres::IterationCallback {
  public:
   explicit StopCallback(const Progress& progress) : progress_(progress) {}
 
-  ceres::CallbackReturnType operator()(const ceres::IterationSummary&) override {
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& now) override {
+    progress_.report(fmt::format("iteration {}", now.iteration));
     return progress_.stop_asked() ? ceres::SOLVER_ABORT : ceres::SOLVER_CONTINUE;
   }
 

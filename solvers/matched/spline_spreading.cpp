@@ -22,6 +22,15 @@ Point along(const Stroke& s, double share) {
   return s.via + ((at - first) / second) * (s.finish - s.via);
 }
 
+/// Whether some of the stroke may lie on the lattice: what lies beyond is moved to its edge (dwell_lattice), where one
+/// place does for all of it.
+bool may_touch(const Grid& lattice, const Stroke& s) {
+  const auto [low_x, high_x] = std::minmax({s.start.x, s.via.x, s.finish.x});
+  const auto [low_y, high_y] = std::minmax({s.start.y, s.via.y, s.finish.y});
+  return high_x >= lattice.x(0) && low_x <= lattice.x(lattice.cols - 1) && high_y >= lattice.y(0) &&
+         low_y <= lattice.y(lattice.rows - 1);
+}
+
 }  // namespace
 
 SplineSpreading::SplineSpreading(const Grid& lattice, const std::vector<Stroke>& strokes, StrokePart part, int threads)
@@ -36,7 +45,7 @@ SplineSpreading::SplineSpreading(const Grid& lattice, const std::vector<Stroke>&
   begin_.push_back(0);
   const double longest = kLongestPiece * std::min(lattice.pitch_x, lattice.pitch_y);
   for (const Stroke& s : strokes) {
-    const double length = part == StrokePart::Whole ? s.length() : 0.0;
+    const double length = part == StrokePart::Whole && may_touch(lattice, s) ? s.length() : 0.0;
     const int pieces = static_cast<int>(std::clamp(std::ceil(length / longest), 1.0, kMostPieces));
     for (int k = 0; k < pieces; ++k) append(length > 0.0 ? along(s, (k + 0.5) / pieces) : s.via);
     if (places_.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))

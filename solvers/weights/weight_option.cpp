@@ -8,6 +8,7 @@
 
 #include "core/base/errors.h"
 #include "core/base/number_text.h"
+#include "core/base/value_range.h"
 
 namespace dwell {
 namespace {
@@ -39,24 +40,25 @@ std::string_view without_ending(std::string_view text, std::string_view ending) 
 }  // namespace
 
 WeightGoal parse_weight_goal(const std::string& text, GoalKind target) {
+  constexpr ValueRange kTargetValues{1e-12, 1e12, ""};
+  const ValueRange& weights = target == GoalKind::TotalAtMost ? ranges::kTimePrice : ranges::kWeight;
   const std::string words = lower_case(trim(text));
   if (words == "auto") return {0.0, GoalKind::Corner};
   const std::size_t sign = words.find("<=");
   if (sign == std::string::npos) {
     const auto weight = finite_number(words);
-    if (weight && *weight >= 0.0) return {*weight, GoalKind::Fixed};
+    if (weight && weights.holds(*weight)) return {*weight, GoalKind::Fixed};
   } else {
     const std::string_view quantity = without_ending(trim(std::string_view(words).substr(0, sign)), "rms");
     const std::string_view limit = trim(std::string_view(words).substr(sign + 2));
     for (const GoalKind kind : {target, GoalKind::ResidualAtMost}) {
       const auto value = finite_number(without_ending(limit, target_of(kind).unit));
-      if (quantity == target_of(kind).word && value && *value > 0.0) return {*value, kind};
+      if (quantity == target_of(kind).word && value && kTargetValues.holds(*value)) return {*value, kind};
     }
   }
   throw InputError(
-      fmt::format("'{}'; required a number >= 0, auto, '{}<=S' with S > 0 in s, or 'residual<=NM' with NM > "
-                  "0 in nm",
-                  text, target_of(target).word));
+      fmt::format("'{}'; required {}, auto, '{}<=S' with S > 0 in s, or 'residual<=NM' with NM > 0 in nm, each {}",
+                  text, weights.text(), target_of(target).word, kTargetValues.text()));
 }
 
 std::string to_string(const WeightGoal& goal) {

@@ -214,6 +214,68 @@ TEST(SimulateCommand, SaysHowFarTheSplineIsFromTheRemovalFunction) {
   EXPECT_NE(exact["program"]["residual_rms_nm"], fast["program"]["residual_rms_nm"]);
 }
 
+// RMS and PV are about the same figure, whatever form is removed, and both commands say which.
+TEST(SimulateCommand, MeasuresAsThePlanDoes) {
+  const SmallInputs inputs;
+  for (const char* removed : {"none", "piston", "piston,tilt"}) {
+    ASSERT_EQ(inputs.run(SmallInputs::plan({"--remove", removed})).exit_code, 0);
+    const json plan = json::parse(read_whole_file(inputs / "plan/summary.json"));
+    const std::vector<std::string> words{
+        "simulate", "--program", "plan/program.nc", "--map", "map.csv",  "--map-pixel", "0.5",
+        "--tif",    "tif.csv",   "--tif-pixel",     "0.5",   "--remove", removed};
+    const json s = json::parse(inputs.run(test::with(words, {"--json"})).out);
+    for (const char* key : {"removed", "residual_rms_nm", "residual_pv_nm", "residual_mean_nm"})
+      EXPECT_EQ(s["program"][key], plan["program"][key]) << key;
+    EXPECT_EQ(s["program"]["removed"], removed);
+    EXPECT_LE(s["program"]["residual_rms_nm"].get<double>(), 0.5 * s["program"]["residual_pv_nm"].get<double>());
+    EXPECT_LE(s["map"]["rms_nm"].get<double>(), 0.5 * s["map"]["pv_nm"].get<double>());
+    expect_has(inputs.run(words).out, std::string(" (") + removed + " removed)\n");
+  }
+}
+
+TEST(SimulateCommand, AsksForTheUnitOfAHaltAndSaysWhatWasLeftOpen) {
+  const SmallInputs inputs;
+  inputs.folder.file("a.nc", "G90 G94\nG0 Z5\nG0 X3 Y4\nG1 Z0 F600\nG4 P500\nG1 X4 F60\nM2\n");
+  const auto simulate = [&](const test::Words& more) {
+    return inputs.run(test::with({"simulate", "--program", "a.nc", "--map", "map.csv", "--map-pixel", "0.5", "--tif",
+                                  "tif.csv", "--tif-pixel", "0.5"},
+                                 more));
+  };
+  const ProgramResult refused = simulate({});
+  EXPECT_EQ(refused.exit_code, 2);
+  expect_has(refused.err, "a.nc, line 5: G4 P500: a whole number is seconds on some controllers");
+  const ProgramResult read = simulate({"--g4", "ms"});
+  ASSERT_EQ(read.exit_code, 0) << read.err;
+  expect_has(read.out, "2.00 s\n          the program names no unit (G21): read as millimetres\n");
+  EXPECT_EQ(json::parse(simulate({"--g4", "s", "--json"}).out)["program"]["total_s"], 501.5);
+  EXPECT_EQ(simulate({"--g4", "min"}).exit_code, 2);
+}
+
+// Names of files may hold any byte: they are read, and shown escaped where text must be UTF-8.
+TEST(FileNames, MayBeNoUtf8) {
+  const SmallInputs inputs;
+  const std::string map = "m\xE9tal.csv", out = "r\xE9sultat";
+  std::filesystem::rename(inputs / "map.csv", inputs / map);
+  const ProgramResult looked = inputs.run(
+      {"map", map, "--map-pixel", "0.5", "--json", "--step", "flip:x", "--png", "\xE9.svg", "--write", "\xE9.npy"});
+  ASSERT_EQ(looked.exit_code, 0) << looked.err;
+  EXPECT_EQ(json::parse(looked.out)["map"]["file"], "m\\xE9tal.csv");
+  EXPECT_TRUE(std::filesystem::exists(inputs / "\xE9.npy.json"));
+  const ProgramResult planned = inputs.run(SmallInputs::plan({"--map", map, "--out", out, "--json"}));
+  ASSERT_EQ(planned.exit_code, 0) << planned.err;
+  EXPECT_EQ(json::parse(planned.out)["options"]["map"], "m\\xE9tal.csv");
+  EXPECT_EQ(json::parse(read_whole_file(inputs / (out + "/summary.json"))), json::parse(planned.out));
+  for (const char* file : {"/feed.csv", "/program.nc"})
+    expect_has(read_whole_file(inputs / (out + file)), "m\\xE9tal.csv");
+  const ProgramResult simulated = inputs.run({"simulate", "--program", out + "/program.nc", "--map", map, "--map-pixel",
+                                              "0.5", "--tif", "tif.csv", "--tif-pixel", "0.5", "--json"});
+  ASSERT_EQ(simulated.exit_code, 0) << simulated.err;
+  EXPECT_EQ(json::parse(simulated.out)["program"]["file"], "r\\xE9sultat/program.nc");
+  const ProgramResult job = inputs.run(SmallInputs::plan({"--map", map, "--write-job"}));
+  EXPECT_EQ(job.exit_code, 2);
+  expect_has(job.err, "--map 'm\\xE9tal.csv': a job file is UTF-8");
+}
+
 TEST(ExampleCommand, MakesAJobThatPlans) {
   const SmallInputs inputs;
   const ProgramResult made =

@@ -3,8 +3,9 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   return dwell::fuzz::read(data, size, [](std::string_view bytes) {
-    for (const auto dialect : {std::optional<dwell::GcodeDialect>(), std::optional(dwell::GcodeDialect::G93Seconds)}) {
-      dwell::read_gcode(bytes, "program.nc", dialect);
+    const dwell::GcodeReading all{dwell::GcodeDialect::G93Seconds, dwell::HaltUnit::Milliseconds};
+    for (const dwell::GcodeReading& reading : {dwell::GcodeReading(), all}) {
+      dwell::read_gcode(bytes, "program.nc", reading);
     }
   });
 }

@@ -85,5 +85,27 @@ TEST_F(PathFile, RefusesAFileThatIsNotThere) {
   EXPECT_NE(text.find(file_.string()), std::string::npos) << text;
 }
 
+TEST_F(PathFile, RefusesACommentThatNamesAnotherUnitOrPlace) {
+  for (const std::string comment :
+       {"# unit: um", "#Units=inch", "# x unit: m", "# origin: 5,5", "# scale_factor = 2"}) {
+    EXPECT_EQ(message(comment + "\nx_mm,y_mm\n1,2\n"),
+              "line 1: comment \"" + comment.substr(comment[1] == ' ' ? 2 : 1) +
+                  "\" may change what the coordinates mean; accepted: mm, in the map's coordinates");
+  }
+  // The header of a feed table, which may be read as a path, and remarks.
+  EXPECT_EQ(read("# unit: mm\n# units: x_mm and y_mm mm, dwell_s s, feed_mm_per_min mm/min\n# made: by hand\n"
+                 "# lines of 2 mm\nx_mm,y_mm\n1,2\n")
+                .size(),
+            1u);
+}
+
+TEST_F(PathFile, RefusesAColumnOfAlmostTheName) {
+  for (const std::string column : {"Lift", "lifted", "LIFT", "X_mm"}) {
+    EXPECT_EQ(
+        message("x_mm,y_mm," + column + "\n1,2,1\n"),
+        "line 1: column \"" + column + "\"; accepted: x_mm, y_mm, lift, exactly so, and columns of other meaning");
+  }
+}
+
 }  // namespace
 }  // namespace dwell

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "core/base/errors.h"
+#include "core/base/value_range.h"
 #include "core/numerics/dense_solve.h"
 #include "core/tif/calibration/spot_finder.h"
 
@@ -18,18 +19,12 @@ constexpr double kRadiusInExtents = 2.25;      // of 30 % of the peak: 3.5 sigma
 constexpr double kLeastRadiusInExtents = 1.2;  // room that an edge or a neighbour must leave
 
 void check(const SpotOptions& o) {
-  if (!(std::isfinite(o.dwell_time) && o.dwell_time > 0.0)) {
-    throw InputError("dwell time", fmt::format("{} s", o.dwell_time), "finite and > 0");
-  }
-  if (o.radius && !(std::isfinite(*o.radius) && *o.radius > 0.0)) {
-    throw InputError("radius", fmt::format("{} mm", *o.radius), "finite and > 0");
-  }
+  check_range("dwell time", o.dwell_time, ranges::kTime);
+  if (o.radius) check_range("radius", *o.radius, ranges::kSize);
   if (!(o.noise_cut >= 0.0 && o.noise_cut <= 0.5)) {
     throw InputError("noise cut", fmt::format("{}", o.noise_cut), "a share of the peak from 0 to 0.5");
   }
-  if (!(std::isfinite(o.noise_sigmas) && o.noise_sigmas >= 0.0)) {
-    throw InputError("noise sigmas", fmt::format("{}", o.noise_sigmas), "finite and >= 0");
-  }
+  check_range("noise sigmas", o.noise_sigmas, {0.0, 1e6, ""});
   if (o.centre == SpotCentre::Given && o.at.empty()) {
     throw InputError("`centre` at: give the positions that the tool was sent to, `at` X,Y for each spot");
   }

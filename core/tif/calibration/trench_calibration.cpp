@@ -7,6 +7,8 @@
 
 #include "core/base/errors.h"
 #include "core/base/rotation.h"
+#include "core/base/units.h"
+#include "core/base/value_range.h"
 #include "core/map/robust_plane.h"
 #include "core/numerics/median.h"
 #include "core/tif/calibration/spot_finder.h"
@@ -43,16 +45,9 @@ struct Bins {
 };
 
 void check(const TrenchOptions& o) {
-  if (!(std::isfinite(o.feed) && o.feed > 0.0)) {
-    throw InputError("feed", fmt::format("{} mm/min", o.feed * 60.0), "finite and > 0");
-  }
-  if (!std::isfinite(o.direction)) {
-    throw InputError("direction", fmt::format("{} degrees", o.direction), "a finite angle in degrees",
-                     "`direction`: a finite angle in degrees is required");
-  }
-  if (o.radius && !(std::isfinite(*o.radius) && *o.radius > 0.0)) {
-    throw InputError("radius", fmt::format("{} mm", *o.radius), "finite and > 0");
-  }
+  check_range("feed", units::mm_per_min(o.feed), ranges::kFeed);
+  check_range("direction", o.direction, ranges::kAngle);
+  if (o.radius) check_range("radius", *o.radius, ranges::kSize);
   if (!(o.noise_cut >= 0.0 && o.noise_cut <= 0.5)) {
     throw InputError("noise cut", fmt::format("{}", o.noise_cut), "a share of the peak from 0 to 0.5");
   }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/spec_text.h"
+#include "core/base/value_range.h"
 #include "core/tif/removal_function.h"
 #include "core/tif/removal_moments.h"
 #include "core/tif/removal_shape.h"
@@ -25,7 +26,9 @@ struct ModelParameter {
 };
 
 /// A length of the form [mm], required.
-inline ModelParameter model_size(const char* name) { return {name, "mm", 0.0, 1e6, true, {}, true, false}; }
+inline ModelParameter model_size(const char* name) {
+  return {name, "mm", ranges::kSize.least, ranges::kSize.most, true, {}, true, false};
+}
 /// The direction of the form, counter-clockwise from +x [deg]; 0 if not given.
 inline ModelParameter model_angle() { return {"angle", "deg", -1e6, 1e6, false, 0.0, true, false}; }
 

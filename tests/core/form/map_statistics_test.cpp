@@ -20,10 +20,29 @@ TEST(MapStatistics, HandCheckedNumbers) {
   const MapStatistics raw = map_statistics(map, {});
   EXPECT_EQ(raw.valid_pixels, 4);
   EXPECT_DOUBLE_EQ(raw.pv, 5.0);
-  EXPECT_DOUBLE_EQ(raw.rms, std::sqrt(50.0 / 4.0));
+  EXPECT_DOUBLE_EQ(raw.rms, std::sqrt(14.0 / 4.0));
+  EXPECT_DOUBLE_EQ(raw.mean, 3.0);
+  EXPECT_DOUBLE_EQ(raw.rms_about_zero(), std::sqrt(50.0 / 4.0));
+  EXPECT_EQ(in_words(raw), "RMS 1.871 nm, PV 5 nm, mean 3 nm");
   const MapStatistics centred = map_statistics(map, {true, false, false});
   EXPECT_DOUBLE_EQ(centred.pv, 5.0);
   EXPECT_DOUBLE_EQ(centred.rms, std::sqrt(14.0 / 4.0));
+  EXPECT_NEAR(centred.mean, 0.0, 1e-15);
+  EXPECT_EQ(in_words(centred), "RMS 1.871 nm, PV 5 nm");
+}
+
+// A small figure on a large piston, which the RMS must not hold, whatever the number of threads.
+TEST(MapStatistics, RmsIsNeverMoreThanHalfOfThePv) {
+  HeightMap map({37, 23, 0.5, 0.25, {}});
+  for (Index i = 0; i < map.grid.size(); ++i) {
+    map.values[static_cast<std::size_t>(i)] = i % 7 == 0 ? kNaN : 1e6 + std::sin(0.37 * static_cast<double>(i));
+  }
+  const MapStatistics one = map_statistics(map, {}, 1), two = map_statistics(map, {}, 2);
+  EXPECT_EQ(one.rms, two.rms);
+  EXPECT_EQ(one.mean, two.mean);
+  EXPECT_LE(one.rms, 0.5 * one.pv);
+  EXPECT_NEAR(one.rms, std::sqrt(0.5), 0.02);
+  EXPECT_NEAR(one.mean, 1e6, 0.02);
 }
 
 TEST(MapStatistics, TiltIsOfTheMillimetresNotOfThePixels) {

@@ -95,5 +95,29 @@ TEST(StrokeQuadrature, TakesAStrokeOfOneHalf) {
   }
 }
 
+// A surface that is zero outside a box: what lies there adds nothing, and costs nothing however long it is.
+TEST(StrokeQuadrature, LeavesOutWhatLiesBeyondTheReach) {
+  const SplineSurface surface = random_surface(5);  // zero two pitches beyond its grid
+  const LatticeBox reach{-2.0, static_cast<double>(kGrid.cols + 1), -2.0, static_cast<double>(kGrid.rows + 1)};
+  std::mt19937_64 random(8);
+  std::uniform_real_distribution<double> x(-9.0, 9.0), y(1.0, 18.0);
+  for (int k = 0; k < 200; ++k) {
+    const Stroke s{{x(random), y(random)}, {x(random), y(random)}, {x(random), y(random)}};
+    std::vector<QuadraturePoint> all, near;
+    append_stroke_quadrature(s, kGrid, all);
+    append_stroke_quadrature(s, kGrid, reach, near);
+    EXPECT_LE(near.size(), all.size() + 16);
+    EXPECT_NEAR(weighted_sum(surface, near), weighted_sum(surface, all), 1e-13);
+  }
+  std::vector<QuadraturePoint> points;
+  append_stroke_quadrature({{-1e9, 8.0}, {1.0, 8.0}, {1e12, 8.3}}, kGrid, reach, points);
+  EXPECT_GT(points.size(), 10u);
+  EXPECT_LT(points.size(), 500u);
+  points.clear();
+  append_stroke_quadrature({{-1e9, 80.0}, {1.0, 80.0}, {1e12, 80.0}}, kGrid, reach, points);
+  append_stroke_quadrature({{50.0, 8.0}, {50.0, 8.0}, {50.0, 8.0}}, kGrid, reach, points);
+  EXPECT_TRUE(points.empty());
+}
+
 }  // namespace
 }  // namespace dwell

@@ -49,13 +49,21 @@ TEST(JsonBlocks, TellTheCorrectionOfTheKernelOnlyWhereThereIsOne) {
 
 TEST(JsonBlocks, TellAProgramByItsSteps) {
   Program program{"a.nc", {{{0.0, 0.0}, {3.0, 4.0}, 2.0, true}, {{3.0, 4.0}, {0.0, 0.0}, 1.0, false}}};
-  const json block = program_block(program_figures(program, {10, 5.0, 1.5}));
+  const json block = program_block(program_figures(program, {10, 5.0, 1.5, -3.0}, "tilt"));
   EXPECT_EQ(block["file"], "a.nc");
   EXPECT_EQ(block["steps"], 2);
   EXPECT_EQ(block["removing_length_mm"], 5.0);
   EXPECT_EQ(block["total_s"], 3.0);
   EXPECT_EQ(block["residual_rms_nm"], 1.5);
   EXPECT_EQ(block["residual_pv_nm"], 5.0);
+  EXPECT_EQ(block["residual_mean_nm"], -3.0);
+  EXPECT_EQ(block["removed"], "tilt");
+  EXPECT_TRUE(block["notes"].empty());
+}
+
+TEST(JsonBlocks, EscapesBytesThatAreNoUtf8) {
+  json block{{"file", "m\xE9tal.csv"}, {"list", {"h\xC3\xB6he", "\xFF"}}};
+  EXPECT_EQ(json::parse(json_text(block)), (json{{"file", "m\\xE9tal.csv"}, {"list", {"h\xC3\xB6he", "\\xFF"}}}));
 }
 
 }  // namespace

@@ -135,5 +135,38 @@ TEST(OutputFolder, RefusesWhatCannotBeWrittenBeforeAnyWork) {
   EXPECT_EQ(temporary.entries(), 1u);
 }
 
+TEST(OutputFolder, IsRefusedInsideAnEarlierResult) {
+  const TemporaryFolder temporary;
+  const fs::path plan = temporary.path() / "p", sweep = temporary.path() / "s";
+  write_result(plan, "one");
+  fs::create_directories(sweep);
+  write_whole_file(sweep / "pareto.json", "{}");
+  const auto check = [&](const fs::path& target, const ResultFiles& files) {
+    refuse_inside_result(target, files, {&plan_files(), &pareto_files()});
+  };
+  expect_input_error([&] { check(plan / "inner", plan_files()); },
+                     {"`out`", (plan / "inner").string(), "lies in '" + plan.string() + "'", "an earlier plan"});
+  expect_input_error([&] { check(plan / "a" / "b", pareto_files()); }, {"lies in '" + plan.string() + "'"});
+  expect_input_error([&] { check(sweep / "inner", plan_files()); }, {"an earlier pareto sweep"});
+  EXPECT_NO_THROW(check(plan, plan_files()));
+  EXPECT_NO_THROW(check(temporary.path() / "q" / "inner", plan_files()));
+  const ResultFiles many{"collection", "all.json", {}, {}, &plan_files()};  // holds plans, each in its folder
+  const fs::path all = temporary.path() / "all";
+  fs::create_directories(all);
+  write_whole_file(all / "all.json", "{}");
+  write_result(all / "one", "1");
+  EXPECT_NO_THROW(refuse_inside_result(all / "one", plan_files(), {&many, &plan_files()}));
+  expect_input_error(
+      [&] {
+        refuse_inside_result(all / "one" / "two", plan_files(), {&many, &plan_files()});
+      },
+      {"lies in '" + (all / "one").string() + "'"});
+  expect_input_error(
+      [&] {
+        refuse_inside_result(all / "sweep", pareto_files(), {&many, &plan_files()});
+      },
+      {"an earlier collection"});
+}
+
 }  // namespace
 }  // namespace dwell

@@ -77,14 +77,34 @@ TEST(JobOptionTable, RefusesWhatIsOutOfRangeNamingOptionValueAndRange) {
   JobOptions options;
   for (const char* flag : {"map-pixel", "tif-pixel", "max-feed", "max-solve", "lift-height"}) {
     for (const char* text : {"0", "-1", "nan", "inf", "1e999", "1 mm", "abc"}) {
-      expect_input_error([&] { set(options, flag, text); }, {std::string("--") + flag, text, "required a number > 0"});
+      expect_input_error([&] { set(options, flag, text); }, {std::string("--") + flag, text, "required a number from"});
     }
   }
   for (const char* flag : {"min-dwell", "smoothness", "time-price"}) {
     for (const char* text : {"-1e-9", "nan", "inf", "x"}) {
-      expect_input_error([&] { set(options, flag, text); }, {std::string("--") + flag, text, "required a number >= 0"});
+      expect_input_error([&] { set(options, flag, text); },
+                         {std::string("--") + flag, text, "required a number from 0 to"});
     }
   }
+  const auto beyond = [&](const char* flag, const char* text, const std::string& range) {
+    expect_input_error([&] { set(options, flag, text); }, {std::string("--") + flag, text, range});
+  };
+  beyond("map-pixel", "1e-7", "a number from 1e-06 to 10000 (mm)");
+  beyond("tif-pixel", "1e300", "a number from 1e-06 to 10000 (mm)");
+  beyond("tif-dwell-time", "1e300", "a number from 1e-09 to 1e+08 (s)");
+  beyond("min-dwell", "1e300", "a number from 0 to 1e+07 (s)");
+  beyond("max-feed", "1e-9", "a number from 0.01 to 1e+07 (mm/min)");
+  beyond("max-feed", "1e300", "a number from 0.01 to 1e+07 (mm/min)");
+  beyond("smoothness", "1e300", "a number from 0 to 1e+09");
+  beyond("smoothness", "step<=1e300", "'step<=S'");
+  beyond("time-price", "1e300", "a number from 0 to 1e+15 (nm^2/s)");
+  beyond("max-solve", "1e300", "a number from 1e-09 to 1e+08 (s)");
+  beyond("lift-height", "1e300", "a number from 1e-06 to 1e+06 (mm)");
+  beyond("map-origin", "1e300,0", "each a number from -1e+06 to 1e+06 (mm)");
+  beyond("tif-centre", "0,1e300", "X,Y in mm");
+  beyond("aperture", "circle:0,0,1e300", "a number from -1e+06 to 1e+06 (mm)");
+  beyond("path", "spiral:pitch=1,centre=1e300/0", "a number from -1e+06 to 1e+06 (mm)");
+  beyond("path", "raster:pitch=1e300", "a number from");
   for (const char* text : {"-1", "1.5", "nan", "1025", "two"}) {
     expect_input_error([&] { set(options, "threads", text); }, {"--threads", text, "whole number"});
   }

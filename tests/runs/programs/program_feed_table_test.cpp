@@ -164,7 +164,7 @@ TEST(FeedTable, RefusesBadRowsNamingTheLine) {
   expect_contains(refused(replaced(text, ",0.400000,", ",inf,")), "line 12: y_mm = \"inf\"");
   expect_contains(refused(replaced(text, ",0.400000,", ",0.4 mm,")), "line 12: y_mm = \"0.4 mm\"");
   expect_contains(refused(replaced(text, ",0.333333333,", ",-0.333333333,")),
-                  "line 12: dwell_s = -0.333333333; required >= 0");
+                  "line 12: dwell_s = -0.333333333; required a number from 0 to 1e+08 (s)");
   expect_contains(refused(replaced(text, ",0.333333333,", ",,")), "line 12: dwell_s = \"\"");
   expect_contains(refused(replaced(text, "241.4953", "-241.4953")), "line 12: feed_mm_per_min = -241.4953");
   expect_contains(refused(replaced(text, ",0\n3,", ",2\n3,")), "line 12: lift = \"2\"; accepted: 0, 1");
@@ -179,7 +179,8 @@ TEST(FeedTable, RefusesBadHeadersNamingTheLine) {
                   "line 2: motion = \"walking\"; accepted: moving, stop");
   expect_contains(refused(replaced(text, "# max_feed_mm_per_min: 3000\n", "")),
                   "\"# max_feed_mm_per_min: NUMBER\" is missing");
-  expect_contains(refused(replaced(text, "min: 3000", "min: 0")), "line 3: max_feed_mm_per_min = 0; required > 0");
+  expect_contains(refused(replaced(text, "min: 3000", "min: 0")),
+                  "line 3: max_feed_mm_per_min = 0; required a number from 0.01");
   expect_contains(refused(replaced(text, "min: 3000", "min: nan")), "line 3: max_feed_mm_per_min = \"nan\"");
   expect_contains(refused(replaced(text, "# rows: 8\n", "")), "\"# rows: NUMBER\" is missing");
   expect_contains(refused(replaced(text, "rows: 8", "rows: 9")), "8 rows, but the header says 9");
@@ -190,6 +191,30 @@ TEST(FeedTable, RefusesBadHeadersNamingTheLine) {
                   "line 10: column line \"sequence,y_mm,x_mm");
   expect_contains(refused(replaced(text, " sha256=", " md5=")), "line 8: input");
   expect_contains(refused("# dwell 0.1.0\n"), "no column line");
+}
+
+TEST(FeedTable, RefusesHeaderLinesThatMayChangeTheNumbers) {
+  const std::string text = feed_table_text(winding_table(Motion::Moving));
+  for (const char* line : {"# unit: um", "# Units = mm, ms", "#x_unit:inch", "# max_feed_mm_per_s: 50", "# scale: 2",
+                           "# Origin_mm: 5,5", "# lift height: 3"}) {
+    expect_contains(refused(replaced(text, "# rows", std::string(line) + "\n# rows")), "line 5: header line");
+  }
+  expect_contains(refused(replaced(text, "feed_mm_per_min mm/min\n", "feed_mm_per_min m/min\n")),
+                  "may change what the numbers mean");
+  expect_contains(refused(replaced(text, "# rows", "# motion: stop\n# rows")),
+                  "is the second header line of this name");
+  // Blanks and signs are free, and so are remarks.
+  const TestFile file("feed.csv",
+                      replaced(replaced(text, "# rows: ", "# made by: Meier\n# a remark: with a colon\n#rows="),
+                               "# motion: moving", "#  motion:moving"));
+  EXPECT_EQ(read_feed_table(file.path()).path.size(), 8u);
+}
+
+TEST(FeedTable, RefusesTimesAndFeedsBeyondAnyMachine) {
+  const std::string text = feed_table_text(winding_table(Motion::Moving));
+  expect_contains(refused(replaced(text, ",0.333333333,", ",1e300,")), "dwell_s = 1e300; required a number from 0 to");
+  expect_contains(refused(replaced(text, "241.4953", "1e300241.4953")), "feed_mm_per_min");
+  expect_contains(refused(replaced(text, "min: 3000", "min: 1e300")), "max_feed_mm_per_min = 1e300; required a number");
 }
 
 TEST(FeedTable, WritesNoHeaderFieldOverTwoLines) {

@@ -76,7 +76,7 @@ TEST(Gcode, ReadsBackAsThePlannedProgramInEveryDialectAndMotion) {
   for (const Motion motion : {Motion::Moving, Motion::Stop}) {
     const Program planned = program_of(winding_path(), winding_dwells(motion), motion, 50.0);
     for (const GcodeDialect dialect : kDialects) {
-      const Program whole = read_gcode(gcode_text(planned, options_for(dialect)), "program.nc", std::nullopt);
+      const Program whole = read_gcode(gcode_text(planned, options_for(dialect)), "program.nc", {});
       EXPECT_EQ(whole.file, "program.nc");
       const Program read = without_plunges(whole);
       ASSERT_EQ(read.steps.size(), planned.steps.size()) << to_string(dialect);
@@ -98,8 +98,7 @@ TEST(Gcode, SaysTheSameAsTheFeedTable) {
   const FeedTable table = feed_table_of(winding_path(), winding_dwells(Motion::Moving), Motion::Moving, kMaxFeedPerMin);
   const Program planned = program_of(table);
   for (const GcodeDialect dialect : kDialects) {
-    const Program read =
-        without_plunges(read_gcode(gcode_text(planned, options_for(dialect)), "program.nc", std::nullopt));
+    const Program read = without_plunges(read_gcode(gcode_text(planned, options_for(dialect)), "program.nc", {}));
     ASSERT_EQ(read.steps.size(), planned.steps.size());
     for (std::size_t i = 0; i < read.steps.size(); ++i) {
       EXPECT_LE(distance(read.steps[i].finish, planned.steps[i].finish), 0.51e-6 * std::sqrt(2.0)) << i;
@@ -121,7 +120,7 @@ TEST(Gcode, NeverExceedsMaximumFeedWhenEveryStepIsAtTheLimit) {
         program.steps.push_back({at, to, distance(at, to) / (max_feed / 60.0), true});
         at = to;
       }
-      const Program read = read_gcode(gcode_text(program, options_for(dialect, max_feed)), "program.nc", std::nullopt);
+      const Program read = read_gcode(gcode_text(program, options_for(dialect, max_feed)), "program.nc", {});
       double fastest = 0.0;
       for (const ProgramStep& step : read.steps) {
         fastest = std::max(fastest, step.length() > 0.0 ? step.length() / step.seconds * 60.0 : 0.0);
@@ -141,7 +140,7 @@ TEST(Gcode, NeverUsesAnExponentOrMinusZero) {
     const std::string body = text.substr(text.rfind(')'));
     EXPECT_EQ(body.find('e'), std::string::npos) << body;
     EXPECT_EQ(body.find("-0.000000"), std::string::npos) << body;
-    const Program read = without_plunges(read_gcode(text, "program.nc", std::nullopt));
+    const Program read = without_plunges(read_gcode(text, "program.nc", {}));
     ASSERT_EQ(read.steps.size(), 3u);
     for (std::size_t i = 0; i < 3; ++i) {
       EXPECT_LE(std::abs(read.steps[i].seconds - program.steps[i].seconds), 1e-6 * program.steps[i].seconds) << body;
@@ -152,8 +151,7 @@ TEST(Gcode, NeverUsesAnExponentOrMinusZero) {
 TEST(Gcode, KeepsTheTimeOfAStepThatRoundingLeavesWithoutLength) {
   Program program;
   program.steps = {{{1, 2}, {1 + 2e-7, 2}, 0.5, true}, {{1 + 2e-7, 2}, {3, 2}, 1.5, true}};
-  const Program read =
-      without_plunges(read_gcode(gcode_text(program, options_for(GcodeDialect::G94)), "p.nc", std::nullopt));
+  const Program read = without_plunges(read_gcode(gcode_text(program, options_for(GcodeDialect::G94)), "p.nc", {}));
   ASSERT_EQ(read.steps.size(), 2u);
   EXPECT_EQ(read.steps[0].start, read.steps[0].finish);
   EXPECT_TRUE(read.steps[0].removes);
@@ -164,10 +162,10 @@ TEST(Gcode, RefusesEveryTruncation) {
   const Program planned = program_of(winding_path(), winding_dwells(Motion::Moving), Motion::Moving, 50.0);
   const std::string text = gcode_text(planned, options_for(GcodeDialect::G93Seconds));
   for (std::size_t size = 0; size + 1 < text.size(); ++size) {
-    EXPECT_THROW(read_gcode(text.substr(0, size), "program.nc", std::nullopt), InputError) << size;
+    EXPECT_THROW(read_gcode(text.substr(0, size), "program.nc", {}), InputError) << size;
   }
   const std::string cut = text.substr(0, text.size() - 3);
-  const std::string message = input_error([&cut] { read_gcode(cut, "program.nc", std::nullopt); });
+  const std::string message = input_error([&cut] { read_gcode(cut, "program.nc", {}); });
   expect_contains(message, "program.nc: ends at line ");
   expect_contains(message, "without M2 or M30; the program is truncated");
 }

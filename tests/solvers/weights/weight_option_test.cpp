@@ -68,8 +68,8 @@ TEST(WeightOption, RefusesTheRestNamingTheTextAndWhatIsAccepted) {
                            "step<=1<=2",
                            "step residual<=1",
                            "0.1 s"}) {
-    expect_input_error([&] { smoothness(text); }, {"'" + std::string(text) + "'", "a number >= 0", "auto", "'step<=S'",
-                                                   "'residual<=NM'", "in s", "in nm"});
+    expect_input_error([&] { smoothness(text); }, {"'" + std::string(text) + "'", "a number from 0 to", "auto",
+                                                   "'step<=S'", "'residual<=NM'", "in s", "in nm"});
   }
   expect_input_error([] { price("step<=1"); }, {"'step<=1'", "'total<=S'", "'residual<=NM'"});
 }

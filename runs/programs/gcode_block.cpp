@@ -1,0 +1,165 @@
+#include "runs/programs/gcode_block.h"
+
+#include <fmt/format.h>
+
+#include "core/base/errors.h"
+#include "runs/programs/gcode_codes.h"
+
+namespace dwell {
+namespace {
+
+// Collects one line.
+class BlockCollector {
+ public:
+  explicit BlockCollector(const GcodePlace& where) : where_(where) {}
+
+  GcodeBlock collect(const GcodeLine& line) {
+    for (const GcodeWord& word : line.words) {
+      if (word.letter == 'G' || word.letter == 'M') {
+        take_code(word);
+      } else {
+        take_word(word);
+      }
+    }
+    check_company(line);
+    return block_;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const { throw InputError(where_.text() + ": " + what); }
+
+  [[noreturn]] void refuse(const GcodeWord& word, std::string_view why) const {
+    fail(fmt::format("\"{}\": {}", word.text, why));
+  }
+
+  template <typename Value>
+  void once(std::optional<Value>& slot, Value value, const GcodeWord& word) const {
+    if (slot) refuse(word, "is the second word of its kind on this line; accepted: one");
+    slot = value;
+  }
+
+  void take_word(const GcodeWord& word) {
+    switch (word.letter) {
+      case 'X':
+        return once(block_.x, word.value, word);
+      case 'Y':
+        return once(block_.y, word.value, word);
+      case 'Z':
+        return once(block_.z, word.value, word);
+      case 'F':
+        return once(block_.f, word.value, word);
+      case 'P':
+        return once(block_.p, word, word);
+      case 'Q':
+        return once(q_, word, word);
+      case 'S':
+        return once(block_.s, word.value, word);
+      case 'T':
+        return once(block_.tool, word.value, word);
+      case 'O':
+        block_.numbered = true;
+        return once(o_, word, word);
+      case 'N':
+        return;
+      default:
+        break;
+    }
+    const std::string_view why = refused_letter(word.letter);
+    if (!why.empty()) refuse(word, why);
+    fail(fmt::format("word \"{}\" is not known; {}", word.text, accepted_gcode()));
+  }
+
+  void take_code(const GcodeWord& word) {
+    const GcodeCode* code = gcode_code(word.letter, word.value);
+    if (code == nullptr) fail(fmt::format("word \"{}\" is not known; {}", word.text, accepted_gcode()));
+    constexpr int kTenths = 10;
+    const int number = code->tenths / kTenths;
+    switch (code->effect) {
+      case GcodeEffect::None:
+        return;
+      case GcodeEffect::Cancel:
+        cancels_ = word;
+        return;
+      case GcodeEffect::Motion:
+        return once(block_.motion, number, word);
+      case GcodeEffect::Halt:
+        block_.halt = true;
+        return;
+      case GcodeEffect::Distance:
+        return once(block_.incremental, number == 91, word);
+      case GcodeEffect::FeedMode:
+        return once(block_.feed_mode, number, word);
+      case GcodeEffect::Millimetres:
+        block_.millimetres = true;
+        return;
+      case GcodeEffect::WorkOffset:
+        return once(block_.work_offset, code->tenths, word);
+      case GcodeEffect::Blending:
+        block_.blending = true;
+        return;
+      default:
+        take_machine_code(*code, number, word);
+    }
+  }
+
+  // Codes that switch something of the machine.
+  void take_machine_code(const GcodeCode& code, int number, const GcodeWord& word) {
+    switch (code.effect) {
+      case GcodeEffect::Pause:
+        block_.pause = true;
+        return;
+      case GcodeEffect::End:
+        block_.end = true;
+        return;
+      case GcodeEffect::Spindle:
+        return once(block_.spindle, number, word);
+      case GcodeEffect::Coolant:
+        block_.mist = block_.mist || number == 7;
+        block_.flood = block_.flood || number == 8;
+        block_.coolants_off = block_.coolants_off || number == 9;
+        return;
+      case GcodeEffect::ToolChange:
+        block_.change_tool = true;
+        return;
+      default:
+        refuse(word, code.about);
+    }
+  }
+
+  // What may stand beside what.
+  void check_company(const GcodeLine& line) const {
+    if (o_ && line.words.size() > 1) {
+      refuse(*o_, "a program's number stands alone; calls and loops (O with more on its line) are not honoured");
+    }
+    if (cancels_ && block_.has_axes()) {
+      refuse(*cancels_, "beside X, Y or Z controllers disagree on it; required on a line of its own");
+    }
+    if (block_.p && !block_.halt && !block_.blending) {
+      refuse(*block_.p, "P without G4; accepted only as the time of a halt (G4 P0.5) and the tolerance of G64");
+    }
+    if (q_ && !block_.blending) refuse(*q_, "Q is accepted only as a tolerance of G64");
+    if (block_.halt) check_halt();
+  }
+
+  void check_halt() const {
+    if (block_.has_axes() || block_.motion) {
+      fail("G4 together with a move; required on a line of its own, its time as P (G4 X is not accepted as one)");
+    }
+    if (block_.f || block_.s) {
+      fail("G4 with F or S: a time or a number of turns on some controllers; required G4 P");
+    }
+    if (block_.blending) fail("G4 together with G61 or G64, whose P it would be; required on a line of its own");
+  }
+
+  const GcodePlace& where_;
+  GcodeBlock block_;
+  std::optional<GcodeWord> q_, o_, cancels_;
+};
+
+}  // namespace
+
+GcodeBlock collect_gcode_block(const GcodeLine& line, const GcodePlace& where) {
+  return BlockCollector(where).collect(line);
+}
+
+}  // namespace dwell

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "runs/programs/gcode_dialect.h"
+
+namespace dwell {
+
+/// The unit of P in a halt, G4 P500. Controllers disagree: seconds (RS274/NGC, LinuxCNC) or whole milliseconds (Fanuc,
+/// Haas, Sinumerik in ISO mode).
+enum class HaltUnit { Seconds, Milliseconds };
+
+/// Parses "s" or "ms". Throws InputError naming the text and the accepted words.
+HaltUnit parse_halt_unit(const std::string& text);
+std::string to_string(HaltUnit unit);
+
+/// What a G-code program may leave to its controller, as the user says it. What a program says itself, in its comment
+/// "(dwell: gcode=..., g4=...)", must agree.
+struct GcodeReading {
+  std::optional<GcodeDialect> dialect = {};  // what F means after G93
+  std::optional<HaltUnit> halts = {};
+};
+
+}  // namespace dwell
