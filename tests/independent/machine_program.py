@@ -116,8 +116,10 @@ def chain_nodes(points):
     if len(points) < 2:
         return None
     nodes = [straight_on(middle(*points[:2]), points[0])]
-    for point in points:
-        nodes.append(straight_on(nodes[-1], point))
+    slack = CHAIN_TOLERANCE * math.dist(*points[:2])
+    for point, between in zip(points, [middle(*ends) for ends in zip(points, points[1:])] + [None]):
+        node = straight_on(nodes[-1], point)
+        nodes.append(between if between and math.dist(node, between) <= slack else node)
     first, *others = [math.dist(*ends) for ends in zip(nodes, nodes[1:])]
     equal = all(abs(step - first) <= CHAIN_TOLERANCE * first for step in others[:-1])
     return nodes if equal and others[-1] <= (1 + CHAIN_TOLERANCE) * first else None

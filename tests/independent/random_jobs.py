@@ -31,10 +31,9 @@ class Job:
     max_feed: float  # [mm/min]
 
 
-def random_map(dice):
+def random_map(dice, pitch):
     """A part with a bump towards +x, +y, waves, a slope, a corner that is missing and a hole, far from (0, 0)."""
-    pitch = dice.choice(PITCHES)
-    shape = [round(dice.uniform(11.5, 15) / step) for step in (pitch[1], pitch[0])]
+    shape = [round(dice.uniform(13, 15) / step) for step in (pitch[1], pitch[0])]
     part = HeightMap(numpy.zeros(shape), pitch, (round(dice.uniform(-40, 40), 3), round(dice.uniform(-40, 40), 3)))
     x, y = numpy.meshgrid(part.x() - part.origin[0], part.y() - part.origin[1])
     wide, high = x.max(), y.max()
@@ -69,7 +68,7 @@ def measured(dice, width, folder):
 
 
 def ring(width, folder):
-    """A file of rates like a fluid jet's: a ring with sharp rims on samples finer than the map's, higher to one side."""
+    """A file of rates like a fluid jet's: a ring with sharp rims on samples finer than the map's, uneven along x."""
     pitch = round(width / 20, 4)
     rates = HeightMap(numpy.zeros((25, 25)), (pitch, pitch), (-12 * pitch, -12 * pitch), "nm/s")
     x, y = numpy.meshgrid(rates.x(), rates.y())
@@ -81,7 +80,7 @@ def ring(width, folder):
 
 def random_function(dice, kind, width, folder):
     """Words of --tif and the function, of a width at half height of at least `width` in all directions [mm]."""
-    peak, wider, angle = round(dice.uniform(2, 9), 3), round(width * dice.uniform(1.2, 1.6), 3), dice.randint(-170, 170)
+    peak, wider, angle = round(dice.uniform(2, 9), 3), round(width * dice.uniform(1.2, 1.4), 3), dice.randint(-170, 170)
     if kind == "measured":
         return measured(dice, width, folder)
     if kind == "ring":
@@ -136,14 +135,16 @@ def write_path(dice, file, part, pitch):
 
 
 def random_job(number, path, folder, kind=None):
-    """Job `number`: with the numbers go dialects, removal functions (unless a kind is given), form terms and motion."""
+    """Job `number`; with it go pitches, dialects, removal functions (unless a kind is given), form terms and motion."""
     dice = random.Random(f"dwell {number}")
-    write_text(folder / "part.csv", random_map(dice))
+    write_text(folder / "part.csv", random_map(dice, PITCHES[(number // 2) % len(PITCHES)]))
     part = read_text(folder / "part.csv")
     width = round(max(PIXELS_A_WIDTH * max(part.pitch), dice.uniform(2, 3)), 3)
     kind = kind or SMOOTH_FUNCTIONS[number % len(SMOOTH_FUNCTIONS)]
     words, function = random_function(dice, kind, width, folder)
     flip, turn = dice.choice(("none", "x", "y")), dice.choice((0, 90, round(dice.uniform(-180, 180), 2)))
+    if kind == "ring":
+        turn = 90  # other angles interpolate the samples anew
     options = ["--map", "part.csv", *words, "--tif-flip", flip, "--tif-angle", turn]
     max_feed = round(dice.uniform(300, 3000), 1)
     dialect = DIALECTS[number % len(DIALECTS)]
