@@ -70,7 +70,7 @@ HeightMap decimated(const HeightMap& map, Index row_factor, Index col_factor) {
   return result;
 }
 
-HeightMap resampled(const HeightMap& map, Point pitch, int threads) {
+HeightMap resampled(const HeightMap& map, Point pitch, int threads, const PixelLimit& limit) {
   if (!(std::isfinite(pitch.x) && pitch.x > 0.0 && std::isfinite(pitch.y) && pitch.y > 0.0)) {
     throw InputError(fmt::format("pitch = {} x {} mm; both must be finite and > 0", pitch.x, pitch.y));
   }
@@ -85,7 +85,7 @@ HeightMap resampled(const HeightMap& map, Point pitch, int threads) {
   };
   const Grid& g = source.grid;
   const Grid target = limited_grid(points(g.pitch_y, g.rows, pitch.y), points(g.pitch_x, g.cols, pitch.x), pitch,
-                                   g.origin, fmt::format("pitch = {} x {} mm", pitch.x, pitch.y));
+                                   g.origin, fmt::format("pitch = {} x {} mm", pitch.x, pitch.y), limit);
   return warped(source, {}, target, threads);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/base/grid_limit.h"
 #include "core/map/height_map.h"
 
 namespace dwell {
@@ -14,7 +15,7 @@ HeightMap decimated(const HeightMap& map, Index row_factor, Index col_factor);
 /// The map at other pitches [mm, in x and y]: by block average over the whole number of pixels that a new one spans in
 /// each direction, if that is more than one (anti-aliasing), then by cubic B-spline (core/map/map_sampler.h). The first
 /// pixel of the new map lies on the first one of the map, or of the averaged map, and the last one not beyond the last
-/// of it. Throws InputError unless the pitches are finite and > 0 and the result has at most kMaxPixels.
-HeightMap resampled(const HeightMap& map, Point pitch, int threads = 1);
+/// of it. Throws InputError unless the pitches are finite and > 0 and the result is within the limit.
+HeightMap resampled(const HeightMap& map, Point pitch, int threads = 1, const PixelLimit& limit = {});
 
 }  // namespace dwell

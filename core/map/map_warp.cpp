@@ -28,7 +28,7 @@ HeightMap warped(const HeightMap& map, const PlaneTransform& forward, const Grid
   return result;
 }
 
-Grid covering_grid(const Grid& grid, const PlaneTransform& forward) {
+Grid covering_grid(const Grid& grid, const PlaneTransform& forward, const PixelLimit& limit) {
   const double half_x = 0.5 * grid.pitch_x * static_cast<double>(grid.cols - 1);
   const double half_y = 0.5 * grid.pitch_y * static_cast<double>(grid.rows - 1);
   const double reach_x = std::abs(forward.xx) * half_x + std::abs(forward.xy) * half_y;
@@ -36,14 +36,14 @@ Grid covering_grid(const Grid& grid, const PlaneTransform& forward) {
   constexpr double kRounding = 1e-9;  // pixels
   const double cols = std::ceil(2.0 * reach_x / grid.pitch_x - kRounding) + 1.0;
   const double rows = std::ceil(2.0 * reach_y / grid.pitch_y - kRounding) + 1.0;
-  Grid result = limited_grid(rows, cols, {grid.pitch_x, grid.pitch_y}, {}, "moving the map");
+  Grid result = limited_grid(rows, cols, {grid.pitch_x, grid.pitch_y}, {}, "moving the map", limit);
   result.origin = forward(middle_of(grid)) - middle_of(result);
   return result;
 }
 
-HeightMap rotated(const HeightMap& map, double degrees, Point about, int threads) {
+HeightMap rotated(const HeightMap& map, double degrees, Point about, int threads, const PixelLimit& limit) {
   const PlaneTransform forward = similarity(about, {}, degrees, 1.0);
-  return warped(map, forward, covering_grid(map.grid, forward), threads);
+  return warped(map, forward, covering_grid(map.grid, forward, limit), threads);
 }
 
 }  // namespace dwell

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/base/grid_limit.h"
 #include "core/map/height_map.h"
 #include "core/numerics/plane_transform.h"
 
@@ -12,11 +13,11 @@ namespace dwell {
 HeightMap warped(const HeightMap& map, const PlaneTransform& forward, const Grid& target, int threads = 1);
 
 /// The smallest grid of the same pitches that covers all pixel centres of `grid` moved by `forward`, its middle where
-/// theirs goes. Throws InputError if it is larger than kMaxPixels.
-Grid covering_grid(const Grid& grid, const PlaneTransform& forward);
+/// theirs goes. Throws InputError if it is larger than the limit.
+Grid covering_grid(const Grid& grid, const PlaneTransform& forward, const PixelLimit& limit = {});
 
 /// The map turned counter-clockwise by any angle about a point [mm], on the covering grid. For
 /// multiples of 90 degrees core/map/map_turn.h is exact.
-HeightMap rotated(const HeightMap& map, double degrees, Point about, int threads = 1);
+HeightMap rotated(const HeightMap& map, double degrees, Point about, int threads = 1, const PixelLimit& limit = {});
 
 }  // namespace dwell

@@ -20,7 +20,8 @@ namespace dwell {
 
 HeightMap load_map(const JobOptions& options, std::vector<InputFile>& inputs, const Progress& progress) {
   if (options.map.empty()) throw InputError("--map: required; a height-error map, for instance mirror.csv");
-  const MapReadOptions read{options.map_pixel_mm, options.map_origin_mm, height_unit_nm(options.map_unit), "map"};
+  const MapReadOptions read{options.map_pixel_mm, options.map_origin_mm, height_unit_nm(options.map_unit), "map",
+                            MapQuantity::Height,  {options.max_pixels}};
   HeightMap map = read_map(options.map, read);
   inputs.push_back({"map", options.map, sha256_of_file(split_map_name(options.map).file)});
   MapStepContext context{read, &inputs, thread_count(options.threads), progress.of_part("map")};
@@ -33,7 +34,8 @@ namespace {
 /// The removal function from the surface that spots of a known dwell time left.
 RemovalFunction removal_of_spots(const JobOptions& options) {
   const std::string unit = options.tif_unit == JobOptions{}.tif_unit ? "nm" : options.tif_unit;
-  const MapReadOptions read{options.tif_pixel_mm, std::nullopt, height_unit_nm(unit), "tif", MapQuantity::Height};
+  const MapReadOptions read{options.tif_pixel_mm, std::nullopt,        height_unit_nm(unit), "tif",
+                            MapQuantity::Height,  {options.max_pixels}};
   HeightMap depth = read_map(options.tif, read);
   for (double& value : depth.values) value = -value;
   SpotOptions spots;
@@ -57,8 +59,8 @@ TifCentre centre_of(const HeightMap& rates, const std::optional<TifCentre>& want
 }
 
 RemovalFunction removal_of_rates(const JobOptions& options) {
-  const MapReadOptions read{options.tif_pixel_mm, std::nullopt, rate_unit_nm_per_s(options.tif_unit), "tif",
-                            MapQuantity::Rate};
+  const MapReadOptions read{options.tif_pixel_mm, std::nullopt,        rate_unit_nm_per_s(options.tif_unit), "tif",
+                            MapQuantity::Rate,    {options.max_pixels}};
   const HeightMap rates = read_map(options.tif, read);
   return measured_removal(rates, centre_of(rates, options.tif_centre));
 }

@@ -72,7 +72,7 @@ std::string run_rotate(HeightMap& map, const MapStep& step, MapStepContext& cont
     if (quarters > 0.0) map = turned(map, kTurns[static_cast<int>(quarters) - 1], step.point("about"));
     return "exact, " + placed(map);
   }
-  map = rotated(map, degrees, step.point("about").value_or(middle_of(map.grid)), context.threads);
+  map = rotated(map, degrees, step.point("about").value_or(middle_of(map.grid)), context.threads, context.limit());
   return fmt::format("{}, {}", size_of(map), placed(map));
 }
 
@@ -106,7 +106,7 @@ std::string run_decimate(HeightMap& map, const MapStep& step, MapStepContext&) {
 
 std::string run_resample(HeightMap& map, const MapStep& step, MapStepContext& context) {
   const double pitch = step.number("pitch");
-  map = resampled(map, {pitch, step.optional_number("pitch-y").value_or(pitch)}, context.threads);
+  map = resampled(map, {pitch, step.optional_number("pitch-y").value_or(pitch)}, context.threads, context.limit());
   return fmt::format("{}, {}", size_of(map), placed(map));
 }
 
@@ -117,6 +117,7 @@ std::string run_extend(HeightMap& map, const MapStep& step, MapStepContext& cont
   options.shortest = step.optional_number("shortest").value_or(options.width);
   if (step.has("iterations")) options.iterations = static_cast<int>(step.whole("iterations", 1, 1'000'000));
   options.tolerance = step.optional_number("tolerance").value_or(options.tolerance);
+  options.limit = context.limit();
   ExtendSummary summary;
   map = extended(map, options, summary, context.threads, context.progress);
   std::string text = fmt::format("{} pixels added", summary.pixels);
