@@ -52,7 +52,7 @@ std::string only_matrix(const Hdf5File& file, const std::string& where) {
 
 /// What ends the message when no pitch is said.
 std::string pitch_hint(const SaidOfMap& said) {
-  const std::string hint = ", or the data set an attribute pitch_mm";
+  std::string hint = ", or the data set an attribute pitch_mm";
   if (said.unclear_pitch.empty()) return hint;
   return fmt::format(
       "{} (what looks like one leaves open of what it is, in which unit, or whether x or y comes first: "

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -84,8 +85,12 @@ class SidecarReader {
 
   /// Numbers and texts, and those within objects ("grid": {"pitch_mm": ...}) and arrays.
   static void add_field(const std::string& key, const Json& value, std::vector<MapField>& fields) {
+    constexpr std::ptrdiff_t kDeepest = 8;  // no program nests further, and the stack ends somewhere
     if (value.is_object()) {
-      for (const auto& [inner, its_value] : value.items()) add_field(key + "." + inner, its_value, fields);
+      if (std::count(key.begin(), key.end(), '.') >= kDeepest) return;
+      for (const auto& [inner, its_value] : value.items()) {
+        add_field(fmt::format("{}.{}", key, inner), its_value, fields);
+      }
       return;
     }
     MapField field;

@@ -54,6 +54,7 @@ TEST(JobOptionTable, GivesBackWhatItIsGiven) {
                                                                   {"map-unit", "um"},
                                                                   {"map-origin", "-12.5,3"},
                                                                   {"map-steps", "crop:data;fill:harmonic"},
+                                                                  {"max-pixels", "1000000000"},
                                                                   {"tif-unit", "um/min"},
                                                                   {"tif-centre", "0.25,-1"},
                                                                   {"path", "nearest:cell=2"},
@@ -87,6 +88,9 @@ TEST(JobOptionTable, RefusesWhatIsOutOfRangeNamingOptionValueAndRange) {
   }
   for (const char* text : {"-1", "1.5", "nan", "1025", "two"}) {
     expect_input_error([&] { set(options, "threads", text); }, {"--threads", text, "whole number"});
+  }
+  for (const char* text : {"0", "1.5", "nan", "2147483649", "many"}) {
+    expect_input_error([&] { set(options, "max-pixels", text); }, {"--max-pixels", text, "from 1 to 2147483648"});
   }
 }
 
