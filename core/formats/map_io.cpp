@@ -98,11 +98,15 @@ void check_unit(const MapHeader& header, const MapReadOptions& options, const st
 
 /// Without an origin a map begins at (0, 0): what may be one must not be skipped.
 void check_origin_is_clear(const MapSource& source, const MapReadOptions& options, const std::string& where) {
-  if (source.unclear_origin.empty() || source.header.origin || options.origin) return;
-  throw InputError(fmt::format(
-      "{}: {}: what looks like an origin leaves open of what it is, or in which unit; give `{} origin` X,Y in "
-      "mm, the centre of the map's first pixel (0,0 if it does not matter)",
-      where, source.unclear_origin, options.name));
+  if (source.unclear_origin.empty() || source.header.origin || options.origin || !options.origin_counts) return;
+  const std::string way_out =
+      options.name == "tif" ? "give `tif centre` middle or centroid, for which it does not matter"
+                            : fmt::format(
+                                  "give `{} origin` X,Y in mm, the centre of the map's first pixel (0,0 if it does "
+                                  "not matter)",
+                                  options.name);
+  throw InputError(fmt::format("{}: {}: what looks like an origin leaves open of what it is, or in which unit; {}",
+                               where, source.unclear_origin, way_out));
 }
 
 HeightMap map_of_source(MapSource source, const MapReadOptions& options, const std::string& where) {

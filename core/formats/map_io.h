@@ -17,6 +17,9 @@ struct MapReadOptions {
   std::string name = "map";                    // what error messages call it: "map" or "tif"
   MapQuantity quantity = MapQuantity::Height;  // what the values are; a file that says otherwise is refused
   PixelLimit limit;                            // given, it also allows a packed file to unpack that far
+  /// Whether places in the file's own coordinates count. Not for a removal function that is centred by its grid or its
+  /// centroid: what only seems to say an origin is skipped then.
+  bool origin_counts = true;
 };
 
 /// Reads a map by the file's content and extension (docs/formats.md). `file` may name one array of a file that holds

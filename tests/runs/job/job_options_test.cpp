@@ -100,9 +100,9 @@ TEST(JobOptionTable, RefusesUnknownWordsNamingTheAcceptedOnes) {
     expect_input_error([&] { set(options, flag, text); }, {std::string("--") + flag, text});
     expect_input_error([&] { set(options, flag, text); }, words);
   };
-  refused("map-unit", "inch", {"nm", "um", "mm"});
-  refused("tif-unit", "inch/s", {"nm/s", "um/min", "m/s"});
-  refused("tif-unit", "inch", {"nm", "um", "mm"});
+  refused("map-unit", "waves", {"nm", "um", "mm"});
+  refused("tif-unit", "waves/s", {"nm/s", "um/min", "m/s"});
+  refused("tif-unit", "waves", {"nm", "um", "mm"});
   refused("map-origin", "1", {"X,Y"});
   refused("map-origin", "1,nan", {"X,Y"});
   refused("tif-centre", "left", {"middle", "centroid", "X,Y"});
