@@ -6,11 +6,17 @@
 
 namespace dwell {
 
-Grid limited_grid(double rows, double cols, Point pitch, Point origin, const std::string& what) {
-  if (!(rows >= 1.0 && cols >= 1.0 && rows * cols <= kMaxPixels)) {
-    throw InputError(
-        fmt::format("{}: a map of {} x {} pixels; from 1 to {} pixels are accepted", what, rows, cols, kMaxPixels));
-  }
+void check_pixels(double rows, double cols, const PixelLimit& limit, const std::string& what) {
+  if (rows >= 1.0 && cols >= 1.0 && rows * cols <= limit.most()) return;
+  throw InputError(fmt::format(
+      "{}: a map of {:.0f} x {:.0f} pixels; from 1 to {:.0f} pixels are accepted (`max pixels` sets another "
+      "limit)",
+      what, rows, cols, limit.most()));
+}
+
+Grid limited_grid(double rows, double cols, Point pitch, Point origin, const std::string& what,
+                  const PixelLimit& limit) {
+  check_pixels(rows, cols, limit, what);
   return {static_cast<Index>(rows), static_cast<Index>(cols), pitch.x, pitch.y, origin};
 }
 

@@ -128,7 +128,7 @@ bool is_codev_int(std::string_view text) {
   return find_data_line(lines);
 }
 
-MapSource parse_codev_int(std::string_view text, const std::string& where) {
+MapSource parse_codev_int(std::string_view text, const std::string& where, const PixelLimit& limit) {
   TextLines lines(text);
   if (!find_data_line(lines)) {
     throw InputError(fmt::format(
@@ -136,11 +136,13 @@ MapSource parse_codev_int(std::string_view text, const std::string& where) {
         "is required",
         where));
   }
-  const DataLine data = DataLineReader(lines.line(), fmt::format("{}, line {}", where, lines.number())).read();
+  DataLine data = DataLineReader(lines.line(), fmt::format("{}, line {}", where, lines.number())).read();
   constexpr double kDefaultNoData = 32767.0;
   const double no_data = data.no_data.value_or(kDefaultNoData);
   const double nm = *data.wavelength_um * units::kNmPerUm / *data.scale;
   if (!std::isfinite(nm)) throw InputError(fmt::format("{}: WVL / SSZ is beyond any height", where));
+  data.grid.limit = limit;
+  data.grid.no_data = fmt::format("{} (NDA)", no_data);
   TextWords words(lines, kCodevComment);
   MapSource source;
   source.rows = data.grid.rows;

@@ -3,6 +3,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/base/grid_limit.h"
 #include "core/formats/map_source.h"
 
 namespace dwell {
@@ -24,6 +25,6 @@ bool is_codev_int(std::string_view text);
 /// test), and naming the field, value or line that is wrong.
 /// Source: the manual of CODE V is not public; fields and scale are as the readers of prysm (io.read_codev_gridint) and
 /// Gwyddion (codevfile.c) agree on, the order of the rows as prysm has it (Gwyddion's is the other way up).
-MapSource parse_codev_int(std::string_view text, const std::string& where);
+MapSource parse_codev_int(std::string_view text, const std::string& where, const PixelLimit& limit = {});
 
 }  // namespace dwell

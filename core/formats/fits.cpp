@@ -4,126 +4,48 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "core/base/errors.h"
 #include "core/base/number_text.h"
-#include "core/base/units.h"
 #include "core/formats/fits_handle.h"
+#include "core/formats/fits_header.h"
 #include "core/formats/isolated_reader.h"
+#include "core/formats/packed_values.h"
+#include "core/formats/unpacked_size.h"
 
 namespace dwell {
 namespace {
 
-struct Length {
-  const char* name;
-  double mm;
-};
-
-constexpr std::array kLengths{Length{"m", units::kMmPerM}, Length{"mm", 1.0}, Length{"um", 1e-3},
-                              Length{"micron", 1e-3}, Length{"nm", 1e-6}};
-
-/// The keywords of the image that is open.
-class Keywords {
- public:
-  Keywords(fitsfile* file, const std::string& where) : file_(file), where_(where) {}
-
-  std::optional<double> number(const std::string& name) const {
-    double value = 0.0;
-    int status = 0;
-    fits_read_key(file_, TDOUBLE, name.c_str(), &value, nullptr, &status);
-    if (absent(status)) return std::nullopt;
-    if (status != 0) refuse(name, fits_message(status), "a number is required");
-    if (!std::isfinite(value)) refuse(name, fmt::format("{}", value), "a finite number is required");
-    return value;
-  }
-  std::optional<std::string> text(const std::string& name) const {
-    char* value = nullptr;
-    int status = 0;
-    fits_read_key_longstr(file_, name.c_str(), &value, nullptr, &status);
-    const std::string found = value ? value : "";
-    std::free(value);
-    if (absent(status)) return std::nullopt;
-    if (status != 0) refuse(name, fits_message(status), "a text is required");
-    return std::string(trim(found));
-  }
-  [[noreturn]] void refuse(const std::string& name, const std::string& value, const char* required) const {
-    throw InputError(fmt::format("{}: FITS keyword {} = {}; {}", where_, name, value, required));
-  }
-
- private:
-  static bool absent(int status) {
-    if (status != KEY_NO_EXIST && status != VALUE_UNDEFINED) return false;
-    fits_clear_errmsg();
-    return true;
-  }
-  fitsfile* file_;
-  const std::string& where_;
-};
-
-/// One axis as the keywords describe it.
-struct LinearAxis {
-  double pitch = 0.0, origin = 0.0;  // [mm]
-};
-
-/// Nothing if it is not in a unit of length: the angles of the sky are no pitch.
-std::optional<LinearAxis> axis(const Keywords& keywords, int number) {
-  const std::string n = std::to_string(number);
-  const std::string unit = keywords.text("CUNIT" + n).value_or("");
-  const auto* length = std::find_if(kLengths.begin(), kLengths.end(), [&](const Length& l) { return unit == l.name; });
-  if (length == kLengths.end()) return std::nullopt;
-  std::string name = "CDELT" + n;
-  std::optional<double> step = keywords.number(name);
-  if (!step) {
-    name = fmt::format("CD{}_{}", n, n);
-    step = keywords.number(name);
-    for (const std::string other : {"CD1_2", "CD2_1"}) {
-      const double across = keywords.number(other).value_or(0.0);
-      if (step && across != 0.0)
-        keywords.refuse(other, fmt::format("{}", across), "0 (axes along x and y) is required");
-    }
-  }
-  if (!step) return std::nullopt;
-  if (!(*step > 0.0)) keywords.refuse(name, fmt::format("{}", *step), "a step > 0 is required");
-  const double reference = keywords.number("CRPIX" + n).value_or(0.0);
-  const double value = keywords.number("CRVAL" + n).value_or(0.0);
-  const LinearAxis found{*step * length->mm, (value + (1.0 - reference) * *step) * length->mm};
-  if (!std::isfinite(found.pitch) || !std::isfinite(found.origin)) {
-    keywords.refuse(name, fmt::format("{}", *step), "a pitch and an origin that are finite in mm are required");
-  }
-  return found;
-}
-
-MapHeader header_of(const Keywords& keywords) {
-  MapHeader header;
-  const std::optional<LinearAxis> x = axis(keywords, 1), y = axis(keywords, 2);
-  if (x && y) {
-    header.pitch = Point{x->pitch, y->pitch};
-    header.origin = Point{x->origin, y->origin};
-  }
-  if (const std::optional<double> pitch = keywords.number("PITCHMM")) {
-    if (!(*pitch > 0.0)) keywords.refuse("PITCHMM", fmt::format("{}", *pitch), "a pitch > 0 mm is required");
-    header.pitch = Point{*pitch, *pitch};
-  }
-  if (const auto unit = keywords.text("BUNIT"); unit && !unit->empty()) {
-    header.unit = *unit == "micron" ? "um" : *unit;
-  }
-  for (int step = 1; const auto made = keywords.text(fmt::format("MADE{}", step)); ++step) {
-    header.history.push_back(*made);
-  }
-  return header;
-}
-
+/// An image of a map: two axes, and others of length 1.
 struct Image {
+  int unit = 0;      // of the file, 1 = the primary one, as CFITSIO counts
+  std::string name;  // EXTNAME
   int bitpix = 0;
   Index rows = 0, cols = 0;
+  bool compressed = false;
+
+  /// Its number as users know it, from `file.fits[2]` and astropy: 0 = the primary one.
+  int number() const { return unit - 1; }
+  std::string shown() const {
+    return fmt::format("{}{} ({} x {} pixels)", number(), name.empty() ? "" : " or " + name, cols, rows);
+  }
 };
 
+std::string name_of_unit(fitsfile* file) {
+  std::array<char, FLEN_VALUE> name{};
+  int status = 0;
+  fits_read_key(file, TSTRING, "EXTNAME", name.data(), nullptr, &status);
+  fits_clear_errmsg();
+  return status == 0 ? std::string(trim(name.data())) : "";
+}
+
 /// The image of the unit that is open, if it is one of a map.
-std::optional<Image> image(fitsfile* file) {
+std::optional<Image> image(fitsfile* file, int unit) {
   constexpr int kAxes = 99;
   std::array<LONGLONG, kAxes> sizes{};
   int bitpix = 0, count = 0, type = 0, status = 0;
@@ -134,25 +56,66 @@ std::optional<Image> image(fitsfile* file) {
   if (std::any_of(sizes.begin() + 2, sizes.begin() + count, [](LONGLONG size) { return size != 1; })) {
     return std::nullopt;
   }
-  return Image{bitpix, static_cast<Index>(sizes[1]), static_cast<Index>(sizes[0])};
+  int ignored = 0;
+  return Image{unit,
+               name_of_unit(file),
+               bitpix,
+               static_cast<Index>(sizes[1]),
+               static_cast<Index>(sizes[0]),
+               fits_is_compressed_image(file, &ignored) != 0};
 }
 
-/// Moves to the first image of a map.
-Image find_image(fitsfile* file, const std::string& where) {
+std::vector<Image> images_of(fitsfile* file, const std::string& where) {
+  constexpr int kMostUnits = 10'000;
+  std::vector<Image> images;
   int status = 0;
-  for (int unit = 1; fits_movabs_hdu(file, unit, nullptr, &status) == 0; ++unit) {
-    const std::optional<Image> found = image(file);
-    if (!found) continue;
-    int ignored = 0;
-    if (fits_is_compressed_image(file, &ignored)) {
-      throw InputError(fmt::format("{}: the image in unit {} of the FITS file is tile-compressed; unpack it (funpack)",
-                                   where, unit));
-    }
-    return *found;
+  for (int unit = 1; unit <= kMostUnits && fits_movabs_hdu(file, unit, nullptr, &status) == 0; ++unit) {
+    if (auto found = image(file, unit)) images.push_back(std::move(*found));
   }
-  throw InputError(
-      fmt::format("{}: the FITS file has no image of two axes (and others of length 1), which is required{}", where,
-                  status == END_OF_FILE ? "" : fmt::format(" ({})", fits_message(status))));
+  if (images.empty()) {
+    throw InputError(
+        fmt::format("{}: the FITS file has no image of two axes (and others of length 1), which is required{}", where,
+                    status == END_OF_FILE ? "" : fmt::format(" ({})", fits_message(status))));
+  }
+  return images;
+}
+
+std::string list_images(const std::vector<Image>& images) {
+  constexpr std::size_t kListed = 20;
+  std::string list;
+  for (std::size_t i = 0; i < std::min(images.size(), kListed); ++i) list += (i == 0 ? "" : ", ") + images[i].shown();
+  return list + (images.size() > kListed ? ", ..." : "");
+}
+
+/// The image of that number or name; of no name, the only one.
+const Image& chosen(const std::vector<Image>& images, const std::string& name, const std::string& where) {
+  if (name.empty() && images.size() == 1) return images.front();
+  if (name.empty()) {
+    throw InputError(
+        fmt::format("{}: the FITS file holds {} images; add the number or name of one to the file's name, "
+                    "as ':{}': {}",
+                    where, images.size(), images.back().number(), list_images(images)));
+  }
+  std::vector<const Image*> found;
+  for (const Image& image : images) {
+    if (name == std::to_string(image.number()) || lower_case(name) == lower_case(image.name)) found.push_back(&image);
+  }
+  if (found.size() == 1) return *found.front();
+  throw InputError(fmt::format("{}: {} images of the FITS file are called {}; it holds: {}", where, found.size(),
+                               in_quotes(name), list_images(images)));
+}
+
+/// Moves to the image of a map.
+Image find_image(fitsfile* file, const std::string& name, const std::string& where) {
+  const std::vector<Image> images = images_of(file, where);
+  const Image& found = chosen(images, name, where);
+  if (found.compressed) {
+    throw InputError(
+        fmt::format("{}: image {} of the FITS file is tile-compressed; unpack it (funpack)", where, found.shown()));
+  }
+  int status = 0;
+  fits_movabs_hdu(file, found.unit, nullptr, &status);
+  return found;
 }
 
 /// Throws unless the file holds the numbers of the image that is open.
@@ -170,7 +133,75 @@ void check_data(fitsfile* file, const Image& image, std::size_t size, const std:
   }
 }
 
-MapSource read_fits(std::string_view bytes, const std::string& where) {
+/// Turns stored values of BLANK beside floating-point numbers, where the standard has no such keyword, into no data.
+/// Returns what was done, for the history.
+std::string take_blank(double blank, double scale, double zero, bool single, std::vector<double>& values) {
+  PackedValues packing;
+  packing.no_data = {{"BLANK", blank * scale + zero}};
+  packing.single_precision = single;
+  return unpack_values(packing, values);
+}
+
+/// What scales the stored numbers.
+double scaling(fitsfile* file, const char* name, double otherwise) {
+  double value = otherwise;
+  int status = 0;
+  fits_read_key(file, TDOUBLE, name, &value, nullptr, &status);
+  fits_clear_errmsg();
+  return status == 0 ? value : otherwise;
+}
+
+/// Markers of no data: BLANK beside floating-point numbers, and those under other names, which are of heights.
+void take_markers(fitsfile* file, const Image& found, const FitsHeader& header, MapSource& source) {
+  constexpr int kSingle = -32;
+  std::vector<std::string> done;
+  if (header.blank && found.bitpix < 0) {
+    done.push_back(take_blank(*header.blank, scaling(file, "BSCALE", 1.0), scaling(file, "BZERO", 0.0),
+                              found.bitpix == kSingle, source.values));
+  }
+  PackedValues others;
+  others.single_precision = found.bitpix == kSingle;
+  for (const double value : header.said.no_data) others.no_data.push_back({"no data", value});
+  done.push_back(unpack_values(others, source.values));
+  for (const std::string& text : done) {
+    if (!text.empty()) source.header.history.push_back("read FITS: " + text);
+  }
+}
+
+MapSource describe(const Image& found, FitsHeader& header) {
+  MapSource source;
+  source.header = std::move(header.said.header);
+  source.pitch_field = std::move(header.said.pitch_field);
+  source.unclear_origin = std::move(header.said.unclear_origin);
+  source.pitch_hint = ", or the file a keyword PITCHMM";
+  if (!header.said.unclear_pitch.empty()) {
+    source.pitch_hint += fmt::format(" (what looks like one leaves open of what it is, or in which unit: {})",
+                                     header.said.unclear_pitch);
+  }
+  source.rows = found.rows;
+  source.cols = found.cols;
+  return source;
+}
+
+MapSource read_image(fitsfile* file, const Image& found, const std::string& where) {
+  FitsHeader header = read_fits_header(file, where);
+  MapSource source = describe(found, header);
+  source.values.resize(static_cast<std::size_t>(found.rows) * static_cast<std::size_t>(found.cols));
+  // For integers, what stands for BLANK. Floating-point numbers are taken as they are: asked for, CFITSIO would turn
+  // infinity, which a map must not have, into no data.
+  int any_blank = 0, status = 0;  // CFITSIO wants a place for the first
+  double blank = found.bitpix > 0 ? std::numeric_limits<double>::quiet_NaN() : 0.0;
+  if (fits_read_img(file, TDOUBLE, 1, static_cast<LONGLONG>(source.values.size()), &blank, source.values.data(),
+                    &any_blank, &status) != 0) {
+    throw InputError(fmt::format("{}: the {} x {} numbers of the FITS image cannot be read: {}", where, found.cols,
+                                 found.rows, fits_message(status)));
+  }
+  take_markers(file, found, header, source);
+  return source;
+}
+
+MapSource read_fits(std::string_view bytes, const std::string& name, const std::string& where,
+                    const PixelLimit& limit) {
   // CFITSIO reads whole blocks, beyond the end of memory if the last one is not: found by fuzzing.
   constexpr std::size_t kBlock = 2880;
   std::string blocks;
@@ -187,34 +218,26 @@ MapSource read_fits(std::string_view bytes, const std::string& where) {
     throw InputError(fmt::format("{}: not a readable FITS file of {} bytes: {} (truncated or corrupt header)", where,
                                  bytes.size(), fits_message(status)));
   }
-  const Image found = find_image(file.get(), where);
-  const auto rows = static_cast<std::size_t>(found.rows), cols = static_cast<std::size_t>(found.cols);
+  const Image found = find_image(file.get(), name, where);
   check_data(file.get(), found, bytes.size(), where);
-  MapSource source;
-  source.header = header_of(Keywords(file.get(), where));
-  source.pitch_hint = ", or the file a keyword PITCHMM";
-  source.rows = found.rows;
-  source.cols = found.cols;
-  source.values.resize(rows * cols);
-  // For integers, what stands for BLANK. Floating-point numbers are taken as they are: asked for, CFITSIO would turn
-  // infinity, which a map must not have, into no data.
-  int any_blank = 0;  // CFITSIO wants a place for it
-  double blank = found.bitpix > 0 ? std::numeric_limits<double>::quiet_NaN() : 0.0;
-  if (fits_read_img(file.get(), TDOUBLE, 1, static_cast<LONGLONG>(source.values.size()), &blank, source.values.data(),
-                    &any_blank, &status) != 0) {
-    throw InputError(fmt::format("{}: the {} x {} numbers of the FITS image cannot be read: {}", where, cols, rows,
-                                 fits_message(status)));
-  }
-  return source;
+  check_unpacked(static_cast<double>(found.rows), static_cast<double>(found.cols), static_cast<double>(bytes.size()),
+                 limit, where);
+  return read_image(file.get(), found, where);
 }
 
 }  // namespace
 
 bool is_fits(std::string_view bytes) { return bytes.starts_with("SIMPLE  ="); }
 
-MapSource parse_fits(std::string_view bytes, const std::string& where) {
+MapSource parse_fits(std::string_view bytes, const std::string& where, const PixelLimit& limit) {
+  return parse_fits_at(bytes, "", where, limit);
+}
+
+MapSource parse_fits_at(std::string_view bytes, const std::string& image, const std::string& where,
+                        const PixelLimit& limit) {
   if (!is_fits(bytes)) throw InputError(fmt::format("{}: not a FITS file; it must begin with 'SIMPLE  ='", where));
-  return read_isolated([&] { return read_fits(bytes, where); }, bytes.size(), "the FITS file", where);
+  return read_isolated([&] { return read_fits(bytes, image, where, limit); }, bytes.size(), "the FITS file", where,
+                       limit);
 }
 
 }  // namespace dwell

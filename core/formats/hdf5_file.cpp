@@ -9,7 +9,9 @@
 #include <limits>
 
 #include "core/base/errors.h"
+#include "core/base/number_text.h"
 #include "core/formats/hdf5_handle.h"
+#include "core/formats/unpacked_size.h"
 
 namespace dwell {
 namespace {
@@ -109,6 +111,7 @@ std::optional<Hdf5Value> small_value(hid_t type, hid_t space, Read read) {
   Hdf5Value value;
   if (elements == 0) return value;
   if (read(native.id(), buffer.data()) < 0) return std::nullopt;
+  if (H5Tget_class(type) == H5T_FLOAT) value.floating_bytes = H5Tget_size(type);
   bool known = true;
   for (std::size_t i = 0; i < elements && known; ++i) known = append(native.id(), buffer.data() + i * size, value);
   H5Dvlen_reclaim(native.id(), space, H5P_DEFAULT, buffer.data());
@@ -136,6 +139,30 @@ herr_t visit_link(hid_t group, const char* name, const H5L_info_t*, void* data) 
   const Object object(H5Oopen(group, name, H5P_DEFAULT));
   if (object && H5Iget_type(object.id()) == H5I_DATASET) static_cast<Visit*>(data)->paths.emplace_back(name);
   return 0;
+}
+
+herr_t visit_attribute(hid_t, const char* name, const H5A_info_t*, void* data) {
+  static_cast<Visit*>(data)->paths.emplace_back(name);
+  return 0;
+}
+
+herr_t visit_scale(hid_t, unsigned, hid_t scale, void* data) {
+  const ssize_t size = H5Iget_name(scale, nullptr, 0);
+  if (size <= 0) return 0;
+  std::string path(static_cast<std::size_t>(size) + 1, '\0');
+  H5Iget_name(scale, path.data(), path.size());
+  path.resize(static_cast<std::size_t>(size));
+  static_cast<Visit*>(data)->paths.push_back(path);
+  return 0;
+}
+
+/// The fill value that whoever made the data set chose.
+std::optional<double> chosen_fill(hid_t layout) {
+  H5D_fill_value_t status = H5D_FILL_VALUE_ERROR;
+  double fill = 0.0;
+  if (H5Pfill_value_defined(layout, &status) < 0 || status != H5D_FILL_VALUE_USER_DEFINED) return std::nullopt;
+  if (H5Pget_fill_value(layout, H5T_NATIVE_DOUBLE, &fill) < 0) return std::nullopt;
+  return fill;
 }
 
 void make_library_safe() {
@@ -170,28 +197,53 @@ struct Hdf5File::Impl {
   }
 
   /// Throws unless the file can hold the data: packed by deflate, a byte stands for 1032 at most.
-  void check_size(const std::string& path, hid_t set, const std::vector<hsize_t>& sizes, hid_t type) const {
-    constexpr double kDeflate = 1032.0, kMostNumbers = 0x1p31;
-    const double most = kDeflate * static_cast<double>(size), element = static_cast<double>(H5Tget_size(type));
-    const double count = static_cast<double>(sizes[0]) * static_cast<double>(sizes[1]);
-    if (!(count >= 1.0 && count <= kMostNumbers && count * element <= most)) {
-      refuse(path,
-             fmt::format("of {} x {} numbers of {} bytes; at least one, at most 2^31, and no more than a file of {} "
-                         "bytes can hold (1032 bytes for each) are accepted",
-                         sizes[0], sizes[1], element, size));
+  void check_size(const std::string& path, hid_t layout, const std::vector<hsize_t>& sizes, hid_t type,
+                  const PixelLimit& limit) const {
+    constexpr double kDeflate = 1032.0;
+    const double file_bytes = static_cast<double>(size), element = static_cast<double>(H5Tget_size(type));
+    const double rows = static_cast<double>(sizes[0]), cols = static_cast<double>(sizes[1]);
+    const double most = kDeflate * file_bytes;
+    if (!(rows * cols >= 1.0 && rows * cols * element <= most)) {
+      refuse(path, fmt::format("of {} x {} numbers of {} bytes; at least one, and no more than a file of {} bytes can "
+                               "hold (1032 bytes for each) are accepted",
+                               sizes[0], sizes[1], element, size));
     }
-    const Properties layout(H5Dget_create_plist(set));
-    if (!layout) refuse(path, "has no readable layout");
-    if (H5Pget_layout(layout.id()) == H5D_VIRTUAL || H5Pget_external_count(layout.id()) != 0) {
-      refuse(path, "is kept in other files; one with all its numbers is required");
-    }
-    if (H5Pget_layout(layout.id()) != H5D_CHUNKED) return;
+    check_unpacked(rows, cols, file_bytes, limit, fmt::format("{}: HDF5 data set '{}'", where, path));
+    if (H5Pget_layout(layout) == H5D_CHUNKED) check_chunk(path, layout, element, most);
+  }
+
+  void check_chunk(const std::string& path, hid_t layout, double element, double most) const {
     std::array<hsize_t, 2> chunk{};
-    const bool known = H5Pget_chunk(layout.id(), 2, chunk.data()) == 2;
+    const bool known = H5Pget_chunk(layout, 2, chunk.data()) == 2;
     const double bytes = static_cast<double>(chunk[0]) * static_cast<double>(chunk[1]) * element;
     if (!known || !(bytes <= most)) {
       refuse(path,
              fmt::format("in chunks of {} x {} numbers; a file of {} bytes cannot hold one", chunk[0], chunk[1], size));
+    }
+  }
+
+  /// Throws unless every number is in this file.
+  void check_place(const std::string& path, hid_t layout) const {
+    if (H5Pget_layout(layout) == H5D_VIRTUAL || H5Pget_external_count(layout) != 0) {
+      refuse(path, "is kept in other files; one with all its numbers is required");
+    }
+  }
+
+  /// Throws, with its name, for a filter that is not built in.
+  void check_filters(const std::string& path, hid_t layout) const {
+    const int count = H5Pget_nfilters(layout);
+    for (int i = 0; i < count; ++i) {
+      unsigned flags = 0, configuration = 0;
+      std::size_t values = 0;
+      std::array<char, 80> name{};
+      const H5Z_filter_t filter = H5Pget_filter2(layout, static_cast<unsigned>(i), &flags, &values, nullptr,
+                                                 name.size(), name.data(), &configuration);
+      if (filter < 0 || H5Zfilter_avail(filter) > 0) continue;
+      name.back() = '\0';
+      refuse(path,
+             fmt::format("is packed by the filter {} (number {}), which is not built into the HDF5 library; write "
+                         "it with gzip (deflate), shuffle, or unpacked",
+                         name.front() == '\0' ? "without a name" : in_quotes(name.data()), filter));
     }
   }
 };
@@ -214,7 +266,7 @@ std::vector<std::string> Hdf5File::data_sets_in(const std::string& group) const 
   if (!opened) return {};
   Visit visit;
   H5Literate(opened.id(), H5_INDEX_NAME, H5_ITER_INC, nullptr, visit_link, &visit);
-  for (std::string& path : visit.paths) path.insert(0, group + "/");
+  for (std::string& path : visit.paths) path.insert(0, group == "/" ? group : group + "/");
   return visit.paths;
 }
 
@@ -228,6 +280,20 @@ std::vector<std::string> Hdf5File::matrices() const {
   if (end < 0) {
     throw InputError(fmt::format("{}: the groups of the HDF5 file cannot be read; it is corrupt", impl_->where));
   }
+  return visit.paths;
+}
+
+std::vector<std::string> Hdf5File::scales_of(const std::string& path, unsigned axis) const {
+  const DataSet set(H5Dopen2(impl_->file.id(), path.c_str(), H5P_DEFAULT));
+  Visit visit;
+  if (set) H5DSiterate_scales(set.id(), axis, nullptr, visit_scale, &visit);
+  return visit.paths;
+}
+
+std::vector<std::string> Hdf5File::attributes(const std::string& path) const {
+  const Object object(H5Oopen(impl_->file.id(), path.c_str(), H5P_DEFAULT));
+  Visit visit;
+  if (object) H5Aiterate2(object.id(), H5_INDEX_NAME, H5_ITER_INC, nullptr, visit_attribute, &visit);
   return visit.paths;
 }
 
@@ -256,23 +322,27 @@ std::optional<Hdf5Value> Hdf5File::table(const std::string& path) const {
   });
 }
 
-Hdf5Matrix Hdf5File::matrix(const std::string& path) const {
+Hdf5Matrix Hdf5File::matrix(const std::string& path, const PixelLimit& limit) const {
   const DataSet set(H5Dopen2(impl_->file.id(), path.c_str(), H5P_DEFAULT));
   if (!set) impl_->refuse(path, "is not there, or is no data set");
   const Space space(H5Dget_space(set.id()));
   const Type type(H5Dget_type(set.id()));
-  if (!space || !type) impl_->refuse(path, "has no readable type or size");
+  const Properties layout(H5Dget_create_plist(set.id()));
+  if (!space || !type || !layout) impl_->refuse(path, "has no readable type, size or layout");
   const std::vector<hsize_t> sizes = sizes_of(space.id());
   if (sizes.size() != 2) impl_->refuse(path, fmt::format("of {} dimensions; two are required", sizes.size()));
   if (!is_number(type.id())) impl_->refuse(path, "holds no integers or floating-point numbers, which are required");
-  impl_->check_size(path, set.id(), sizes, type.id());
-  Hdf5Matrix matrix{static_cast<std::size_t>(sizes[0]), static_cast<std::size_t>(sizes[1]), {}};
+  impl_->check_place(path, layout.id());
+  impl_->check_filters(path, layout.id());
+  impl_->check_size(path, layout.id(), sizes, type.id(), limit);
+  const bool floating = H5Tget_class(type.id()) == H5T_FLOAT;
+  const Hdf5Numbers numbers{floating, floating || H5Tget_sign(type.id()) == H5T_SGN_2, H5Tget_size(type.id()),
+                            chosen_fill(layout.id())};
+  Hdf5Matrix matrix{static_cast<std::size_t>(sizes[0]), static_cast<std::size_t>(sizes[1]), numbers, {}};
   matrix.values.resize(matrix.rows * matrix.cols);
   if (H5Dread(set.id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, matrix.values.data()) < 0) {
-    impl_->refuse(path,
-                  fmt::format("of {} x {} numbers cannot be read; the file is truncated or corrupt, or packed in a "
-                              "way that is not built in",
-                              sizes[0], sizes[1]));
+    impl_->refuse(
+        path, fmt::format("of {} x {} numbers cannot be read; the file is truncated or corrupt", sizes[0], sizes[1]));
   }
   return matrix;
 }

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/grid_limit.h"
+
 namespace dwell {
 
 struct Hdf5Member;
@@ -18,6 +20,7 @@ struct Hdf5Member;
 /// several elements (or numbers of variable length) all, one after the other. Members of a compound by name.
 struct Hdf5Value {
   std::vector<double> numbers;
+  std::size_t floating_bytes = 0;  // of each number in the file if these are floating-point, else 0
   std::vector<std::string> texts;
   std::vector<Hdf5Member> members;
 
@@ -30,9 +33,18 @@ struct Hdf5Member {
   Hdf5Value value;
 };
 
+/// How the numbers of a data set are stored.
+struct Hdf5Numbers {
+  bool floating = false;       // or integers,
+  bool with_sign = false;      // which may have one
+  std::size_t bytes = 0;       // of each
+  std::optional<double> fill;  // what stands where nothing was written, if whoever made the data set chose it
+};
+
 /// A two-dimensional array of numbers, row-major.
 struct Hdf5Matrix {
   std::size_t rows = 0, cols = 0;
+  Hdf5Numbers numbers;
   std::vector<double> values;
 };
 
@@ -54,18 +66,25 @@ class Hdf5File {
   /// Paths of the two-dimensional data sets of numbers in the whole file, in order of name, each data set once.
   std::vector<std::string> matrices() const;
 
+  /// Paths of the data sets that were attached to an axis of a data set as its scales: 0 = rows, 1 = columns.
+  std::vector<std::string> scales_of(const std::string& path, unsigned axis) const;
+
+  /// Names of the attributes of a data set or group, in order; "/" is the file's own group.
+  std::vector<std::string> attributes(const std::string& path) const;
+
   bool has_attribute(const std::string& path, const std::string& name) const;
 
-  /// The attribute of a data set; nothing if there is none or it is of a type that has no Hdf5Value.
+  /// The attribute of a data set or group; nothing if there is none or it is of a type that has no Hdf5Value.
   std::optional<Hdf5Value> attribute(const std::string& path, const std::string& name) const;
 
   /// All of a small data set; nothing as for attributes. For tables of names, not for measurements.
   std::optional<Hdf5Value> table(const std::string& path) const;
 
   /// Reads a data set. Refused: what is no data set, not two-dimensional, not of integers or floating-point numbers;
-  /// what is kept in other files; and sizes that the file cannot hold: more than 2^31 numbers, or data or a chunk of
-  /// more than 1032 bytes for every byte of the file, which is the most that deflate can pack (1032:1).
-  Hdf5Matrix matrix(const std::string& path) const;
+  /// what is kept in other files, or packed by a filter that is not built in; sizes beyond the limit or of a file that
+  /// was made to fill the memory (core/formats/unpacked_size.h); and sizes that the file cannot hold: data or a chunk
+  /// of more than 1032 bytes for every byte of the file, which is the most that deflate can pack (1032:1).
+  Hdf5Matrix matrix(const std::string& path, const PixelLimit& limit = {}) const;
 
  private:
   struct Impl;

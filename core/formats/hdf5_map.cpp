@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "core/base/errors.h"
-#include "core/base/number_text.h"
+#include "core/formats/hdf5_axes.h"
+#include "core/formats/hdf5_fields.h"
 #include "core/formats/hdf5_file.h"
+#include "core/formats/hdf5_packing.h"
+#include "core/formats/hdf5_waves.h"
 #include "core/formats/isolated_reader.h"
 #include "core/formats/zygo_datx.h"
 #include "core/map/value_units.h"
@@ -18,43 +20,17 @@ namespace {
 
 using namespace std::string_view_literals;
 
-/// The attribute, which if it is there must have what is asked for.
-std::optional<Hdf5Value> known_attribute(const Hdf5File& file, const std::string& path, const std::string& name,
-                                         bool (*good)(const Hdf5Value&), const char* required,
-                                         const std::string& where) {
-  if (!file.has_attribute(path, name)) return std::nullopt;
-  std::optional<Hdf5Value> value = file.attribute(path, name);
-  if (value && good(*value)) return value;
-  throw InputError(fmt::format("{}: attribute {} of HDF5 data set '{}'{}; {} required", where, name, path,
-                               value && !value->numbers.empty() ? fmt::format(" = {}", value->numbers.front()) : "",
-                               required));
-}
-
-bool all(const std::vector<double>& numbers, bool (*good)(double)) {
-  return std::all_of(numbers.begin(), numbers.end(), good);
-}
-
-MapHeader header_of(const Hdf5File& file, const std::string& path, const std::string& where) {
-  MapHeader header;
-  const auto one_or_two = [](const Hdf5Value& v) {
-    return (v.numbers.size() == 1 || v.numbers.size() == 2) &&
-           all(v.numbers, [](double pitch) { return std::isfinite(pitch) && pitch > 0.0; });
-  };
-  const auto two = [](const Hdf5Value& v) {
-    return v.numbers.size() == 2 && all(v.numbers, [](double place) { return std::isfinite(place); });
-  };
-  const auto one_text = [](const Hdf5Value& v) { return v.texts.size() == 1; };
-  const auto texts = [](const Hdf5Value& v) { return v.numbers.empty() && v.members.empty(); };
-  if (const auto v =
-          known_attribute(file, path, "pitch_mm", one_or_two, "one finite number > 0, or two (x, y),", where))
-    header.pitch = Point{v->numbers.front(), v->numbers.back()};
-  if (const auto v = known_attribute(file, path, "origin_mm", two, "two finite numbers (x, y)", where))
-    header.origin = Point{v->numbers.front(), v->numbers.back()};
-  if (const auto v = known_attribute(file, path, "unit", one_text, "a text", where))
-    header.unit = std::string(trim(v->texts.front()));
-  if (const auto v = known_attribute(file, path, "history", texts, "lines of text", where)) header.history = v->texts;
-  for (std::string& step : header.history) std::replace(step.begin(), step.end(), '\n', ' ');
-  return header;
+/// How the map was made: the lines of the attribute `history`.
+std::vector<std::string> history_of(const Hdf5File& file, const std::string& path, const std::string& where) {
+  if (!file.has_attribute(path, "history")) return {};
+  const auto value = file.attribute(path, "history");
+  if (!value || !value->numbers.empty() || !value->members.empty()) {
+    throw InputError(
+        fmt::format("{}: attribute history of HDF5 data set '{}'; lines of text are required", where, path));
+  }
+  std::vector<std::string> history = value->texts;
+  for (std::string& step : history) std::replace(step.begin(), step.end(), '\n', ' ');
+  return history;
 }
 
 std::string only_matrix(const Hdf5File& file, const std::string& where) {
@@ -74,30 +50,59 @@ std::string only_matrix(const Hdf5File& file, const std::string& where) {
                   where, paths.size(), names, paths.size() > kListed ? ", ..." : ""));
 }
 
-MapSource read_hdf5(std::string_view bytes, std::string path, const std::string& where) {
-  const Hdf5File file(bytes, where);
-  if (path.empty()) path = datx_surface_path(file, where);
-  if (path.empty()) path = only_matrix(file, where);
-  if (is_datx_surface(file, path)) return read_datx_surface(file, path, where);
+/// What ends the message when no pitch is said.
+std::string pitch_hint(const SaidOfMap& said) {
+  std::string hint = ", or the data set an attribute pitch_mm";
+  if (said.unclear_pitch.empty()) return hint;
+  return fmt::format(
+      "{} (what looks like one leaves open of what it is, in which unit, or whether x or y comes first: "
+      "{})",
+      hint, said.unclear_pitch);
+}
+
+MapSource read_plain_matrix(const Hdf5File& file, const std::string& path, const std::string& where,
+                            const PixelLimit& limit) {
+  SaidOfMap said = said_of_data_set(file, path, where);
+  said.header.history = history_of(file, path, where);
+  Hdf5Matrix matrix = file.matrix(path, limit);
+  const std::string unpacked =
+      unpack_values(packing_of_data_set(file, path, matrix.numbers, said.no_data, where), matrix.values);
+  if (!unpacked.empty()) said.header.history.push_back(fmt::format("read {}: {}", path, unpacked));
+  apply_axes(axes_of_data_set(file, path, matrix, where), matrix, said, where);
   MapSource source;
-  source.header = header_of(file, path, where);
-  source.pitch_hint = ", or the data set an attribute pitch_mm";
-  Hdf5Matrix matrix = file.matrix(path);
+  source.pitch_hint = pitch_hint(said);
+  source.pitch_field = std::move(said.pitch_field);
+  source.unclear_origin = std::move(said.unclear_origin);
+  source.header = std::move(said.header);
   source.rows = static_cast<Index>(matrix.rows);
   source.cols = static_cast<Index>(matrix.cols);
   source.values = std::move(matrix.values);
   return source;
 }
 
+MapSource read_hdf5(std::string_view bytes, std::string path, const std::string& where, const PixelLimit& limit) {
+  const Hdf5File file(bytes, where);
+  if (path.empty()) path = datx_surface_path(file, where);
+  if (path.empty()) path = only_matrix(file, where);
+  if (!path.starts_with('/')) path.insert(0, "/");
+  if (is_datx_surface(file, path)) return read_datx_surface(file, path, where, limit);
+  if (is_measurement_in_waves(file, path)) return read_measurement_in_waves(file, path, where, limit);
+  return read_plain_matrix(file, path, where, limit);
+}
+
 }  // namespace
 
 bool is_hdf5(std::string_view bytes) { return bytes.starts_with("\x89HDF\r\n\x1a\n"sv); }
 
-MapSource parse_hdf5(std::string_view bytes, const std::string& where) { return parse_hdf5_at(bytes, "", where); }
+MapSource parse_hdf5(std::string_view bytes, const std::string& where, const PixelLimit& limit) {
+  return parse_hdf5_at(bytes, "", where, limit);
+}
 
-MapSource parse_hdf5_at(std::string_view bytes, const std::string& path, const std::string& where) {
+MapSource parse_hdf5_at(std::string_view bytes, const std::string& path, const std::string& where,
+                        const PixelLimit& limit) {
   if (!is_hdf5(bytes)) throw InputError(fmt::format("{}: not an HDF5 file; it must begin with \\x89HDF", where));
-  return read_isolated([&] { return read_hdf5(bytes, path, where); }, bytes.size(), "the HDF5 file", where);
+  return read_isolated([&] { return read_hdf5(bytes, path, where, limit); }, bytes.size(), "the HDF5 file", where,
+                       limit);
 }
 
 std::string hdf5_map_bytes(const HeightMap& map) {

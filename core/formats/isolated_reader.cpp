@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstring>
 #include <new>
+#include <optional>
 #include <stdexcept>
 #include <string_view>
 #include <type_traits>
@@ -11,6 +13,7 @@
 #include "core/base/child_process.h"
 #include "core/base/doubles_of_bytes.h"
 #include "core/base/errors.h"
+#include "core/formats/unpacked_size.h"
 
 namespace dwell {
 namespace {
@@ -64,39 +67,68 @@ class Reader {
   std::string_view rest_;
 };
 
+/// Calls put(field) or get(field) with every field but the values, in one order. What a new field of the header or of
+/// the source would miss here does not compile.
+template <class Source, class Each>
+void each_field(Source& source, Each each) {
+  auto& [rows, cols, values, header, pitch_hint, pitch_field, unclear_origin, camera_pixel] = source;
+  auto& [pitch, origin, unit, history, pitch_rounding] = header;
+  static_cast<void>(values);  // come last, and fill the rest
+  each(rows), each(cols), each(pitch_hint), each(pitch_field), each(unclear_origin), each(camera_pixel);
+  each(pitch), each(origin), each(unit), each(history), each(pitch_rounding);
+}
+
+class FieldWriter {
+ public:
+  explicit FieldWriter(Writer& out) : out_(out) {}
+  void operator()(const std::string& text) const { out_.put_text(text); }
+  void operator()(const std::vector<std::string>& texts) const {
+    out_.put(texts.size());
+    for (const std::string& text : texts) out_.put_text(text);
+  }
+  template <class T>
+  void operator()(const std::optional<T>& field) const {
+    out_.put(field.has_value());
+    if (field) (*this)(*field);
+  }
+  template <class T>
+  void operator()(const T& value) const {
+    out_.put(value);
+  }
+
+ private:
+  Writer& out_;
+};
+
+class FieldReader {
+ public:
+  explicit FieldReader(Reader& in) : in_(in) {}
+  void operator()(std::string& text) const { text = in_.text(); }
+  void operator()(std::vector<std::string>& texts) const {
+    for (auto count = in_.get<std::size_t>(); count > 0; --count) texts.push_back(in_.text());
+  }
+  template <class T>
+  void operator()(std::optional<T>& field) const {
+    if (in_.get<char>() != 0) (*this)(field.emplace());
+  }
+  template <class T>
+  void operator()(T& value) const {
+    value = in_.get<T>();
+  }
+
+ private:
+  Reader& in_;
+};
+
 void put_map(const MapSource& source, Writer& out) {
   out.put(Outcome::Map);
-  out.put(source.rows);
-  out.put(source.cols);
-  out.put(source.header.pitch.has_value());
-  out.put(source.header.pitch.value_or(Point{}));
-  out.put(source.header.origin.has_value());
-  out.put(source.header.origin.value_or(Point{}));
-  out.put(source.header.unit.has_value());
-  out.put_text(source.header.unit.value_or(""));
-  out.put(source.header.history.size());
-  for (const std::string& step : source.header.history) out.put_text(step);
-  out.put_text(source.pitch_hint);
-  out.put(source.camera_pixel);
+  each_field(source, FieldWriter(out));
   out.put_values(source.values);
 }
 
 MapSource source_of(Reader& in) {
   MapSource source;
-  source.rows = in.get<Index>();
-  source.cols = in.get<Index>();
-  const bool has_pitch = in.get<char>() != 0;
-  const Point pitch = in.get<Point>();
-  if (has_pitch) source.header.pitch = pitch;
-  const bool has_origin = in.get<char>() != 0;
-  const Point origin = in.get<Point>();
-  if (has_origin) source.header.origin = origin;
-  const bool has_unit = in.get<char>() != 0;
-  const std::string unit = in.text();
-  if (has_unit) source.header.unit = unit;
-  for (auto steps = in.get<std::size_t>(); steps > 0; --steps) source.header.history.push_back(in.text());
-  source.pitch_hint = in.text();
-  source.camera_pixel = in.get<Point>();
+  each_field(source, FieldReader(in));
   source.values = in.values();
   const auto held = static_cast<Index>(source.values.size());
   if (source.rows < 1 || source.cols < 1 || source.rows > held / source.cols || source.rows * source.cols != held) {
@@ -122,13 +154,22 @@ void attempt(const std::function<MapSource()>& read, Writer out) {
   }
 }
 
+/// What a reader may use: a packed file takes time and memory by what it unpacks to.
+ChildLimits limits_of(std::size_t bytes, const PixelLimit& limit) {
+  constexpr double kSeconds = 2.0, kBytesPerSecond = 4e6, kUnpackedPerSecond = 1e8;
+  constexpr std::size_t kMemory = std::size_t{4} << 30, kMemoryPerByte = 16, kMemoryPerPixel = 12;
+  const double file = static_cast<double>(bytes);
+  const double pixels = std::min(limit.most(), limit.given ? limit.most() : kMostUnpacking * file / sizeof(double));
+  const double unpacked = pixels * sizeof(double);
+  const auto asked = static_cast<std::size_t>(limit.given.value_or(0.0)) * kMemoryPerPixel;
+  return {kSeconds + file / kBytesPerSecond + unpacked / kUnpackedPerSecond, kMemory + kMemoryPerByte * bytes + asked};
+}
+
 }  // namespace
 
 MapSource read_isolated(const std::function<MapSource()>& read, std::size_t bytes, const std::string& format,
-                        const std::string& where) {
-  constexpr double kSeconds = 2.0, kBytesPerSecond = 4e6;
-  constexpr std::size_t kMemory = std::size_t{4} << 30, kMemoryPerByte = 16;
-  const ChildLimits limits{kSeconds + static_cast<double>(bytes) / kBytesPerSecond, kMemory + kMemoryPerByte * bytes};
+                        const std::string& where, const PixelLimit& limit) {
+  const ChildLimits limits = limits_of(bytes, limit);
   const auto corrupt = [&] {
     return InputError(
         fmt::format("{}: {} of {} bytes is corrupt: its library came to harm reading it, or wanted more than {:.0f} s "

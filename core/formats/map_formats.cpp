@@ -30,7 +30,7 @@ constexpr std::array kFormats{
     MapFormat{"a Zygo MetroPro file (.dat)", "zygo_dat",
               [](std::string_view bytes, std::string_view) { return is_zygo_dat(bytes); }, parse_zygo_dat},
     MapFormat{"a Zygo .datx or other HDF5 file (.h5, .hdf5)", "hdf5", claims_hdf5, parse_hdf5, parse_hdf5_at},
-    MapFormat{"a FITS image (.fits)", "fits", claims_fits, parse_fits},
+    MapFormat{"a FITS image (.fits)", "fits", claims_fits, parse_fits, parse_fits_at},
     MapFormat{"a surface data file as text (.sdf)", "sdf_text",
               [](std::string_view bytes, std::string_view extension) { return is_sdf(bytes) || extension == ".sdf"; },
               parse_sdf_text},

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/base/grid_limit.h"
 #include "core/base/staged_files.h"
 #include "core/formats/map_source.h"
 #include "core/map/height_map.h"
@@ -17,11 +18,13 @@ struct MapFormat {
   const char* fuzz;  // its fuzz target: tests/fuzz/reader_FUZZ.cpp with seeds/FUZZ
   /// Whether a file of these first bytes and this extension (lower case, with its dot) is to be read as one.
   bool (*claims)(std::string_view bytes, std::string_view extension);
-  /// Reads it. `where` begins error messages ("map part.dat"). Throws InputError naming byte, line or field.
-  MapSource (*read)(std::string_view bytes, const std::string& where);
+  /// Reads it. `where` begins error messages ("map part.dat"). Throws InputError naming byte, line or field, and,
+  /// before it takes memory for them, for more pixels than the limit.
+  MapSource (*read)(std::string_view bytes, const std::string& where, const PixelLimit& limit);
   /// Reads the array at a path in a file that may hold several (core/formats/map_name.h); null for formats that hold
   /// one.
-  MapSource (*read_inside)(std::string_view bytes, const std::string& path, const std::string& where) = nullptr;
+  MapSource (*read_inside)(std::string_view bytes, const std::string& path, const std::string& where,
+                           const PixelLimit& limit) = nullptr;
 };
 
 /// Every format with a record, in the order in which a file is tried; text is what is left (map_format_of).

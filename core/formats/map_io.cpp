@@ -14,6 +14,7 @@
 #include "core/formats/matrix_text.h"
 #include "core/formats/npy.h"
 #include "core/formats/npy_sidecar.h"
+#include "core/formats/part_size.h"
 #include "core/formats/point_grid.h"
 #include "core/formats/xyz_text.h"
 #include "core/map/value_units.h"
@@ -95,8 +96,23 @@ void check_unit(const MapHeader& header, const MapReadOptions& options, const st
   }
 }
 
+/// Without an origin a map begins at (0, 0): what may be one must not be skipped.
+void check_origin_is_clear(const MapSource& source, const MapReadOptions& options, const std::string& where) {
+  if (source.unclear_origin.empty() || source.header.origin || options.origin || !options.origin_counts) return;
+  const std::string way_out =
+      options.name == "tif" ? "give `tif centre` middle or centroid, for which it does not matter"
+                            : fmt::format(
+                                  "give `{} origin` X,Y in mm, the centre of the map's first pixel (0,0 if it does "
+                                  "not matter)",
+                                  options.name);
+  throw InputError(fmt::format("{}: {}: what looks like an origin leaves open of what it is, or in which unit; {}",
+                               where, source.unclear_origin, way_out));
+}
+
 HeightMap map_of_source(MapSource source, const MapReadOptions& options, const std::string& where) {
   check_unit(source.header, options, where);
+  check_origin_is_clear(source, options, where);
+  check_pixels(static_cast<double>(source.rows), static_cast<double>(source.cols), options.limit, where);
   const std::optional<Point> pitch = known_pitch(source.header, options, where);
   if (!pitch) {
     throw InputError(fmt::format("{}: the file says no pixel pitch; give `{} pixel` [mm] > 0{}", where, options.name,
@@ -104,7 +120,10 @@ HeightMap map_of_source(MapSource source, const MapReadOptions& options, const s
   }
   const Point on_camera{source.camera_pixel.x * pitch->x, source.camera_pixel.y * pitch->y};
   const Point origin = known_origin(source.header, options, where).value_or(on_camera);
-  HeightMap map({source.rows, source.cols, pitch->x, pitch->y, origin}, std::move(source.values));
+  const Grid grid{source.rows, source.cols, pitch->x, pitch->y, origin};
+  const std::string field = source.header.pitch ? source.pitch_field : fmt::format("`{} pixel`", options.name);
+  check_part_size(grid, field.empty() ? "pitch_mm" : field, where);
+  HeightMap map(grid, std::move(source.values));
   map.history = std::move(source.header.history);
   map.quantity = options.quantity;
   return map;
@@ -114,7 +133,8 @@ HeightMap read_xyz(std::string_view text, const MapReadOptions& options, const s
   XyzText xyz = parse_xyz_text(text, where);
   check_unit(xyz.header, options, where);
   HeightMap map = grid_points(xyz.points, known_pitch(xyz.header, options, where),
-                              known_origin(xyz.header, options, where), where, options.name);
+                              known_origin(xyz.header, options, where), where, options.name, options.limit);
+  check_part_size(map.grid, "the points' pitch", where);
   map.history = std::move(xyz.header.history);
   map.quantity = options.quantity;
   return map;
@@ -123,9 +143,9 @@ HeightMap read_xyz(std::string_view text, const MapReadOptions& options, const s
 std::string extension_of(const std::filesystem::path& file) { return lower_case(file.extension().string()); }
 
 MapSource read_array(const MapFormat& format, std::string_view bytes, const std::string& inside,
-                     const std::string& where) {
-  if (inside.empty()) return format.read(bytes, where);
-  if (format.read_inside) return format.read_inside(bytes, inside, where);
+                     const std::string& where, const PixelLimit& limit) {
+  if (inside.empty()) return format.read(bytes, where, limit);
+  if (format.read_inside) return format.read_inside(bytes, inside, where, limit);
   throw InputError(
       fmt::format("{}: the file is {}, which holds one array; leave out ':{}'", where, format.name, inside));
 }
@@ -137,12 +157,8 @@ HeightMap parse_map(const MapName& name, std::string_view bytes, const MapReadOp
   }
   const std::string extension = extension_of(name.file);
   if (const MapFormat* format = map_format_of(bytes, extension)) {
-    MapSource source = read_array(*format, bytes, name.inside, where);
-    if (is_npy(bytes)) {
-      source.header = read_npy_sidecar(name.file, bytes);
-      source.pitch_hint =
-          fmt::format(", or put its sidecar {} beside it", npy_sidecar_name(name.file.filename()).string());
-    }
+    MapSource source = read_array(*format, bytes, name.inside, where, options.limit);
+    if (is_npy(bytes)) add_npy_sidecar(name.file, bytes, source);
     return map_of_source(std::move(source), options, where);
   }
   const std::string binary = kind_of_binary(bytes);

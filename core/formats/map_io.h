@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "core/base/grid_limit.h"
 #include "core/base/staged_files.h"
 #include "core/map/height_map.h"
 
@@ -16,6 +17,10 @@ struct MapReadOptions {
   double scale = 1.0;                          // factor from the file's value unit to nm (or nm/s)
   std::string name = "map";                    // what error messages call it: "map" or "tif"
   MapQuantity quantity = MapQuantity::Height;  // what the values are; a file that says otherwise is refused
+  PixelLimit limit;                            // given, it also allows a packed file to unpack that far
+  /// Whether places in the file's own coordinates count. Not for a removal function that is centred by its grid or its
+  /// centroid: what only seems to say an origin is skipped then.
+  bool origin_counts = true;
 };
 
 /// Reads a map by the file's content and extension (docs/formats.md). `file` may name one array of a file that holds

@@ -15,6 +15,9 @@ struct MapSource {
   std::vector<double> values;  // row-major, row 0 = smallest y, NaN = no data, in header.unit
   MapHeader header;            // what the file says: pitch, origin, unit, history; nothing it leaves open
   std::string pitch_hint;      // ends the message when neither file nor option says a pitch
+  std::string pitch_field;     // what of the file says the pitch, with its value, for messages; may be empty
+  /// What of the file seems to say an origin, but not clearly: the map is refused unless the option says it.
+  std::string unclear_origin;
   /// Where pixel (0, 0) lies on the instrument's camera [pixels], y up: the origin where neither header nor option says
   /// one. Unlike header.origin it gives way to the option, for the camera's coordinates are nobody's part.
   Point camera_pixel;

@@ -169,7 +169,7 @@ void append_values(std::string& bytes, std::span<const double> values) {
 
 bool is_npy(std::string_view bytes) { return bytes.starts_with(kNpyMagic); }
 
-MapSource parse_npy(std::string_view bytes, const std::string& where) {
+MapSource parse_npy(std::string_view bytes, const std::string& where, const PixelLimit& limit) {
   if (!is_npy(bytes)) throw InputError(fmt::format("{}: not an NPY file; it must begin with \\x93NUMPY", where));
   const Parts parts = split_file(bytes, where);
   const Element element = parse_descr(entry(parts.header, "descr", where), where);
@@ -185,6 +185,7 @@ MapSource parse_npy(std::string_view bytes, const std::string& where) {
         "header",
         where, rows > held / cols ? "truncated" : "overlong", rows, cols, element.type.size, parts.data.size()));
   }
+  check_pixels(static_cast<double>(rows), static_cast<double>(cols), limit, where);
   MapSource matrix;
   matrix.rows = shape.rows;
   matrix.cols = shape.cols;

@@ -3,13 +3,16 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <optional>
+#include <algorithm>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 #include "core/base/errors.h"
 #include "core/base/number_text.h"
 #include "core/base/whole_file.h"
 #include "core/formats/npy.h"
+#include "core/formats/packed_values.h"
 #include "core/map/value_units.h"
 
 namespace dwell {
@@ -35,24 +38,17 @@ class SidecarReader {
     return found->get<std::string>();
   }
 
-  MapHeader header() const {
-    MapHeader header;
-    header.pitch = pair("pitch_mm");
-    if (header.pitch && !(header.pitch->x > 0.0 && header.pitch->y > 0.0)) refuse("pitch_mm", "two numbers > 0");
-    header.origin = pair("origin_mm");
-    if (const auto unit = object_.find("unit"); unit != object_.end()) {
-      if (!unit->is_string()) refuse("unit", "a string");
-      header.unit = unit->get<std::string>();
+  SaidOfMap said() const {
+    check_pair("pitch_mm", true);
+    check_pair("origin_mm", false);
+    if (const auto unit = object_.find("unit"); unit != object_.end() && !unit->is_string()) refuse("unit", "a string");
+    std::vector<MapField> fields;
+    for (const auto& [key, value] : object_.items()) {
+      if (key != "history" && key != "sha256" && key != "previous") add_field(key, value, fields);
     }
-    if (const auto history = object_.find("history"); history != object_.end()) {
-      if (!history->is_array()) refuse("history", "an array of strings");
-      for (const Json& step : *history) {
-        if (!step.is_string()) refuse("history", "an array of strings");
-        header.history.push_back(step.get<std::string>());
-        if (header.history.back().find_first_of("\r\n") != std::string::npos) refuse("history", "a line each step");
-      }
-    }
-    return header;
+    SaidOfMap said = read_map_fields(fields, where_);
+    said.header.history = history();
+    return said;
   }
 
  private:
@@ -63,13 +59,48 @@ class SidecarReader {
     throw InputError(fmt::format("{}: {} = {}; required: {}", where_, field, value, required));
   }
 
-  std::optional<Point> pair(const char* field) const {
+  void check_pair(const char* field, bool positive) const {
     const auto found = object_.find(field);
-    if (found == object_.end()) return std::nullopt;
+    if (found == object_.end()) return;
     if (!found->is_array() || found->size() != 2 || !(*found)[0].is_number() || !(*found)[1].is_number()) {
       refuse(field, "two numbers [x, y]");
     }
-    return Point{(*found)[0].get<double>(), (*found)[1].get<double>()};
+    if (positive && !((*found)[0].get<double>() > 0.0 && (*found)[1].get<double>() > 0.0)) {
+      refuse(field, "two numbers > 0");
+    }
+  }
+
+  std::vector<std::string> history() const {
+    std::vector<std::string> lines;
+    const auto history = object_.find("history");
+    if (history == object_.end()) return lines;
+    if (!history->is_array()) refuse("history", "an array of strings");
+    for (const Json& step : *history) {
+      if (!step.is_string()) refuse("history", "an array of strings");
+      lines.push_back(step.get<std::string>());
+      if (lines.back().find_first_of("\r\n") != std::string::npos) refuse("history", "a line each step");
+    }
+    return lines;
+  }
+
+  /// Numbers and texts, and those within objects ("grid": {"pitch_mm": ...}) and arrays.
+  static void add_field(const std::string& key, const Json& value, std::vector<MapField>& fields) {
+    constexpr std::ptrdiff_t kDeepest = 8;  // no program nests further, and the stack ends somewhere
+    if (value.is_object()) {
+      if (std::count(key.begin(), key.end(), '.') >= kDeepest) return;
+      for (const auto& [inner, its_value] : value.items()) {
+        add_field(fmt::format("{}.{}", key, inner), its_value, fields);
+      }
+      return;
+    }
+    MapField field;
+    field.name = key;
+    field.shown = key;
+    for (const Json& element : value.is_array() ? value : Json::array({value})) {
+      if (element.is_number()) field.numbers.push_back(element.get<double>());
+      if (element.is_string()) field.texts.push_back(element.get<std::string>());
+    }
+    fields.push_back(std::move(field));
   }
 
   const Json& object_;
@@ -121,7 +152,7 @@ Json entry_of_existing(const std::filesystem::path& npy_file, const std::filesys
 
 std::filesystem::path npy_sidecar_name(const std::filesystem::path& npy_file) { return npy_file.string() + ".json"; }
 
-MapHeader parse_npy_sidecar(const std::string& text, const std::string& sha256, const std::string& where) {
+SaidOfMap parse_npy_sidecar(const std::string& text, const std::string& sha256, const std::string& where) {
   const Json sidecar = parse_json(text, where);
   const Json entry = entry_for(sidecar, sha256, where);
   if (entry.is_null()) {
@@ -130,13 +161,32 @@ MapHeader parse_npy_sidecar(const std::string& text, const std::string& sha256, 
         "origin as options) or restore the file it was written with",
         where, in_quotes(sidecar["sha256"].get<std::string>()), sha256));
   }
-  return SidecarReader(entry, where).header();
+  return SidecarReader(entry, where).said();
 }
 
-MapHeader read_npy_sidecar(const std::filesystem::path& npy_file, std::string_view bytes) {
+SaidOfMap read_npy_sidecar(const std::filesystem::path& npy_file, std::string_view bytes) {
   const std::filesystem::path sidecar = npy_sidecar_name(npy_file);
   if (!is_there(sidecar)) return {};
   return parse_npy_sidecar(read_whole_file(sidecar), sha256_of(bytes), sidecar.string());
+}
+
+void add_npy_sidecar(const std::filesystem::path& npy_file, std::string_view bytes, MapSource& source) {
+  SaidOfMap said = read_npy_sidecar(npy_file, bytes);
+  const std::string sidecar = npy_sidecar_name(npy_file.filename()).string();
+  source.header = std::move(said.header);
+  source.unclear_origin = std::move(said.unclear_origin);
+  source.pitch_field = fmt::format("{}: {}", sidecar, said.pitch_field);
+  source.pitch_hint = fmt::format(", or put its sidecar {} beside it", sidecar);
+  if (!said.unclear_pitch.empty()) {
+    source.pitch_hint = fmt::format(
+        "; its sidecar {} leaves open of what it is, in which unit, or whether x or y comes "
+        "first: {}",
+        sidecar, said.unclear_pitch);
+  }
+  PackedValues packing;
+  for (const double value : said.no_data) packing.no_data.push_back({"no data", value});
+  const std::string done = unpack_values(packing, source.values);
+  if (!done.empty()) source.header.history.push_back(fmt::format("read {}: {}", sidecar, done));
 }
 
 void stage_npy_with_sidecar(const std::filesystem::path& npy_file, const HeightMap& map, StagedFiles& files) {

@@ -82,7 +82,7 @@ void check_size(const Lattice& x, const Lattice& y, std::size_t points, const st
 }  // namespace
 
 HeightMap grid_points(const std::vector<XyzPoint>& points, std::optional<Point> pitch, std::optional<Point> origin,
-                      const std::string& where, const std::string& name) {
+                      const std::string& where, const std::string& name, const PixelLimit& limit) {
   Lattice x = lattice_of(points, kX, pitch, origin), y = lattice_of(points, kY, pitch, origin);
   if (!(x.pitch > 0.0)) x.pitch = pitch ? pitch->x : y.pitch;
   if (!(y.pitch > 0.0)) y.pitch = pitch ? pitch->y : x.pitch;
@@ -95,6 +95,7 @@ HeightMap grid_points(const std::vector<XyzPoint>& points, std::optional<Point> 
   check_on_lattice(points, kX, x, where);
   check_on_lattice(points, kY, y, where);
   check_size(x, y, points.size(), where);
+  check_pixels(static_cast<double>(y.count), static_cast<double>(x.count), limit, where);
   check_agreement(x, kX, pitch, origin, where, name);
   check_agreement(y, kY, pitch, origin, where, name);
 

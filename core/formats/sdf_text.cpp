@@ -9,11 +9,16 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "core/base/errors.h"
 #include "core/base/number_text.h"
+#include "core/base/units.h"
+#include "core/formats/map_fields.h"
 #include "core/formats/map_header.h"
 #include "core/formats/text_grid.h"
+#include "core/map/value_units.h"
 
 namespace dwell {
 namespace {
@@ -26,6 +31,35 @@ constexpr double kMetresPerNm = 1e-9;
 constexpr double kMmPerMetre = 1e3;
 
 std::string_view without_comment(std::string_view line) { return trim(line.substr(0, line.find(kBcrComment))); }
+
+/// A field that the standard does not have, for a look at what it speaks of.
+MapField other_field(std::string_view name, std::string_view value, std::string place) {
+  MapField field;
+  field.name = std::string(name);
+  field.shown = fmt::format("{} {}", place, name);
+  if (const auto number = finite_number(value)) {
+    field.numbers = {*number};
+  } else {
+    field.texts = {std::string(value)};
+  }
+  return field;
+}
+
+/// Takes what other fields say of the map. The standard has all lengths in m, and BAD for no data.
+void take_other_fields(const std::vector<MapField>& fields, MapSource& source, const std::string& where) {
+  const SaidOfMap said = read_map_fields(fields, where);
+  if (said.header.unit && known_length_unit(*said.header.unit) != units::kNmPerM) {
+    throw InputError(
+        fmt::format("{}: the SDF file says a unit of {}; Xscale, Yscale and Zscale are in m, so m is required", where,
+                    in_quotes(*said.header.unit)));
+  }
+  if (!said.no_data.empty()) {
+    throw InputError(
+        fmt::format("{}: the SDF file says that {} is no data; BAD is required for it", where, said.no_data.front()));
+  }
+  if (said.header.origin && !source.header.origin) source.header.origin = said.header.origin;
+  if (!source.header.origin) source.unclear_origin = said.unclear_origin;
+}
 
 /// The fields of the first record, by name in lower case.
 class SdfHeader {
@@ -62,6 +96,20 @@ class SdfHeader {
   void require_none(const char* name) const {
     const std::string value = lower_case(text(name));
     if (value != "0" && value != "null" && value != "none") refuse(name, "0 (none)");
+  }
+
+  /// Those that the standard does not have.
+  std::vector<MapField> others() const {
+    static constexpr std::array<std::string_view, 12> kKnown{"manufacid",   "createdate",  "moddate",  "numpoints",
+                                                             "numprofiles", "xscale",      "yscale",   "zscale",
+                                                             "zresolution", "compression", "datatype", "checktype"};
+    std::vector<MapField> fields;
+    for (const auto& [name, value] : fields_) {
+      if (std::find(kKnown.begin(), kKnown.end(), name) == kKnown.end()) {
+        fields.push_back(other_field(name, value, "SDF header field"));
+      }
+    }
+    return fields;
   }
 
   /// DataType says how a binary file would store the values; as text they are numbers all the same.
@@ -107,13 +155,29 @@ bool first_profile_on_top(std::string_view magic, const std::string& where) {
       where, in_quotes(magic)));
 }
 
-/// What `sdf_text` writes into the trailer. The pitches there have all digits; they must be those of the header.
-void read_trailer(TextLines& lines, const std::string& where, MapHeader& header) {
+/// A line of the trailer of other programs, "name = value" or "<name>value</name>", as a field; nothing if it is none.
+std::optional<MapField> trailer_field(std::string_view line) {
+  const bool tag = line.starts_with('<');
+  const std::size_t at = line.find(tag ? '>' : '=');
+  if (at == std::string_view::npos) return std::nullopt;
+  const std::string_view name = trim(line.substr(tag ? 1 : 0, tag ? at - 1 : at));
+  std::string_view value = line.substr(at + 1);
+  if (tag) value = value.substr(0, value.find('<'));
+  return other_field(name, trim(value), "SDF trailer field");
+}
+
+/// What `sdf_text` writes into the trailer, and the fields of others. The pitches there have all digits; they must be
+/// those of the header.
+void read_trailer(TextLines& lines, const std::string& where, MapHeader& header, std::vector<MapField>& others) {
   const Point pitch = *header.pitch;
   header.pitch.reset();
   while (lines.next()) {
     const std::string_view line = trim(lines.line());
-    if (line.starts_with('#')) read_header_line(line, fmt::format("{}, line {}", where, lines.number()), header);
+    if (line.starts_with('#')) {
+      read_header_line(line, fmt::format("{}, line {}", where, lines.number()), header);
+    } else if (auto field = trailer_field(line)) {
+      others.push_back(std::move(*field));
+    }
   }
   if (!header.unit) header.unit = "nm";
   if (*header.unit != "nm") {
@@ -144,11 +208,13 @@ bool is_sdf(std::string_view bytes) {
   return std::any_of(kMagics.begin(), kMagics.end(), [&](std::string_view magic) { return bytes.starts_with(magic); });
 }
 
-MapSource parse_sdf_text(std::string_view text, const std::string& where) {
+MapSource parse_sdf_text(std::string_view text, const std::string& where, const PixelLimit& limit) {
   TextLines lines(text);
   const std::string_view magic = lines.next() ? without_comment(lines.line()) : std::string_view();
   TextGrid grid;
   grid.top_first = first_profile_on_top(magic, where);
+  grid.no_data = "BAD";
+  grid.limit = limit;
   const SdfHeader header(lines, where);
   header.require_none("Compression");
   header.require_none("CheckType");
@@ -168,6 +234,8 @@ MapSource parse_sdf_text(std::string_view text, const std::string& where) {
   source.rows = grid.rows;
   source.cols = grid.cols;
   source.header.pitch = Point{pitch_x, pitch_y};
+  source.pitch_field =
+      fmt::format("SDF header: Xscale = {}, Yscale = {} [m]", header.text("Xscale"), header.text("Yscale"));
   source.values = read_text_grid(
       words, grid, text.size(),
       [nm](std::string_view word) {
@@ -182,7 +250,9 @@ MapSource parse_sdf_text(std::string_view text, const std::string& where) {
     throw InputError(fmt::format("{}, line {}: a line * is required after NumProfiles = {} times NumPoints = {} values",
                                  where, words.line(), source.rows, source.cols));
   }
-  read_trailer(lines, where, source.header);
+  std::vector<MapField> others = header.others();
+  read_trailer(lines, where, source.header, others);
+  take_other_fields(others, source, where);
   return source;
 }
 

@@ -32,6 +32,7 @@ std::vector<double> read_text_grid(TextWords& words, const TextGrid& grid, std::
   const auto rows = static_cast<std::size_t>(grid.rows), cols = static_cast<std::size_t>(grid.cols);
   // A value takes a character and a blank at least. Divided, not multiplied: an absurd size must not overflow.
   if (rows > (text_size / 2 + 1) / cols) refuse_short(grid, fmt::format("the file has {} bytes", text_size), where);
+  check_pixels(static_cast<double>(rows), static_cast<double>(cols), grid.limit, where);
   std::vector<double> values(rows * cols);
   for (std::size_t row = 0; row < rows; ++row) {
     double* const out = values.data() + (grid.top_first ? rows - 1 - row : row) * cols;
@@ -39,8 +40,10 @@ std::vector<double> read_text_grid(TextWords& words, const TextGrid& grid, std::
       if (!words.next()) refuse_short(grid, fmt::format("it ends after {} values", row * cols + col), where);
       const std::optional<double> number = value(words.word());
       if (!number) {
-        throw InputError(fmt::format("{}, line {}: {} where value {} of row {} of the grid is required", where,
-                                     words.line(), in_quotes(words.word()), col + 1, row + 1));
+        throw InputError(
+            fmt::format("{}, line {}: {} where value {} of row {} of the grid is required; a finite number "
+                        "is accepted, and {} for no data",
+                        where, words.line(), in_quotes(words.word()), col + 1, row + 1, grid.no_data));
       }
       out[col] = *number;
     }

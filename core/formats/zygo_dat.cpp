@@ -142,9 +142,10 @@ double height_factor(const Header& header) {
 
 bool is_zygo_dat(std::string_view bytes) { return bytes.starts_with(kZygoMagic); }
 
-MapSource parse_zygo_dat(std::string_view bytes, const std::string& where) {
+MapSource parse_zygo_dat(std::string_view bytes, const std::string& where, const PixelLimit& limit) {
   const Header header(bytes, where);
   const Block block = phase_block(header, bytes.size(), where);
+  check_pixels(static_cast<double>(block.rows), static_cast<double>(block.cols), limit, where);
   const double factor = height_factor(header);
   const double resolution = header.real(184);
   if (!(std::isfinite(resolution) && resolution >= 0.0)) {
@@ -156,6 +157,7 @@ MapSource parse_zygo_dat(std::string_view bytes, const std::string& where) {
   source.header.unit = "nm";
   source.header.pitch_rounding = kSinglePitchRounding;
   source.pitch_hint = "; its lateral resolution (byte 184) is 0, unknown";
+  source.pitch_field = fmt::format("lateral resolution = {} m (byte 184 of the Zygo header)", resolution);
   if (resolution > 0.0) source.header.pitch = Point{resolution * units::kMmPerM, resolution * units::kMmPerM};
   const double bottom = header.signed16(66) + static_cast<double>(block.rows - 1);
   source.camera_pixel = {static_cast<double>(header.signed16(64)), 0.0 - bottom};

@@ -3,6 +3,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/base/grid_limit.h"
 #include "core/formats/map_source.h"
 
 namespace dwell {
@@ -18,6 +19,6 @@ bool is_zygo_dat(std::string_view bytes);
 /// `where` begins error messages. Throws InputError naming the field, its byte, its value and what is accepted; a file
 /// of inverted data is refused, because readers disagree whether its heights are stored inverted.
 /// Sources: MetroPro Reference Guide OMP-0347, chapter 12; the same layout in Gwyddion's metropro.c and prysm's io.py.
-MapSource parse_zygo_dat(std::string_view bytes, const std::string& where);
+MapSource parse_zygo_dat(std::string_view bytes, const std::string& where, const PixelLimit& limit = {});
 
 }  // namespace dwell

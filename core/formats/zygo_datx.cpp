@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -13,21 +12,13 @@
 #include "core/base/errors.h"
 #include "core/base/number_text.h"
 #include "core/base/units.h"
+#include "core/map/value_units.h"
 
 namespace dwell {
 namespace {
 
 constexpr const char* kSurfaces = "/Data/Surface";
 constexpr double kNever = 2147483640.0;  // no data in files that do not say, as in a .dat: nothing is as high
-
-struct Unit {
-  const char* name;  // in lower case
-  double nm;
-};
-
-constexpr std::array kUnits{Unit{"nanometers", 1.0}, Unit{"micrometers", units::kNmPerUm},
-                            Unit{"millimeters", units::kNmPerMm}, Unit{"meters", units::kNmPerM},
-                            Unit{"angstroms", 0.1}};
 
 /// Where a link leads from, in the table of (Source, Link, Destination); empty if nowhere.
 std::string linked(const Hdf5Value& table, const std::string& from, const std::string& link) {
@@ -96,9 +87,7 @@ double height_factor(const Surface& surface) {
     return fringe_factor(surface, "Wavelength", 1) * fringe_factor(surface, "Interferometric Scale Factor", 2) *
            fringe_factor(surface, "Obliquity Factor", 3) * units::kNmPerM;
   }
-  for (const Unit& length : kUnits) {
-    if (known == length.name) return length.nm;
-  }
+  if (const auto nm = known_length_unit(unit)) return *nm;
   surface.refuse("Unit", unit, "Fringes, NanoMeters, MicroMeters, MilliMeters, Meters or Angstroms is required");
 }
 
@@ -148,17 +137,19 @@ bool is_datx_surface(const Hdf5File& file, const std::string& path) {
   return file.has_attribute(path, "Z Converter") || path.starts_with(std::string(kSurfaces) + "/");
 }
 
-MapSource read_datx_surface(const Hdf5File& file, const std::string& path, const std::string& where) {
+MapSource read_datx_surface(const Hdf5File& file, const std::string& path, const std::string& where,
+                            const PixelLimit& limit) {
   const Surface surface{file, path, where};
   const double factor = height_factor(surface);
   const std::optional<double> no_data = surface.number("No Data");
   const std::optional<double> x = pitch(surface, "X Converter"), y = pitch(surface, "Y Converter");
   MapSource source;
   if (x && y) source.header.pitch = Point{*x, *y};
+  source.pitch_field = "parameter 1 of 'X Converter' and 'Y Converter' [m]";
   source.pitch_hint = "; its 'X Converter' and 'Y Converter' say 0, unknown, or are not there";
   source.header.unit = "nm";
   source.header.pitch_rounding = kSinglePitchRounding;
-  Hdf5Matrix matrix = file.matrix(path);
+  Hdf5Matrix matrix = file.matrix(path, limit);
   const auto cols = static_cast<std::ptrdiff_t>(matrix.cols);
   for (auto top = matrix.values.begin(), end = matrix.values.end(); end - top > cols; top += cols, end -= cols) {
     std::swap_ranges(top, top + cols, end - cols);

@@ -20,6 +20,7 @@ bool is_datx_surface(const Hdf5File& file, const std::string& path);
 /// and `Y Converter` (in m; 0 = left open), the place on the camera from `Coordinates`. The first row is the top of the
 /// picture: it becomes the largest y. `where` begins error messages. Throws InputError naming the attribute.
 /// Sources: files of Mx 8.3; prysm's io.py; SurfaceTopography's test of its reader.
-MapSource read_datx_surface(const Hdf5File& file, const std::string& path, const std::string& where);
+MapSource read_datx_surface(const Hdf5File& file, const std::string& path, const std::string& where,
+                            const PixelLimit& limit = {});
 
 }  // namespace dwell

@@ -74,7 +74,8 @@ HeightMap decimate_map(const HeightMap& map, Index row_factor, Index col_factor,
   return result;
 }
 
-HeightMap resample_map(const HeightMap& map, Point pitch, int threads, const Progress& progress) {
+HeightMap resample_map(const HeightMap& map, Point pitch, int threads, const PixelLimit& limit,
+                       const Progress& progress) {
   if (!ranges::kPitch.holds(pitch.x) || !ranges::kPitch.holds(pitch.y)) {
     throw InputError(
         fmt::format("pitch = {} x {} mm; both must be finite and > 0, {}", pitch.x, pitch.y, ranges::kPitch.text()));
@@ -90,7 +91,7 @@ HeightMap resample_map(const HeightMap& map, Point pitch, int threads, const Pro
   };
   const Grid& g = source.grid;
   const Grid target = limited_grid(points(g.pitch_y, g.rows, pitch.y), points(g.pitch_x, g.cols, pitch.x), pitch,
-                                   g.origin, fmt::format("pitch = {} x {} mm", pitch.x, pitch.y));
+                                   g.origin, fmt::format("pitch = {} x {} mm", pitch.x, pitch.y), limit);
   return warp_map(source, {}, target, threads, progress);
 }
 

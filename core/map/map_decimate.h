@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/base/grid_limit.h"
 #include "core/base/progress.h"
 #include "core/map/height_map.h"
 
@@ -16,7 +17,8 @@ HeightMap decimate_map(const HeightMap& map, Index row_factor, Index col_factor,
 /// The map at other pitches [mm, in x and y]: by block average over the whole number of pixels that a new one spans in
 /// each direction, if that is more than one (anti-aliasing), then by cubic B-spline (core/map/map_sampler.h). The first
 /// pixel of the new map lies on the first one of the map, or of the averaged map, and the last one not beyond the last
-/// of it. Throws InputError unless ranges::kPitch holds the pitches and the result has at most kMaxPixels; Interrupted.
-HeightMap resample_map(const HeightMap& map, Point pitch, int threads = 1, const Progress& progress = {});
+/// of it. Throws InputError unless ranges::kPitch holds the pitches and the result is within the limit; Interrupted.
+HeightMap resample_map(const HeightMap& map, Point pitch, int threads = 1, const PixelLimit& limit = {},
+                       const Progress& progress = {});
 
 }  // namespace dwell

@@ -30,12 +30,12 @@ void check(const ExtendOptions& o) {
   }
 }
 
-HeightMap enlarge_map(const HeightMap& map, double width) {
+HeightMap enlarge_map(const HeightMap& map, double width, const PixelLimit& limit) {
   const Grid& g = map.grid;
   constexpr double kRounding = 1e-9;  // pixels
   const double rows = std::ceil(width / g.pitch_y - kRounding), cols = std::ceil(width / g.pitch_x - kRounding);
   Grid wide = limited_grid(static_cast<double>(g.rows) + 2.0 * rows, static_cast<double>(g.cols) + 2.0 * cols,
-                           {g.pitch_x, g.pitch_y}, {}, fmt::format("extend: width = {} mm", width));
+                           {g.pitch_x, g.pitch_y}, {}, fmt::format("extend: width = {} mm", width), limit);
   const auto down = static_cast<Index>(rows), right = static_cast<Index>(cols);
   wide.origin = g.centre(-down, -right);
   HeightMap result(wide);
@@ -58,8 +58,8 @@ class Gerchberg {
   Gerchberg(const HeightMap& map, const std::vector<Index>& nearest, const ExtendOptions& options, int threads)
       : map_(map),
         mean_(mean_of_data(map)),
-        fft_(periodic_size(map.grid.rows, map.grid.pitch_y, options),
-             periodic_size(map.grid.cols, map.grid.pitch_x, options), threads) {
+        fft_(within_limit(periodic_size(map.grid.rows, map.grid.pitch_y, options),
+                          periodic_size(map.grid.cols, map.grid.pitch_x, options), options, threads)) {
     // The start is the nearest height everywhere: padding beyond the map continues its last row and column.
     for (Index r = 0; r < fft_.rows(); ++r) {
       for (Index c = 0; c < fft_.cols(); ++c) {
@@ -103,6 +103,13 @@ class Gerchberg {
   static Index periodic_size(Index count, double pitch, const ExtendOptions& options) {
     const double gap = std::max(0.0, options.shortest - 2.0 * options.width) / pitch;
     return good_fft_size(count + static_cast<Index>(std::ceil(std::min(gap, static_cast<double>(count)))));
+  }
+
+  static RealFft2D within_limit(Index rows, Index cols, const ExtendOptions& options, int threads) {
+    check_pixels(
+        static_cast<double>(rows), static_cast<double>(cols), options.limit,
+        fmt::format("extend: width = {} mm, shortest = {} mm: the transform", options.width, options.shortest));
+    return {rows, cols, threads};
   }
 
   double& at(Index row, Index col) { return fft_.real()[static_cast<std::size_t>(row * fft_.cols() + col)]; }
@@ -163,7 +170,7 @@ Extension parse_extension(const std::string& text) {
 HeightMap extend_map(const HeightMap& map, const ExtendOptions& options, ExtendSummary& summary, int threads,
                      const Progress& progress) {
   check(options);
-  const HeightMap data = enlarge_map(map, options.width);
+  const HeightMap data = enlarge_map(map, options.width, options.limit);
   const std::vector<Index> nearest = nearest_pixels(data);
   summary = {};
   HeightMap result = data;

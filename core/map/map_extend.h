@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "core/base/grid_limit.h"
 #include "core/base/progress.h"
 #include "core/map/height_map.h"
 
@@ -26,6 +27,7 @@ struct ExtendOptions {
   int iterations = 200;     // Gerchberg: at most, >= 1
   double tolerance = 1e-4;  // Gerchberg: ends when an iteration changes the extension by less (RMS) than this part of
                             // the RMS of the data about their mean
+  PixelLimit limit;         // of the larger map, and of what Gerchberg transforms
 };
 
 struct ExtendSummary {

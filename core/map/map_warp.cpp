@@ -36,7 +36,7 @@ HeightMap warp_map(const HeightMap& map, const PlaneTransform& forward, const Gr
   return result;
 }
 
-Grid covering_grid(const Grid& grid, const PlaneTransform& forward) {
+Grid covering_grid(const Grid& grid, const PlaneTransform& forward, const PixelLimit& limit) {
   const double half_x = 0.5 * grid.pitch_x * static_cast<double>(grid.cols - 1);
   const double half_y = 0.5 * grid.pitch_y * static_cast<double>(grid.rows - 1);
   const double reach_x = std::abs(forward.xx) * half_x + std::abs(forward.xy) * half_y;
@@ -44,14 +44,15 @@ Grid covering_grid(const Grid& grid, const PlaneTransform& forward) {
   constexpr double kRounding = 1e-9;  // pixels
   const double cols = std::ceil(2.0 * reach_x / grid.pitch_x - kRounding) + 1.0;
   const double rows = std::ceil(2.0 * reach_y / grid.pitch_y - kRounding) + 1.0;
-  Grid result = limited_grid(rows, cols, {grid.pitch_x, grid.pitch_y}, {}, "moving the map");
+  Grid result = limited_grid(rows, cols, {grid.pitch_x, grid.pitch_y}, {}, "moving the map", limit);
   result.origin = forward(middle_of(grid)) - middle_of(result);
   return result;
 }
 
-HeightMap rotate_map(const HeightMap& map, double degrees, Point about, int threads, const Progress& progress) {
+HeightMap rotate_map(const HeightMap& map, double degrees, Point about, int threads, const PixelLimit& limit,
+                     const Progress& progress) {
   const PlaneTransform forward = similarity(about, {}, degrees, 1.0);
-  return warp_map(map, forward, covering_grid(map.grid, forward), threads, progress);
+  return warp_map(map, forward, covering_grid(map.grid, forward, limit), threads, progress);
 }
 
 }  // namespace dwell

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/base/grid_limit.h"
 #include "core/base/progress.h"
 #include "core/map/height_map.h"
 #include "core/numerics/plane_transform.h"
@@ -14,11 +15,12 @@ HeightMap warp_map(const HeightMap& map, const PlaneTransform& forward, const Gr
                    const Progress& progress = {});
 
 /// The smallest grid of the same pitches that covers all pixel centres of `grid` moved by `forward`. Its middle lies
-/// where theirs is moved. Throws InputError if it is larger than kMaxPixels.
-Grid covering_grid(const Grid& grid, const PlaneTransform& forward);
+/// where theirs is moved. Throws InputError if it is larger than the limit.
+Grid covering_grid(const Grid& grid, const PlaneTransform& forward, const PixelLimit& limit = {});
 
 /// The map turned counter-clockwise by any angle about a point [mm], on the covering grid. For
 /// multiples of 90 degrees core/map/map_turn.h is exact.
-HeightMap rotate_map(const HeightMap& map, double degrees, Point about, int threads = 1, const Progress& progress = {});
+HeightMap rotate_map(const HeightMap& map, double degrees, Point about, int threads = 1, const PixelLimit& limit = {},
+                     const Progress& progress = {});
 
 }  // namespace dwell

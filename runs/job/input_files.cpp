@@ -20,7 +20,8 @@ namespace dwell {
 
 HeightMap load_map(const JobOptions& options, std::vector<InputFile>& inputs, const Progress& progress) {
   if (options.map.empty()) throw InputError("--map: required; a height-error map, for instance mirror.csv");
-  const MapReadOptions read{options.map_pixel_mm, options.map_origin_mm, height_unit_nm(options.map_unit), "map"};
+  const MapReadOptions read{options.map_pixel_mm, options.map_origin_mm, height_unit_nm(options.map_unit), "map",
+                            MapQuantity::Height,  {options.max_pixels}};
   progress.step("reading the map");
   HeightMap map = read_map(options.map, read);
   inputs.push_back({"map", options.map, sha256_of_file(split_map_name(options.map).file)});
@@ -31,10 +32,16 @@ HeightMap load_map(const JobOptions& options, std::vector<InputFile>& inputs, co
 
 namespace {
 
+/// Whether the axis of the tool is given as a place in its file.
+bool is_centred_at_a_place(const JobOptions& options) {
+  return options.tif_centre && options.tif_centre->kind == TifCentre::Kind::Given;
+}
+
 /// The removal function from the surface that spots of a known dwell time left.
 RemovalFunction removal_of_spots(const JobOptions& options) {
   const std::string unit = options.tif_unit == JobOptions{}.tif_unit ? "nm" : options.tif_unit;
-  const MapReadOptions read{options.tif_pixel_mm, std::nullopt, height_unit_nm(unit), "tif", MapQuantity::Height};
+  const MapReadOptions read{options.tif_pixel_mm, std::nullopt,         height_unit_nm(unit),          "tif",
+                            MapQuantity::Height,  {options.max_pixels}, is_centred_at_a_place(options)};
   HeightMap depth = read_map(options.tif, read);
   for (double& value : depth.values) value = -value;
   SpotOptions spots;
@@ -58,8 +65,8 @@ TifCentre centre_of(const HeightMap& rates, const std::optional<TifCentre>& want
 }
 
 RemovalFunction removal_of_rates(const JobOptions& options) {
-  const MapReadOptions read{options.tif_pixel_mm, std::nullopt, rate_unit_nm_per_s(options.tif_unit), "tif",
-                            MapQuantity::Rate};
+  const MapReadOptions read{options.tif_pixel_mm, std::nullopt,         rate_unit_nm_per_s(options.tif_unit), "tif",
+                            MapQuantity::Rate,    {options.max_pixels}, is_centred_at_a_place(options)};
   const HeightMap rates = read_map(options.tif, read);
   return measured_removal(rates, centre_of(rates, options.tif_centre));
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/errors.h"
+#include "core/base/grid_limit.h"
 #include "core/base/number_text.h"
 #include "core/base/value_range.h"
 #include "core/form/form.h"
@@ -31,7 +32,15 @@ double number(const std::string& text, const ValueRange& range) {
 }
 
 void check_height_or_rate_unit(const std::string& unit) {
-  unit_factor(unit, known_rate_unit(unit) ? MapQuantity::Rate : MapQuantity::Height);
+  const bool rate = known_rate_unit(unit) || unit.find('/') != std::string::npos;
+  unit_factor(unit, rate ? MapQuantity::Rate : MapQuantity::Height);
+}
+
+double pixel_count(const std::string& text) {
+  constexpr ValueRange kPixels{1.0, kMostPixelsOfAll, ""};
+  const auto value = parse_number(text);
+  if (value && kPixels.holds(*value) && *value == std::floor(*value)) return *value;
+  throw InputError(fmt::format("'{}'; required a whole number from 1 to {}", text, kMostPixelsOfAll));
 }
 
 int whole(const std::string& text) {
@@ -84,6 +93,11 @@ std::vector<JobOptionRecord> make_table() {
        "how to prepare the map, before all else: STEP;STEP;... of docs/maps.md, as crop:rect:0,0,9,9;fill:harmonic",
        false, false, [](Options& o, const std::string& t) { parse_map_steps(t), o.map_steps = t; },
        [](const Options& o) { return o.map_steps; }, false, true},
+      {"max-pixels", "max_pixels", "N",
+       "most pixels of a map that is read, or made by a step (default 268435456); given, a packed file may also unpack "
+       "to that many, however small it is",
+       false, true, [](Options& o, const std::string& t) { o.max_pixels = pixel_count(t); },
+       [](const Options& o) { return shown(o.max_pixels); }},
       {"tif", "tif", "TIF",
        fmt::format("removal function: FILE (as the map), gaussian:peak=NM/S,fwhm=MM[,radius=MM] (or sigma=MM), "
                    "disc:slope=NM/S/MM,radius=MM, or another model ({}) with its keys",

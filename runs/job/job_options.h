@@ -26,6 +26,7 @@ struct JobOptions {
   std::string map_unit = "nm";
   std::optional<Point> map_origin_mm;
   std::string map_steps;
+  std::optional<double> max_pixels;  // nothing: kMaxPixels, and no file that unpacks to many times its size
   std::string tif;
   std::optional<double> tif_pixel_mm;
   std::string tif_unit = "nm/s";

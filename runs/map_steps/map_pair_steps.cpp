@@ -133,7 +133,7 @@ std::string move_by_fiducials(HeightMap& map, const MapStep& step, MapStepContex
   for (std::size_t i = 0; i < from.size(); ++i) pairs.push_back({from[i], to[i]});
   const PointFit fit = fit_points(pairs, parse_point_fit_kind(step.word("fit")));
   const PlaneTransform& t = fit.transform;
-  map = warp_map(map, t, covering_grid(map.grid, t), context.threads, context.progress);
+  map = warp_map(map, t, covering_grid(map.grid, t, context.limit()), context.threads, context.progress);
   const double degrees = std::atan2(t.yx - t.xy, t.xx + t.yy) * 180.0 / std::numbers::pi;
   std::string text =
       fmt::format("turned by {:.6g} degrees, scaled by {:.8g}, the origin to ({:.6g}, {:.6g}) mm; left: ", degrees,

@@ -58,6 +58,8 @@ struct MapStepContext {
   std::vector<InputFile>* inputs;  // files read are appended
   int threads = 1;
   Progress progress;
+
+  const PixelLimit& limit() const { return read.limit; }
 };
 
 /// A step that prepares a map. One table (runs/map_steps/map_steps.h) feeds parser, help and documents.

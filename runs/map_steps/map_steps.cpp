@@ -76,7 +76,8 @@ std::string run_rotate(HeightMap& map, const MapStep& step, MapStepContext& cont
     if (quarters > 0.0) map = turn_map(map, kTurns[static_cast<int>(quarters) - 1], step.point("about"));
     return "exact, " + describe_place(map);
   }
-  map = rotate_map(map, degrees, step.point("about").value_or(middle_of(map.grid)), context.threads, context.progress);
+  map = rotate_map(map, degrees, step.point("about").value_or(middle_of(map.grid)), context.threads, context.limit(),
+                   context.progress);
   return fmt::format("{}, {}", size_of(map), describe_place(map));
 }
 
@@ -110,7 +111,8 @@ std::string run_decimate(HeightMap& map, const MapStep& step, MapStepContext& co
 
 std::string run_resample(HeightMap& map, const MapStep& step, MapStepContext& context) {
   const double pitch = step.number("pitch");
-  map = resample_map(map, {pitch, step.optional_number("pitch-y").value_or(pitch)}, context.threads, context.progress);
+  map = resample_map(map, {pitch, step.optional_number("pitch-y").value_or(pitch)}, context.threads, context.limit(),
+                     context.progress);
   return fmt::format("{}, {}", size_of(map), describe_place(map));
 }
 
@@ -121,6 +123,7 @@ std::string run_extend(HeightMap& map, const MapStep& step, MapStepContext& cont
   options.shortest = step.optional_number("shortest").value_or(options.width);
   if (step.has("iterations")) options.iterations = static_cast<int>(step.whole("iterations", 1, 1'000'000));
   options.tolerance = step.optional_number("tolerance").value_or(options.tolerance);
+  options.limit = context.limit();
   ExtendSummary summary;
   map = extend_map(map, options, summary, context.threads, context.progress);
   std::string text = fmt::format("{} pixels added", summary.pixels);

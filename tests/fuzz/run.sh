@@ -10,7 +10,7 @@ mkdir -p "$corpus" "$build/findings"
 
 # A reader must not need more memory or time for a small input than these.
 longest=4096
-[[ $name =~ ^(zygo_dat|hdf5|fits)$ ]] && longest=8192  # their headers alone take half of it
+[[ $name =~ ^(zygo_dat|hdf5|fits)$ ]] && longest=16384  # their headers alone take half of it
 limits=(-max_len=$longest -malloc_limit_mb=64 -rss_limit_mb=1024 -timeout=5)
 status=0
 "$build/tests/fuzz/fuzz_$name" "${limits[@]}" -max_total_time="$seconds" -print_final_stats=1 \

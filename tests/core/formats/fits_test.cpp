@@ -9,22 +9,13 @@
 #include "tests/core/base/expect_error.h"
 #include "tests/core/base/temporary_folder.h"
 #include "tests/core/formats/byte_flips.h"
+#include "tests/core/formats/fits_test_file.h"
 #include "tests/core/map/same_map.h"
 
 namespace dwell {
 namespace {
 
-/// A FITS file written by hand from the standard: cards of 80 characters, blocks of 2880 bytes.
-std::string header(const std::vector<std::string>& cards) {
-  std::string text;
-  for (std::string card : cards) {
-    card.resize(80, ' ');
-    text += card;
-  }
-  text += "END";
-  text.resize((text.size() + 2879) / 2880 * 2880, ' ');
-  return text;
-}
+std::string header(const std::vector<std::string>& cards) { return test::fits_cards(cards); }
 
 std::vector<std::string> primary(int bitpix, int cols, int rows, const std::vector<std::string>& more = {}) {
   std::vector<std::string> cards{"SIMPLE  =                    T", fmt::format("BITPIX  = {:20}", bitpix),
@@ -80,7 +71,7 @@ TEST(Fits, ReadsEveryTypeScaledWithItsBlank) {
   test::expect_input_error([&] { read_map(file, options); }, {"a.fits", "infinite", "column 2"});
 }
 
-TEST(Fits, FindsTheFirstImageOfAMap) {
+TEST(Fits, FindsTheOnlyImageOfAMap) {
   const std::string empty = header({"SIMPLE  =                    T", "BITPIX  =                    8",
                                     "NAXIS   =                    0", "EXTEND  =                    T"});
   const auto extension = [](const std::vector<int>& sizes) {
@@ -96,6 +87,29 @@ TEST(Fits, FindsTheFirstImageOfAMap) {
         read_fits(empty + extension({6}) + extension({1, 3, 2}));
       },
       {"map a.fits", "no image of two axes"});
+}
+
+// c07: the first of several images was taken without a word.
+TEST(Fits, ListsSeveralImagesAndTakesTheOneThatIsNamed) {
+  using test::FitsUnit;
+  const std::string bytes = test::fits_file({FitsUnit{},
+                                             {"PUPIL", 2, 1, {0, 1}, {"PITCHMM = 0.5"}},
+                                             {"OPD", 3, 2, kOneToSix, {"PITCHMM = 0.25"}},
+                                             {"OPD", 1, 1, {7}, {"PITCHMM = 1.0"}}});
+  const test::TemporaryFolder folder;
+  const std::string name = folder.file("a.fits", bytes).string();
+  test::expect_input_error([&] { read_map(name); },
+                           {"a.fits", "3 images", "1 or PUPIL (2 x 1 pixels)", "2 or OPD (3 x 2 pixels)", "':3'"});
+  EXPECT_EQ(read_map(name + ":2").values, kOneToSix);
+  EXPECT_EQ(read_map(name + ":2").grid.pitch_x, 0.25);
+  EXPECT_EQ(read_map(name + ":pupil").values, (std::vector<double>{0, 1}));
+  test::expect_input_error([&] { read_map(name + ":OPD"); }, {"2 images", "called 'OPD'", "2 or OPD", "3 or OPD"});
+  for (const char* wrong : {":0", ":4", ":none", ":/2"}) {
+    test::expect_input_error([&] { read_map(name + wrong); }, {"0 images", "1 or PUPIL"});
+  }
+  const std::string single =
+      folder.file("b.fits", test::fits_file({{"", 3, 2, kOneToSix, {"PITCHMM = 1.0"}}})).string();
+  EXPECT_EQ(read_map(single + ":0").values, kOneToSix);
 }
 
 TEST(Fits, KnowsPitchOriginAndUnit) {

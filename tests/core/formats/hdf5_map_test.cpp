@@ -52,6 +52,34 @@ TEST(Hdf5Map, ReadsIntegersChunksAndFilters) {
   EXPECT_EQ(read_hdf5(file.bytes()).values, (std::vector<double>{1, -2, 3, 4, 5, -600}));
 }
 
+// c11_lzf.h5: the message did not say which filter.
+TEST(Hdf5Map, NamesAFilterThatIsNotBuiltIn) {
+  constexpr H5Z_filter_t kLzf = 32000;
+  const H5Z_class2_t lzf{
+      H5Z_CLASS_T_VERS,
+      kLzf,
+      1,
+      1,
+      "lzf",
+      nullptr,
+      nullptr,
+      [](unsigned, std::size_t, const unsigned*, std::size_t bytes, std::size_t*, void**) { return bytes; }};
+  H5Zregister(&lzf);
+  const hid_t packed = H5Pcreate(H5P_DATASET_CREATE);
+  const hsize_t chunk[2] = {1, 2};
+  H5Pset_chunk(packed, 2, chunk);
+  H5Pset_filter(packed, kLzf, 0, 0, nullptr);
+  std::string bytes;
+  {
+    Hdf5TestFile file;
+    file.doubles("/m", {2, 3}, kSixValues, packed);
+    bytes = file.bytes();
+  }
+  H5Pclose(packed);
+  H5Zunregister(kLzf);
+  test::expect_input_error([&] { read_hdf5(bytes); }, {"map a.h5", "'/m'", "filter 'lzf'", "32000", "gzip"});
+}
+
 TEST(Hdf5Map, ListsTheMatricesOfAFileThatHoldsSeveral) {
   Hdf5TestFile file;
   file.doubles("/before", {2, 3}, kSixValues);
@@ -64,6 +92,7 @@ TEST(Hdf5Map, ListsTheMatricesOfAFileThatHoldsSeveral) {
   options.pitch = 1.0;
   EXPECT_EQ(read_map(name + ":/runs/after", options).at(2, 1), 6.0);
   EXPECT_EQ(read_map(name + ":/before", options).at(1, 2), 6.0);
+  EXPECT_EQ(read_map(name + ":runs/after", options).at(2, 1), 6.0) << "with or without the slash";
   test::expect_input_error([&] { read_map(name + ":/runs", options); }, {"a.h5:/runs", "'/runs'", "no data set"});
   test::expect_input_error([&] { read_map(name + ":/none", options); }, {"a.h5:/none", "'/none' is not there"});
   test::expect_input_error([&] { read_map(name + ":/before"); }, {"`map pixel`", "attribute pitch_mm"});
@@ -89,7 +118,7 @@ TEST(Hdf5Map, NamesTheAttributeOfWhatItRefuses) {
   };
   refused([](auto& f) { f.number("/m", "pitch_mm", {-0.5}); }, {"pitch_mm", "'/m'", "-0.5", "> 0"});
   refused([](auto& f) { f.number("/m", "pitch_mm", {1, 2, 3}); }, {"pitch_mm", "or two"});
-  refused([](auto& f) { f.text("/m", "pitch_mm", "0.5"); }, {"pitch_mm", "finite number"});
+  refused([](auto& f) { f.text("/m", "pitch_mm", "0.5"); }, {"pitch_mm", "'0.5'", "finite number"});
   refused([](auto& f) { f.number("/m", "origin_mm", {1}); }, {"origin_mm", "two"});
   refused([](auto& f) { f.number("/m", "origin_mm", {1, NAN}); }, {"origin_mm", "finite"});
   refused([](auto& f) { f.number("/m", "unit", {1}); }, {"unit", "a text"});

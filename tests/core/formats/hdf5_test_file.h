@@ -1,6 +1,7 @@
 #pragma once
 
 #include <hdf5.h>
+#include <hdf5_hl.h>
 
 #include <cstdint>
 #include <string>
@@ -46,11 +47,33 @@ class Hdf5TestFile {
     data_set(path, std::move(sizes), values, H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE, creation);
   }
 
-  void number(const std::string& path, const std::string& name, const std::vector<double>& values) {
+  void number(const std::string& path, const std::string& name, const std::vector<double>& values,
+              hid_t stored = H5T_NATIVE_DOUBLE) {
     const hsize_t count = values.size();
-    const hid_t space = H5Screate_simple(1, &count, nullptr);
-    attribute(path, name, H5T_NATIVE_DOUBLE, space, values.data());
+    const hid_t space = H5Screate_simple(1, &count, nullptr), set = H5Oopen(file_, path.c_str(), H5P_DEFAULT);
+    const hid_t made = H5Acreate2(set, name.c_str(), stored, space, H5P_DEFAULT, H5P_DEFAULT);
+    H5Awrite(made, H5T_NATIVE_DOUBLE, values.data());
+    H5Aclose(made);
+    H5Oclose(set);
     H5Sclose(space);
+  }
+  /// One text as a data set of no dimension.
+  void text_set(const std::string& path, const std::string& value) {
+    const hid_t type = H5Tcopy(H5T_C_S1), space = H5Screate(H5S_SCALAR);
+    H5Tset_size(type, value.size() + 1);
+    const hid_t set = H5Dcreate2(file_, path.c_str(), type, space, links_, H5P_DEFAULT, H5P_DEFAULT);
+    H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, value.c_str());
+    H5Dclose(set);
+    H5Sclose(space);
+    H5Tclose(type);
+  }
+  /// Attaches a data set as the scale of an axis of another, as netCDF-4 does.
+  void scale(const std::string& path, unsigned axis, const std::string& of) {
+    const hid_t set = H5Dopen2(file_, of.c_str(), H5P_DEFAULT), scale = H5Dopen2(file_, path.c_str(), H5P_DEFAULT);
+    H5DSset_scale(scale, path.c_str());
+    H5DSattach_scale(set, scale, axis);
+    H5Dclose(scale);
+    H5Dclose(set);
   }
   /// A string of variable or of fixed length.
   void text(const std::string& path, const std::string& name, const std::string& value, bool fixed = false) {

@@ -30,10 +30,21 @@ TEST(MapName, IsTheFileOfTheWholeNameIfThereIsOne) {
   EXPECT_EQ(read_map(folder.path() / "odd:/a.csv").at(0, 1), 2.0);
 }
 
+TEST(MapName, IsSplitBehindTheNameOfAFile) {
+  const test::TemporaryFolder folder;
+  const std::string file = folder.file("a:b.fits", "x").string();
+  EXPECT_EQ(split_map_name(file + ":OPD").file.string(), file);
+  EXPECT_EQ(split_map_name(file + ":OPD").inside, "OPD");
+  EXPECT_EQ(split_map_name(file + ":2").inside, "2");
+  EXPECT_EQ(split_map_name(file).inside, "");
+  EXPECT_EQ(split_map_name(file + "x:2").inside, "") << "no such file";
+}
+
 TEST(MapName, FormatsOfOneArrayRefuseAPath) {
   const test::TemporaryFolder folder;
   const std::string text = folder.file("a.csv", "# pitch_mm: 1\n1,2\n").string();
   test::expect_input_error([&] { read_map(text + ":/b"); }, {"a.csv:/b", "text", "leave out ':/b'"});
+  test::expect_input_error([&] { read_map(text + ":2"); }, {"a.csv:2", "leave out ':2'"});
   HeightMap map(Grid{1, 2, 1.0, 1.0, {}}, {1.0, 2.0});
   write_map(folder.path() / "a.npy", map);
   test::expect_input_error([&] { read_map((folder.path() / "a.npy").string() + ":/b"); },

@@ -88,8 +88,44 @@ TEST(NpySidecar, KnowsNothingOfAnArrayWithoutASidecarBefore) {
   const std::string sha(64, 'a'), other(64, 'b');
   const std::string text =
       R"({"pitch_mm": [1, 2], "sha256": ")" + sha + R"(", "previous": {"sha256": ")" + other + R"("}})";
-  EXPECT_EQ(parse_npy_sidecar(text, sha, "a.json").pitch, (Point{1, 2}));
-  EXPECT_FALSE(parse_npy_sidecar(text, other, "a.json").pitch.has_value());
+  EXPECT_EQ(parse_npy_sidecar(text, sha, "a.json").header.pitch, (Point{1, 2}));
+  EXPECT_FALSE(parse_npy_sidecar(text, other, "a.json").header.pitch.has_value());
+}
+
+// u_side.npy.json: a key `units` was skipped, and heights were a thousand times too small.
+TEST(NpySidecar, ReadsTheKeysOfOtherPrograms) {
+  const std::string sha(64, 'a');
+  const auto said = [&](const std::string& fields) {
+    return parse_npy_sidecar("{\"sha256\": \"" + sha + "\", " + fields + "}", sha, "a.json");
+  };
+  EXPECT_EQ(said(R"("units": "um")").header.unit, "um");
+  EXPECT_EQ(said(R"("grid": {"pixel_size_um": 500}, "Height unit": "nm")").header.pitch, (Point{0.5, 0.5}));
+  EXPECT_EQ(said(R"("pitch": 0.5, "pitch_unit": "mm")").header.pitch, (Point{0.5, 0.5}));
+  EXPECT_EQ(said(R"("pixel_size": 0.5)").unclear_pitch, "pixel_size = 0.5");
+  EXPECT_EQ(said(R"("offset_x_mm": 3)").unclear_origin, "offset_x_mm = 3");
+  EXPECT_EQ(said(R"("no_data": -9999)").no_data, (std::vector<double>{-9999}));
+  EXPECT_FALSE(said(R"("operator": "nobody", "shape": [2, 3], "temperature_unit": "K")").header.unit);
+  test::expect_input_error([&] { said(R"("unit": "um", "units": "nm")"); }, {"a.json", "unit = 'um'", "units = 'nm'"});
+  test::expect_input_error([&] { said(R"("z_scale": 0.001)"); }, {"a.json", "z_scale = 0.001"});
+}
+
+TEST(NpySidecar, ItsMarkersOfNoDataAndItsUnitHoldForTheArray) {
+  const test::TemporaryFolder folder;
+  const auto file = folder.path() / "a.npy";
+  const HeightMap map(Grid{1, 3, 1.0, 1.0, {}}, {1.0, -9999.0, 3.0});
+  write_whole_file(file, npy_bytes(map));
+  write_whole_file(npy_sidecar_name(file),
+                   R"({"pitch_mm": [1, 2], "units": "um", "no_data": -9999, "x_offset": 3, "sha256": ")" +
+                       sha256_of_file(file) + "\"}");
+  MapReadOptions options;
+  test::expect_input_error([&] { read_map(file, options); }, {"a.npy", "unit um", "`map unit` um"});
+  options.scale = 1e3;
+  test::expect_input_error([&] { read_map(file, options); }, {"a.npy", "x_offset = 3", "`map origin`"});
+  options.origin = Point{3.0, 0.0};
+  const HeightMap read = read_map(file, options);
+  EXPECT_EQ(read.at(0, 2), 3000.0);
+  EXPECT_TRUE(std::isnan(read.at(0, 1)));
+  EXPECT_EQ(read.history, (std::vector<std::string>{"read a.npy.json: pixels without data: 1 of no data -9999"}));
 }
 
 TEST(NpySidecar, NamesWhatItRefuses) {

@@ -103,8 +103,32 @@ TEST(SdfText, NamesWhatItRefuses) {
   refused(file("aISO-1.0", "1 2 3\n4 5 6 7\n*\n"), {"line 16", "line *", "NumProfiles = 2"});
   refused(file("aISO-1.0", "1 2 3\n4 1,5 6\n*\n"), {"line 16", "'1,5'"});
   refused(file("aISO-1.0", "1 2 3\n4 inf 6\n*\n"), {"'inf'"});
+  refused(file("aISO-1.0", "1 2 nan\n4 5 6\n*\n"), {"line 15", "'nan'", "value 3 of row 1", "BAD for no data"});
   refused(file("aISO-1.0", "1 2 3\n4 5 6\n*\n# pitch_mm: 0.01,0.26\n*\n"), {"trailer", "0.01,0.26", "Yscale"});
   refused(file("aISO-1.0", "1 2 3\n4 5 6\n*\n# unit: um\n*\n"), {"trailer", "unit um"});
+}
+
+TEST(SdfText, RefusesFieldsThatContradictTheStandard) {
+  const auto with_field = [](const std::string& field) {
+    return with(file("aISO-1.0", "1 2 3\n4 5 6\n*\n"), "Compression", "Compression = 0\n" + field + "\n");
+  };
+  const auto refused = [&](const std::string& field, std::initializer_list<std::string> words) {
+    test::expect_input_error([&] { parse_sdf_text(with_field(field), kSdfName); }, words);
+  };
+  refused("Unit = um", {"map a.sdf", "unit of 'um'", "m is required"});
+  refused("NoData = -9999", {"-9999", "BAD is required"});
+  refused("Zoffset = 3", {"SDF header field zoffset = 3"});
+  for (const char* harmless : {"Unit = m", "ZUnits = metre", "Operator = nobody", "Xoffset = 0"}) {
+    EXPECT_DOUBLE_EQ(parse_sdf_text(with_field(harmless), kSdfName).values.at(1), 2000.0) << harmless;
+  }
+  EXPECT_NE(parse_sdf_text(with_field("Xoffset = 3"), kSdfName).unclear_origin.find("xoffset = 3"), std::string::npos);
+  const auto with_trailer = [](const std::string& line) {
+    return file("aISO-1.0", "1 2 3\n4 5 6\n*\n" + line + "\n*\n");
+  };
+  for (const char* line : {"<Unit>um</Unit>", "Units = um"}) {
+    test::expect_input_error([&] { parse_sdf_text(with_trailer(line), kSdfName); }, {"unit of 'um'"});
+  }
+  EXPECT_EQ(parse_sdf_text(with_trailer("< OperatorName > Tom < / OperatorName >"), kSdfName).rows, 2);
 }
 
 /// Nothing in it is symmetric.

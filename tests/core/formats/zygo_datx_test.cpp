@@ -104,6 +104,20 @@ TEST(ZygoDatx, LeavesThePitchOpenWhereTheFileDoes) {
   EXPECT_EQ(read_map(path, options).grid, (Grid{2, 3, 0.5, 0.5, {7.5, -11.5}}));
 }
 
+// A header in single precision says 0.1000000047 where a user types 0.1; the tolerance was lost on the way from the
+// reader's process.
+TEST(ZygoDatx, TakesAPitchThatAgreesInSinglePrecision) {
+  Datx datx;
+  datx.x[1] = datx.y[1] = 1.00000004749745e-4;
+  const test::TemporaryFolder folder;
+  const auto path = folder.file("a.datx", datx.bytes());
+  MapReadOptions options;
+  options.pitch = 0.1;
+  EXPECT_NEAR(read_map(path, options).grid.pitch_x, 0.1, 1e-8);
+  options.pitch = 0.10001;
+  test::expect_input_error([&] { read_map(path, options); }, {"a.datx", "0.10001", "agree"});
+}
+
 TEST(ZygoDatx, FollowsTheLinksToTheSurface) {
   Datx second;
   second.path = "/Data/Surface/{B}";

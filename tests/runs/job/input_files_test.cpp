@@ -7,6 +7,8 @@
 
 #include "core/base/whole_file.h"
 #include "core/formats/map_io.h"
+#include "core/formats/npy.h"
+#include "core/formats/npy_sidecar.h"
 #include "runs/job/place_option.h"
 #include "runs/plan/part.h"
 #include "tests/core/base/expect_error.h"
@@ -102,6 +104,24 @@ TEST(LoadRemovalFunction, ReadsAFileWithItsUnitPitchAndAxis) {
   options.tif_centre = parse_tif_centre("0.75,0.25");
   EXPECT_DOUBLE_EQ(load_removal_function(options, inputs).samples.grid.origin.x, -0.75);
   EXPECT_DOUBLE_EQ(load_removal_function(options, inputs).samples.grid.origin.y, -0.25);
+}
+
+// A removal function is placed by its own middle: a doubtful origin keeps nobody from reading it, unless its axis is
+// given as a place in the file.
+TEST(LoadRemovalFunction, NeedsAClearOriginOnlyForAnAxisThatIsGiven) {
+  const TemporaryFolder folder;
+  const HeightMap rates(Grid{3, 3, 0.5, 0.5, {}}, {0, 0, 0, 0, 6, 3, 0, 0, 0});
+  const auto file = folder.path() / "spot.npy";
+  write_whole_file(file, npy_bytes(rates));
+  write_whole_file(npy_sidecar_name(file),
+                   "{\"pitch_mm\": [0.5, 0.5], \"x_offset\": 3, \"sha256\": \"" + sha256_of_file(file) + "\"}");
+  JobOptions options;
+  options.tif = file.string();
+  std::vector<InputFile> inputs;
+  EXPECT_DOUBLE_EQ(load_removal_function(options, inputs).samples.grid.origin.x, -0.5);
+  options.tif_centre = parse_tif_centre("0.5,0.5");
+  expect_input_error([&] { load_removal_function(options, inputs); },
+                     {"spot.npy", "x_offset = 3", "`tif centre` middle or centroid"});
 }
 
 // As from an interferometer: the surface after 4 s, tilted, off its middle, and longer towards +x than towards -x.

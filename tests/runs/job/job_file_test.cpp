@@ -26,6 +26,7 @@ JobOptions unusual() {
   o.map_unit = "um";
   o.map_origin_mm = Point{-12.5, 1.0 / 3.0};
   o.map_steps = "crop:data; subtract:file=/data/b.csv,how=resample";
+  o.max_pixels = 1e6;
   o.tif = "gaussian:peak=1,fwhm=2.8,radius=5";
   o.tif_pixel_mm = 0.2;
   o.tif_unit = "um/min";

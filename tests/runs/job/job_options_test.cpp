@@ -54,6 +54,7 @@ TEST(JobOptionTable, GivesBackWhatItIsGiven) {
                                                                   {"map-unit", "um"},
                                                                   {"map-origin", "-12.5,3"},
                                                                   {"map-steps", "crop:data;fill:harmonic"},
+                                                                  {"max-pixels", "1000000000"},
                                                                   {"tif-unit", "um/min"},
                                                                   {"tif-centre", "0.25,-1"},
                                                                   {"path", "nearest:cell=2"},
@@ -108,6 +109,9 @@ TEST(JobOptionTable, RefusesWhatIsOutOfRangeNamingOptionValueAndRange) {
   for (const char* text : {"-1", "1.5", "nan", "1025", "two"}) {
     expect_input_error([&] { set(options, "threads", text); }, {"--threads", text, "whole number"});
   }
+  for (const char* text : {"0", "1.5", "nan", "2147483649", "many"}) {
+    expect_input_error([&] { set(options, "max-pixels", text); }, {"--max-pixels", text, "from 1 to 2147483648"});
+  }
 }
 
 TEST(JobOptionTable, RefusesUnknownWordsNamingTheAcceptedOnes) {
@@ -116,9 +120,9 @@ TEST(JobOptionTable, RefusesUnknownWordsNamingTheAcceptedOnes) {
     expect_input_error([&] { set(options, flag, text); }, {std::string("--") + flag, text});
     expect_input_error([&] { set(options, flag, text); }, words);
   };
-  refused("map-unit", "inch", {"nm", "um", "mm"});
-  refused("tif-unit", "inch/s", {"nm/s", "um/min", "m/s"});
-  refused("tif-unit", "inch", {"nm", "um", "mm"});
+  refused("map-unit", "waves", {"nm", "um", "mm"});
+  refused("tif-unit", "waves/s", {"nm/s", "um/min", "m/s"});
+  refused("tif-unit", "waves", {"nm", "um", "mm"});
   refused("map-origin", "1", {"X,Y"});
   refused("map-origin", "1,nan", {"X,Y"});
   refused("tif-centre", "left", {"middle", "centroid", "X,Y"});

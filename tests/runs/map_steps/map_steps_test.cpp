@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "core/base/grid_limit.h"
 #include "core/base/whole_file.h"
 #include "core/map/map_arithmetic.h"
 #include "tests/core/base/expect_error.h"
@@ -49,6 +50,27 @@ TEST(MapSteps, EveryExampleParsesAndItsHistoryTextParsesToTheSame) {
     const std::string all = to_string(step, true);
     EXPECT_EQ(to_string(parse_map_step(all, map_step_table()), true), all);
   }
+}
+
+// Every step that can make a larger map than it is given asks the one limit before it takes the memory.
+TEST(MapSteps, KeepWithinTheLimitOfPixels) {
+  const auto within = [](double most, const std::string& step) {
+    HeightMap map = uneven_map();  // 9 x 14 pixels of 0.2 x 0.3 mm
+    std::vector<InputFile> inputs;
+    MapReadOptions read;
+    read.limit = {most};
+    MapStepContext context{read, &inputs, 1, {}};
+    apply_map_steps(map, parse_map_steps(step), context);
+    return static_cast<double>(map.grid.size());
+  };
+  for (const std::string step :
+       {"resample:0.1", "rotate:30", "extend:nearest,width=1", "fiducials:from=0/2.5/1/2.5,to=0/2.5/0.6/3.3"}) {
+    const double made = within(kMaxPixels, step);
+    EXPECT_GT(made, 9.0 * 14.0) << step;
+    EXPECT_EQ(within(made, step), made) << step;
+    expect_input_error([&] { within(made - 1.0, step); }, {step.substr(0, step.find(':')), "`max pixels`"});
+  }
+  expect_input_error([&] { within(700.0, "extend:gerchberg,width=1,shortest=9"); }, {"the transform", "to 700 pixels"});
 }
 
 /// Every step by name against the library call it stands for, or by what it must leave.

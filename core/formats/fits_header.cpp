@@ -1,0 +1,240 @@
+#include "core/formats/fits_header.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <string_view>
+#include <utility>
+
+#include "core/base/errors.h"
+#include "core/base/number_text.h"
+#include "core/base/units.h"
+#include "core/formats/field_name.h"
+#include "core/map/value_units.h"
+
+namespace dwell {
+namespace {
+
+/// The keywords of the image that is open.
+class Keywords {
+ public:
+  Keywords(fitsfile* file, const std::string& where) : file_(file), where_(where) {}
+
+  std::optional<double> number(const std::string& name) const {
+    double value = 0.0;
+    int status = 0;
+    fits_read_key(file_, TDOUBLE, name.c_str(), &value, nullptr, &status);
+    if (absent(status)) return std::nullopt;
+    if (status != 0) refuse(name, fits_message(status), "a number is required");
+    if (!std::isfinite(value)) refuse(name, fmt::format("{}", value), "a finite number is required");
+    return value;
+  }
+  std::optional<std::string> text(const std::string& name) const {
+    char* value = nullptr;
+    int status = 0;
+    fits_read_key_longstr(file_, name.c_str(), &value, nullptr, &status);
+    const std::string found = value ? value : "";
+    std::free(value);
+    if (absent(status)) return std::nullopt;
+    if (status != 0) refuse(name, fits_message(status), "a text is required");
+    return std::string(trim(found));
+  }
+  [[noreturn]] void refuse(const std::string& name, const std::string& value, const char* required) const {
+    throw InputError(fmt::format("{}: FITS keyword {} = {}; {}", where_, name, value, required));
+  }
+  fitsfile* file() const { return file_; }
+
+ private:
+  static bool absent(int status) {
+    if (status != KEY_NO_EXIST && status != VALUE_UNDEFINED) return false;
+    fits_clear_errmsg();
+    return true;
+  }
+  fitsfile* file_;
+  const std::string& where_;
+};
+
+/// One axis as the keywords of world coordinates describe it.
+struct LinearAxis {
+  double pitch = 0.0, origin = 0.0;  // [mm]
+};
+
+/// The step along an axis and its keyword; nothing if there is none.
+std::optional<std::pair<std::string, double>> step_of(const Keywords& keywords, const std::string& n) {
+  for (const std::string& name : {"CDELT" + n, fmt::format("CD{}_{}", n, n)}) {
+    if (const auto step = keywords.number(name)) return std::pair{name, *step};
+  }
+  return std::nullopt;
+}
+
+/// Axes of the map must be those of the image.
+void check_not_turned(const Keywords& keywords) {
+  for (const std::string name : {"CD1_2", "CD2_1", "PC1_2", "PC2_1", "CROTA1", "CROTA2"}) {
+    const double across = keywords.number(name).value_or(0.0);
+    if (across != 0.0) keywords.refuse(name, fmt::format("{}", across), "0 (axes along x and y) is required");
+  }
+  for (const std::string name : {"PC1_1", "PC2_2"}) {
+    const double along = keywords.number(name).value_or(1.0);
+    if (along != 1.0) keywords.refuse(name, fmt::format("{}", along), "1 (the step is in CDELT) is required");
+  }
+}
+
+/// Nothing if it is not in a unit of length: the angles of the sky are no pitch.
+std::optional<LinearAxis> axis(const Keywords& keywords, int number) {
+  const std::string n = std::to_string(number);
+  const auto nm = known_length_unit(keywords.text("CUNIT" + n).value_or(""));
+  if (!nm) return std::nullopt;
+  const auto step = step_of(keywords, n);
+  if (!step) return std::nullopt;
+  check_not_turned(keywords);
+  const auto& [name, size] = *step;
+  if (!(size > 0.0)) keywords.refuse(name, fmt::format("{}", size), "a step > 0 is required");
+  const double mm = *nm / units::kNmPerMm;
+  const double reference = keywords.number("CRPIX" + n).value_or(0.0);
+  const double value = keywords.number("CRVAL" + n).value_or(0.0);
+  const LinearAxis found{size * mm, (value + (1.0 - reference) * size) * mm};
+  if (!std::isfinite(found.pitch) || !std::isfinite(found.origin)) {
+    keywords.refuse(name, fmt::format("{}", size), "a pitch and an origin that are finite in mm are required");
+  }
+  return found;
+}
+
+/// A card of the header: name, value and comment.
+struct Card {
+  std::string name, value, comment;
+
+  bool is_text() const { return value.starts_with('\''); }
+  std::optional<double> number() const {
+    std::string text = value;  // FITS may write 1.5D-3
+    std::replace(text.begin(), text.end(), 'D', 'E');
+    return finite_number(text);
+  }
+};
+
+/// Keywords of the standard and of this program, which are read by name or say nothing of the map.
+bool is_read_elsewhere(const std::string& name) {
+  constexpr std::array kNames{"SIMPLE",  "BITPIX",   "NAXIS",   "EXTEND",   "XTENSION", "PCOUNT",  "GCOUNT", "BSCALE",
+                              "BZERO",   "BLANK",    "ORIGIN",  "COMMENT",  "HISTORY",  "EXTNAME", "EXTVER", "DATAMIN",
+                              "DATAMAX", "TIMEUNIT", "EQUINOX", "LONGSTRN", "CONTINUE", "END"};
+  constexpr std::array kBeginnings{"NAXIS", "CDELT", "CUNIT", "CRPIX", "CRVAL", "CTYPE", "CROTA",
+                                   "CD1_",  "CD2_",  "PC1_",  "PC2_",  "MADE",  "CNAME", "DATE"};
+  return std::find(kNames.begin(), kNames.end(), name) != kNames.end() ||
+         std::any_of(kBeginnings.begin(), kBeginnings.end(), [&](const char* b) { return name.starts_with(b); });
+}
+
+/// The unit of length in brackets at the beginning of a comment, "[mm] pitch" or "pixel scale [m/pix]", in mm.
+std::optional<double> unit_of_comment(const std::string& comment) {
+  const std::size_t open = comment.find('['), close = comment.find(']', open == std::string::npos ? 0 : open);
+  if (open == std::string::npos || close == std::string::npos) return std::nullopt;
+  std::string unit = comment.substr(open + 1, close - open - 1);
+  for (const char* per : {"/pixel", "/pix", "/px", " per pixel"}) {
+    if (unit.ends_with(per)) unit.resize(unit.size() - std::string_view(per).size());
+  }
+  const auto nm = known_length_unit(unit);
+  return nm ? std::optional(*nm / units::kNmPerMm) : std::nullopt;
+}
+
+/// The same card as a field; nothing if its name speaks of nothing.
+std::optional<MapField> field_of_card(const Card& card, const Keywords& keywords) {
+  const FieldName name = parse_field_name(card.name);
+  if (is_read_elsewhere(card.name) || name.topic == FieldTopic::Other) return std::nullopt;
+  MapField field;
+  field.name = card.name;
+  field.shown = "FITS keyword " + card.name;
+  field.mm = unit_of_comment(card.comment);
+  if (card.name == "PITCHMM") field.mm = 1.0;
+  if (card.name == "PUPLSCAL") field.mm = units::kMmPerM;
+  const bool plate = card.name == "SCALE" || card.name == "PLTSCALE" || card.name == "SECPIX";
+  if (plate) field.name = "resolution";  // of the sky on the detector, in most files
+  if (card.is_text()) {
+    if (const auto text = keywords.text(card.name)) field.texts = {*text};
+  } else if (const auto number = card.number()) {
+    field.numbers = {*number};
+  }
+  return field;
+}
+
+std::vector<Card> cards_of(fitsfile* file) {
+  int count = 0, status = 0;
+  fits_get_hdrspace(file, &count, nullptr, &status);
+  std::vector<Card> cards;
+  for (int i = 1; i <= count; ++i) {
+    std::array<char, FLEN_KEYWORD> name{};
+    std::array<char, FLEN_VALUE> value{};
+    std::array<char, FLEN_COMMENT> comment{};
+    int fault = 0;  // of a card that cannot be read, which is one of nobody's
+    fits_read_keyn(file, i, name.data(), value.data(), comment.data(), &fault);
+    if (fault == 0) cards.push_back({name.data(), value.data(), comment.data()});
+  }
+  fits_clear_errmsg();
+  return cards;
+}
+
+/// World coordinates without a unit, or in none of length, leave the origin open; unless they are of the sky, which no
+/// map is laid out in.
+std::string unclear_world(const Keywords& keywords) {
+  std::string unclear;
+  for (const std::string n : {"1", "2"}) {
+    const std::string type = keywords.text("CTYPE" + n).value_or(""), unit = keywords.text("CUNIT" + n).value_or("");
+    constexpr std::array kSky{"RA--", "DEC-", "GLON", "GLAT", "ELON", "ELAT", "HPLN", "HPLT"};
+    const bool sky =
+        std::any_of(kSky.begin(), kSky.end(), [&](const char* begin) { return type.starts_with(begin); }) ||
+        lower_case(unit).starts_with("deg") || lower_case(unit).starts_with("arcsec");
+    const double value = keywords.number("CRVAL" + n).value_or(0.0);
+    if (sky || value == 0.0) continue;
+    unclear += fmt::format("{}FITS keyword CRVAL{} = {} with CUNIT{} = {}", unclear.empty() ? "" : ", ", n, value, n,
+                           in_quotes(unit));
+  }
+  return unclear;
+}
+
+void add_world(const Keywords& keywords, SaidOfMap& said, const std::string& where) {
+  const std::optional<LinearAxis> x = axis(keywords, 1), y = axis(keywords, 2);
+  if (!x || !y) {
+    const std::string unclear = unclear_world(keywords);
+    if (!unclear.empty()) said.unclear_origin += (said.unclear_origin.empty() ? "" : ", ") + unclear;
+    for (const std::string n : {"1", "2"}) {
+      const auto step = step_of(keywords, n);
+      if (!step) continue;
+      said.unclear_pitch +=
+          fmt::format("{}FITS keyword {} = {} with CUNIT{} = {}", said.unclear_pitch.empty() ? "" : ", ", step->first,
+                      step->second, n, in_quotes(keywords.text("CUNIT" + n).value_or("")));
+    }
+    return;
+  }
+  constexpr double kSame = 1e-6;  // relative: single precision
+  const auto same = [](double a, double b) { return std::abs(a - b) <= kSame * b; };
+  if (said.header.pitch && !(same(said.header.pitch->x, x->pitch) && same(said.header.pitch->y, y->pitch))) {
+    throw InputError(
+        fmt::format("{}: {}, but the FITS keywords CDELT and CUNIT give steps of {} and {} mm; they must agree", where,
+                    said.pitch_field, x->pitch, y->pitch));
+  }
+  said.header.pitch = Point{x->pitch, y->pitch};
+  said.header.origin = Point{x->origin, y->origin};
+  said.unclear_origin.clear();
+  said.pitch_field = fmt::format("FITS keywords CDELT and CUNIT: steps of {} and {} mm", x->pitch, y->pitch);
+}
+
+}  // namespace
+
+FitsHeader read_fits_header(fitsfile* file, const std::string& where) {
+  const Keywords keywords(file, where);
+  keywords.number("PITCHMM");  // of this program: a text there is refused
+  std::vector<MapField> fields;
+  for (const Card& card : cards_of(file)) {
+    if (auto field = field_of_card(card, keywords)) fields.push_back(std::move(*field));
+  }
+  FitsHeader header;
+  header.said = read_map_fields(fields, where);
+  add_world(keywords, header.said, where);
+  for (int step = 1; const auto made = keywords.text(fmt::format("MADE{}", step)); ++step) {
+    header.said.header.history.push_back(*made);
+  }
+  header.blank = keywords.number("BLANK");
+  return header;
+}
+
+}  // namespace dwell

@@ -1,0 +1,135 @@
+#include "core/formats/hdf5_fields.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <string_view>
+
+#include "core/base/errors.h"
+#include "core/base/number_text.h"
+#include "core/formats/field_name.h"
+#include "core/map/value_units.h"
+
+namespace dwell {
+namespace {
+
+/// Read elsewhere: those of CF, of dimension scales, and our own history.
+constexpr std::array<std::string_view, 16> kReadElsewhere{
+    "scale_factor", "add_offset",         "_FillValue", "missing_value", "valid_min",      "valid_max", "valid_range",
+    "_Unsigned",    "DIMENSION_LIST",     "CLASS",      "NAME",          "REFERENCE_LIST", "history",   "coordinates",
+    "grid_mapping", "_Netcdf4Coordinates"};
+
+MapField hdf5_field(const std::string& name, const std::optional<Hdf5Value>& value, const std::string& shown) {
+  MapField field;
+  field.name = name;
+  field.shown = shown;
+  if (value) field.numbers = value->numbers, field.texts = value->texts;
+  return field;
+}
+
+/// Small data sets beside the map whose names speak of it, as pitch or unit.
+void add_neighbours(const Hdf5File& file, const std::string& path, std::vector<MapField>& fields) {
+  for (const std::string& other : file.data_sets_in(group_of(path))) {
+    const FieldTopic topic = parse_field_name(last_name(other)).topic;
+    const bool speaks = topic == FieldTopic::ValueUnit || topic == FieldTopic::LateralUnit ||
+                        topic == FieldTopic::Pitch || topic == FieldTopic::Origin || topic == FieldTopic::NoData;
+    if (!speaks || other == path) continue;
+    const auto value = file.table(other);
+    if (!value || value->numbers.size() + value->texts.size() > 2) continue;  // an array of its own
+    fields.push_back(hdf5_field(last_name(other), value, fmt::format("HDF5 data set '{}'", other)));
+  }
+}
+
+void add_unit_of_name(const std::string& path, std::vector<MapField>& fields) {
+  const std::string unit = unit_of_array_name(last_name(path));
+  if (unit.empty()) return;
+  MapField field;
+  field.name = "unit";
+  field.texts = {unit};
+  field.shown = fmt::format("the name of HDF5 data set '{}'", path);
+  fields.push_back(std::move(field));
+}
+
+/// What a group says may hold for all that is in it. Of its many attributes only those count that speak of maps.
+std::vector<MapField> fields_of_group(const Hdf5File& file, const std::string& group) {
+  std::vector<MapField> fields;
+  for (const std::string& name : file.attributes(group)) {
+    const FieldName known = parse_field_name(name);
+    const std::string lower = lower_case(name);
+    const bool of_heights =
+        lower.starts_with('z') || lower.find("height") != std::string::npos || lower.find("value") != std::string::npos;
+    const bool speaks = known.topic == FieldTopic::ValueUnit || known.topic == FieldTopic::LateralUnit ||
+                        known.topic == FieldTopic::Pitch || known.topic == FieldTopic::NoData ||
+                        (known.topic == FieldTopic::Origin && known.clear) ||
+                        (known.topic == FieldTopic::ValueScale && of_heights);
+    if (!speaks) continue;
+    fields.push_back(
+        hdf5_field(name, file.attribute(group, name), fmt::format("attribute {} of HDF5 group '{}'", name, group)));
+  }
+  return fields;
+}
+
+void add_what_is_new(SaidOfMap& said, SaidOfMap more) {
+  if (!said.header.unit) said.header.unit = std::move(more.header.unit);
+  if (said.no_data.empty()) said.no_data = std::move(more.no_data);
+  if (!said.header.pitch) {
+    said.header.pitch = more.header.pitch;
+    said.pitch_field = std::move(more.pitch_field);
+    if (said.unclear_pitch.empty()) said.unclear_pitch = std::move(more.unclear_pitch);
+  }
+  if (!said.header.origin) {
+    said.header.origin = more.header.origin;
+    if (said.unclear_origin.empty()) said.unclear_origin = std::move(more.unclear_origin);
+  }
+}
+
+}  // namespace
+
+std::string group_of(const std::string& path) {
+  const std::size_t slash = path.rfind('/');
+  return slash == std::string::npos || slash == 0 ? "/" : path.substr(0, slash);
+}
+
+std::string last_name(const std::string& path) { return path.substr(path.rfind('/') + 1); }
+
+std::string unit_of_array_name(const std::string& name) {
+  const auto is_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; };
+  const auto begin = std::find_if_not(name.rbegin(), name.rend(), is_word).base();
+  const std::string unit(begin, name.end());
+  if (begin == name.begin() || unit.empty() || !known_length_unit(unit)) return unit_of_label(name);
+  std::string before(name.begin(), begin);
+  while (!before.empty() && !is_word(before.back())) before.pop_back();
+  // One letter, and "in" and "pm", say other things in most names: map_m, zoom_in.
+  constexpr std::array<std::string_view, 12> kArrays{"z",   "height", "heights", "opd", "surface", "sag",
+                                                     "map", "figure", "error",   "x",   "y",       "data"};
+  const bool doubtful = lower_case(unit) == "m" || lower_case(unit) == "in" || lower_case(unit) == "pm";
+  const bool array = std::find(kArrays.begin(), kArrays.end(), lower_case(before)) != kArrays.end();
+  return doubtful && !array ? "" : unit;
+}
+
+std::vector<MapField> fields_of_data_set(const Hdf5File& file, const std::string& path) {
+  std::vector<MapField> fields;
+  for (const std::string& name : file.attributes(path)) {
+    if (std::find(kReadElsewhere.begin(), kReadElsewhere.end(), name) != kReadElsewhere.end()) continue;
+    fields.push_back(
+        hdf5_field(name, file.attribute(path, name), fmt::format("attribute {} of HDF5 data set '{}'", name, path)));
+  }
+  return fields;
+}
+
+SaidOfMap said_of_data_set(const Hdf5File& file, const std::string& path, const std::string& where) {
+  std::vector<MapField> fields = fields_of_data_set(file, path);
+  add_unit_of_name(path, fields);
+  SaidOfMap said = read_map_fields(fields, where);
+  std::vector<MapField> neighbours;
+  add_neighbours(file, path, neighbours);
+  add_what_is_new(said, read_map_fields(neighbours, where));
+  for (std::string group = group_of(path);; group = group_of(group)) {
+    add_what_is_new(said, read_map_fields(fields_of_group(file, group), where));
+    if (group == "/") return said;
+  }
+}
+
+}  // namespace dwell

@@ -1,0 +1,28 @@
+#include "core/base/grid_limit.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "tests/core/base/expect_error.h"
+
+namespace dwell {
+namespace {
+
+TEST(GridLimit, Takes16384SquareUnlessTheUserSaysOtherwise) {
+  EXPECT_EQ(limited_grid(16384, 16384, {1, 1}, {}, "map a").size(), Index{16384} * 16384);
+  EXPECT_NO_THROW(check_pixels(2, 3, {6.0}, "map a"));
+  EXPECT_NO_THROW(check_pixels(20000, 20000, {4e8}, "map a"));
+  const auto refused = [](double rows, double cols, const PixelLimit& limit, const std::string& most) {
+    test::expect_input_error([&] { check_pixels(rows, cols, limit, "map a"); },
+                             {"map a: a map of", "from 1 to " + most + " pixels", "`max pixels`"});
+  };
+  refused(16384, 16385, {}, "268435456");
+  refused(2, 3, {5.0}, "5");
+  refused(0, 3, {}, "268435456");
+  refused(std::numeric_limits<double>::quiet_NaN(), 3, {}, "268435456");
+  refused(std::numeric_limits<double>::infinity(), 3, {}, "268435456");
+}
+
+}  // namespace
+}  // namespace dwell

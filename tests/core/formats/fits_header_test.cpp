@@ -1,0 +1,100 @@
+#include "core/formats/fits_header.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/formats/fits.h"
+#include "core/formats/map_io.h"
+#include "tests/core/base/expect_error.h"
+#include "tests/core/base/temporary_folder.h"
+#include "tests/core/formats/fits_test_file.h"
+
+namespace dwell {
+namespace {
+
+using test::FitsUnit;
+
+std::string map_bytes(const std::vector<std::string>& cards) {
+  return test::fits_file({FitsUnit{"", 3, 2, {1, 2, 3, 4, 5, 6}, cards}});
+}
+
+MapSource read_with(const std::vector<std::string>& cards) { return parse_fits(map_bytes(cards), "map a.fits"); }
+
+void refused(const std::vector<std::string>& cards, std::initializer_list<std::string> words) {
+  test::expect_input_error([&] { read_with(cards); }, words);
+}
+
+TEST(FitsHeader, KnowsWordsOfUnits) {
+  for (const char* unit : {"m", "meter", "Metres"}) {
+    const MapSource source = read_with({"CDELT1  = 0.0005", "CDELT2  = 0.0010", fmt::format("CUNIT1  = '{}'", unit),
+                                        fmt::format("CUNIT2  = '{}'", unit)});
+    ASSERT_TRUE(source.header.pitch) << unit;
+    EXPECT_DOUBLE_EQ(source.header.pitch->x, 0.5) << unit;
+    EXPECT_DOUBLE_EQ(source.header.pitch->y, 1.0) << unit;
+  }
+  EXPECT_EQ(read_with({"BUNIT   = 'microns '"}).header.unit, "microns");
+  EXPECT_EQ(read_with({"ZUNIT   = 'um'"}).header.unit, "um");
+  refused({"BUNIT   = 'um'", "ZUNIT   = 'nm'"}, {"map a.fits", "BUNIT = 'um'", "ZUNIT = 'nm'", "agree"});
+  refused({"WFUNIT  = 'nm'"}, {"FITS keyword WFUNIT = 'nm'", "unit of the heights"});
+  EXPECT_FALSE(read_with({"TIMEUNIT= 's'"}).header.unit);
+}
+
+TEST(FitsHeader, KnowsThePitchOfOtherPrograms) {
+  EXPECT_EQ(read_with({"PUPLSCAL= 0.0005"}).header.pitch, (Point{0.5, 0.5})) << "poppy: m a pixel";
+  EXPECT_EQ(read_with({"PIXELSCL= 0.0005", "PIXUNIT = 'meter'"}).header.pitch, (Point{0.5, 0.5}));
+  EXPECT_EQ(read_with({"PIXSCALE= 5.0D-1 / [mm] on the part"}).header.pitch, (Point{0.5, 0.5}));
+  EXPECT_EQ(read_with({"PIXSIZE1= 500 / size [um/pix]", "PIXSIZE2= 250 / [um/pix]"}).header.pitch, (Point{0.5, 0.25}));
+  EXPECT_EQ(read_with({"PUPLSCAL= 0.0005", "PIXELSCL= 0.0005", "PIXUNIT = 'meter'"}).header.pitch, (Point{0.5, 0.5}));
+  refused({"PUPLSCAL= 0.0005", "PITCHMM = 0.4"}, {"PUPLSCAL = 0.0005", "PITCHMM = 0.4", "agree"});
+  refused({"PUPLSCAL= 0.0005", "CDELT1  = 0.4", "CDELT2  = 0.4", "CUNIT1  = 'mm'", "CUNIT2  = 'mm'"},
+          {"PUPLSCAL = 0.0005", "CDELT", "0.4 and 0.4 mm", "agree"});
+  refused({"PUPLSCAL= -1.0"}, {"PUPLSCAL = -1", "> 0"});
+}
+
+TEST(FitsHeader, NamesWhatMayBeAPitch) {
+  for (const char* card : {"PIXSCALE= 0.5", "PIXELSCL= 0.5", "DIFFELEM= 0.5", "XPIXSZ  = 3.45", "SCALE   = 0.5",
+                           "PIXUNIT = 'arcsec'", "PUPLDIAM= 6.5", "CDELT1  = 0.5"}) {
+    const MapSource source = read_with({card, "PIXELSCL= 0.25"});
+    EXPECT_FALSE(source.header.pitch) << card;
+    const std::string name = std::string(card).substr(0, std::string(card).find_first_of("= "));
+    if (name == "PIXUNIT") continue;
+    EXPECT_NE(source.pitch_hint.find("FITS keyword " + name + " = "), std::string::npos) << source.pitch_hint;
+  }
+}
+
+TEST(FitsHeader, NamesWhatMayBeAnOrigin) {
+  EXPECT_NE(read_with({"CRVAL1  = -4.0"}).unclear_origin.find("CRVAL1 = -4 with CUNIT1 = ''"), std::string::npos);
+  EXPECT_NE(read_with({"XORGSUBF= 12"}).unclear_origin.find("XORGSUBF = 12"), std::string::npos);
+  EXPECT_EQ(read_with({"XORGSUBF= 0", "ORIGIN  = 'a workshop'"}).unclear_origin, "");
+  EXPECT_EQ(read_with({"CTYPE1  = 'RA---TAN'", "CRVAL1  = 83.6", "CUNIT1  = 'deg'"}).unclear_origin, "");
+  const test::TemporaryFolder folder;
+  const auto path = folder.file("a.fits", map_bytes({"PITCHMM = 0.5", "CRVAL1  = -4.0"}));
+  test::expect_input_error([&] { read_map(path); }, {"a.fits", "CRVAL1 = -4", "`map origin`"});
+}
+
+TEST(FitsHeader, RefusesAxesThatAreTurned) {
+  const std::vector<std::string> world{"CUNIT1  = 'mm'", "CUNIT2  = 'mm'", "CDELT1  = 0.5", "CDELT2  = 0.5"};
+  for (const char* card : {"CROTA2  = 10.0", "PC1_2   = 0.1", "PC1_1   = 0.5"}) {
+    std::vector<std::string> cards = world;
+    cards.emplace_back(card);
+    refused(cards, {std::string(card).substr(0, 5), "is required"});
+  }
+}
+
+TEST(FitsHeader, TakesMarkersOfNoData) {
+  const auto expect = [](const std::vector<std::string>& cards, const char* said) {
+    const MapSource source = read_with(cards);
+    EXPECT_TRUE(std::isnan(source.values.at(4))) << cards.front();
+    EXPECT_EQ(source.values.at(3), 4.0);
+    ASSERT_EQ(source.header.history.size(), 1u);
+    EXPECT_EQ(source.header.history.front(), said);
+  };
+  expect({"BLANK   = 5"}, "read FITS: pixels without data: 1 of BLANK 5");
+  expect({"NODATA  = 5.0"}, "read FITS: pixels without data: 1 of no data 5");
+  refused({"NODATA  = 'grey'"}, {"NODATA = 'grey'", "a number"});
+  refused({"ZSCALE  = 2.0"}, {"ZSCALE = 2", "1 (heights as they are)"});
+}
+
+}  // namespace
+}  // namespace dwell

@@ -1,0 +1,102 @@
+#include "core/formats/map_fields.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/core/base/expect_error.h"
+
+namespace dwell {
+namespace {
+
+MapField number(const std::string& name, const std::vector<double>& numbers) {
+  return {name, numbers, {}, "field " + name, {}};
+}
+MapField text(const std::string& name, const std::string& value) { return {name, {}, {value}, "field " + name, {}}; }
+
+SaidOfMap said(const std::vector<MapField>& fields) { return read_map_fields(fields, "map a"); }
+
+void refused(const std::vector<MapField>& fields, std::initializer_list<std::string> words) {
+  test::expect_input_error([&] { said(fields); }, words);
+}
+
+TEST(MapFields, TakeAUnitUnderItsManyNames) {
+  for (const char* name : {"unit", "units", "z_unit", "Height units", "BUNIT"}) {
+    EXPECT_EQ(said({text(name, " um ")}).header.unit, "um") << name;
+  }
+  EXPECT_EQ(said({text("long_name", "height [um]")}).header.unit, "um");
+  EXPECT_FALSE(said({text("long_name", "height [of the part]")}).header.unit);
+  EXPECT_FALSE(said({text("unit", "")}).header.unit);
+  EXPECT_EQ(said({text("unit", "um"), text("z_unit", "micrometers")}).header.unit, "um");
+  refused({text("unit", "um"), text("z_unit", "nm")}, {"map a", "field unit = 'um'", "field z_unit = 'nm'", "agree"});
+  refused({number("unit", {3})}, {"field unit = 3", "a text"});
+}
+
+TEST(MapFields, RefuseAUnitOfNobodyKnowsWhat) {
+  refused({text("gizmo_unit", "um")}, {"field gizmo_unit = 'um'", "unit of the heights"});
+  EXPECT_FALSE(said({text("gizmo_unit", "ms")}).header.unit) << "no height is in milliseconds";
+  EXPECT_EQ(said({text("gizmo_unit", "mm"), text("unit", "nm")}).header.unit, "nm");
+}
+
+TEST(MapFields, TakeAPitchWhereItsUnitIsSaid) {
+  EXPECT_EQ(said({number("pitch_mm", {0.5, 0.25})}).header.pitch, (Point{0.5, 0.25}));
+  EXPECT_EQ(said({number("pixel_size", {0.5}), text("xy_unit", "mm")}).header.pitch, (Point{0.5, 0.5}));
+  EXPECT_EQ(said({number("dx_mm", {0.5}), number("dy_mm", {0.25})}).header.pitch, (Point{0.5, 0.25}));
+  EXPECT_EQ(said({text("spacing", "0.5 mm")}).header.pitch, (Point{0.5, 0.5}));
+  EXPECT_EQ(said({number("um_per_pixel", {500}), number("pitch_mm", {0.5})}).header.pitch, (Point{0.5, 0.5}));
+  EXPECT_NEAR(said({number("pixel_size_m", {5e-4})}).header.pitch->x, 0.5, 1e-15);
+  EXPECT_NE(said({number("pixel_size_um", {500})}).pitch_field.find("pixel_size_um = 500"), std::string::npos);
+}
+
+TEST(MapFields, LeaveOpenWhatMayBeAnotherPitch) {
+  const auto unclear = [](const std::vector<MapField>& fields) {
+    const SaidOfMap result = said(fields);
+    EXPECT_FALSE(result.header.pitch);
+    return result.unclear_pitch;
+  };
+  EXPECT_EQ(unclear({number("pixel_size", {0.5})}), "field pixel_size = 0.5") << "of which unit?";
+  EXPECT_EQ(unclear({number("pixel_size_mm", {0.5, 0.25})}), "field pixel_size_mm = 0.5, 0.25") << "x first, or y?";
+  EXPECT_EQ(unclear({number("dx_mm", {0.5})}), "field dx_mm = 0.5") << "and y?";
+  EXPECT_NE(unclear({number("lateral_resolution_um", {3})}), "");
+  EXPECT_NE(unclear({number("camera_pixel_size_um", {3.45})}), "");
+  EXPECT_NE(unclear({number("width_mm", {30})}), "");
+  EXPECT_EQ(unclear({number("serial", {30})}), "");
+}
+
+TEST(MapFields, RefuseAPitchThatIsNone) {
+  refused({number("pitch_mm", {-0.5})}, {"pitch_mm = -0.5", "> 0"});
+  refused({text("pitch_mm", "0.5")}, {"pitch_mm = '0.5'", "finite number > 0"});
+  refused({number("pixel_size_um", {0})}, {"pixel_size_um = 0", "> 0"});
+  refused({number("pitch_mm", {0.5}), number("pixel_size_um", {400})},
+          {"pitch_mm = 0.5", "pixel_size_um = 400", "agree"});
+}
+
+TEST(MapFields, TakeAnOriginOrSayThatItIsUnclear) {
+  EXPECT_EQ(said({number("origin_mm", {-1.5, 2})}).header.origin, (Point{-1.5, 2.0}));
+  EXPECT_EQ(said({number("x_origin_um", {500}), number("y_origin_um", {-250})}).header.origin, (Point{0.5, -0.25}));
+  for (const MapField& field : {number("origin", {-1.5, 2}), number("x_offset_mm", {3}), number("x_origin_mm", {3}),
+                                text("origin", "upper left"), number("xmin", {1})}) {
+    const SaidOfMap result = said({field});
+    EXPECT_FALSE(result.header.origin) << field.name;
+    EXPECT_NE(result.unclear_origin.find(field.name), std::string::npos) << field.name;
+  }
+  EXPECT_EQ(said({number("x_offset", {0}), text("origin", "a shop in Jena")}).unclear_origin, "");
+  refused({number("origin_mm", {1, NAN})}, {"origin_mm", "two finite"});
+}
+
+TEST(MapFields, TakeMarkersOfNoDataAndRefuseFactors) {
+  EXPECT_EQ(said({number("no_data", {-9999}), text("missing", "nan")}).no_data, (std::vector<double>{-9999}));
+  refused({text("no_data", "grey")}, {"no_data = 'grey'", "a number"});
+  refused({number("z_scale", {1e-3})}, {"z_scale = 0.001", "1 (heights as they are)"});
+  refused({number("offset", {5})}, {"offset = 5", "0 (heights"});
+  EXPECT_TRUE(said({number("scale", {1}), number("offset", {0})}).no_data.empty());
+}
+
+TEST(MapFields, KnowALengthAsText) {
+  EXPECT_NEAR(length_of_text("632.8 nm").value(), 632.8e-6, 1e-15);
+  EXPECT_EQ(length_of_text("0.12mm"), 0.12);
+  for (const char* none : {"", "mm", "0.12", "0.12 s", "about 3 mm"}) EXPECT_FALSE(length_of_text(none)) << none;
+}
+
+}  // namespace
+}  // namespace dwell
