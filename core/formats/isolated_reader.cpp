@@ -74,6 +74,9 @@ void put_map(const MapSource& source, Writer& out) {
   out.put(source.header.origin.value_or(Point{}));
   out.put(source.header.unit.has_value());
   out.put_text(source.header.unit.value_or(""));
+  out.put(source.raw_factor);
+  out.put(source.header.no_data.size());
+  for (const double marker : source.header.no_data) out.put(marker);
   out.put(source.header.history.size());
   for (const std::string& step : source.header.history) out.put_text(step);
   out.put_text(source.pitch_hint);
@@ -94,6 +97,10 @@ MapSource source_of(Reader& in) {
   const bool has_unit = in.get<char>() != 0;
   const std::string unit = in.text();
   if (has_unit) source.header.unit = unit;
+  source.raw_factor = in.get<double>();
+  for (auto markers = in.get<std::size_t>(); markers > 0; --markers) {
+    source.header.no_data.push_back(in.get<double>());
+  }
   for (auto steps = in.get<std::size_t>(); steps > 0; --steps) source.header.history.push_back(in.text());
   source.pitch_hint = in.text();
   source.camera_pixel = in.get<Point>();

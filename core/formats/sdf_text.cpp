@@ -158,6 +158,7 @@ MapSource parse_sdf_text(std::string_view text, const std::string& where) {
   source.rows = grid.rows;
   source.cols = grid.cols;
   source.header.pitch = Point{pitch_x, pitch_y};
+  source.raw_factor = nm;
   source.values = read_text_grid(
       words, grid, text.size(),
       [nm](std::string_view word) {
