@@ -33,7 +33,13 @@ Parsed parse(std::string_view text) {
 std::string in_quotes(std::string_view text) {
   constexpr std::size_t kLongest = 40;
   std::string shown;
-  for (const char c : text.substr(0, kLongest)) shown += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+  for (const char c : text.substr(0, kLongest)) {
+    if (c == '\t') {
+      shown += "\\t";
+    } else {
+      shown += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+    }
+  }
   return fmt::format("'{}{}'", shown, text.size() > kLongest ? "..." : "");
 }
 

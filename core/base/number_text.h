@@ -32,7 +32,8 @@ bool starts_with_spreadsheet_error(std::string_view line);
 /// #NAME? are a broken formula.
 std::optional<double> height_number(std::string_view text);
 
-/// The text in quotes for an error message: its first 40 characters, control characters as blanks.
+/// The text in quotes for an error message: its first 40 characters, a tab as \t, other control characters as
+/// blanks.
 std::string in_quotes(std::string_view text);
 
 /// Why height_number refused `text`, with the text quoted, for an error message.

@@ -148,6 +148,7 @@ MapSource parse_codev_int(std::string_view text, const std::string& where, const
   source.rows = data.grid.rows;
   source.cols = data.grid.cols;
   source.header.unit = "nm";
+  source.raw_factor = nm;
   source.values = read_text_grid(
       words, data.grid, text.size(),
       [&](std::string_view word) {

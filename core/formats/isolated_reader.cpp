@@ -71,10 +71,12 @@ class Reader {
 /// the source would miss here does not compile.
 template <class Source, class Each>
 void each_field(Source& source, Each each) {
-  auto& [rows, cols, values, header, pitch_hint, pitch_field, unclear_origin, camera_pixel] = source;
-  auto& [pitch, origin, unit, history, pitch_rounding] = header;
-  static_cast<void>(values);  // come last, and fill the rest
-  each(rows), each(cols), each(pitch_hint), each(pitch_field), each(unclear_origin), each(camera_pixel);
+  auto& [rows, cols, values, raw_factor, header, pitch_hint, pitch_field, unclear_origin, camera_pixel] = source;
+  auto& [pitch, origin, unit, no_data, unclear, history, pitch_rounding] = header;
+  static_cast<void>(values);   // come last, and fill the rest
+  static_cast<void>(unclear);  // of text, which is read in this process
+  each(rows), each(cols), each(raw_factor), each(no_data), each(pitch_hint), each(pitch_field), each(unclear_origin),
+      each(camera_pixel);
   each(pitch), each(origin), each(unit), each(history), each(pitch_rounding);
 }
 
@@ -85,6 +87,10 @@ class FieldWriter {
   void operator()(const std::vector<std::string>& texts) const {
     out_.put(texts.size());
     for (const std::string& text : texts) out_.put_text(text);
+  }
+  void operator()(const std::vector<double>& numbers) const {
+    out_.put(numbers.size());
+    for (const double number : numbers) out_.put(number);
   }
   template <class T>
   void operator()(const std::optional<T>& field) const {
@@ -106,6 +112,9 @@ class FieldReader {
   void operator()(std::string& text) const { text = in_.text(); }
   void operator()(std::vector<std::string>& texts) const {
     for (auto count = in_.get<std::size_t>(); count > 0; --count) texts.push_back(in_.text());
+  }
+  void operator()(std::vector<double>& numbers) const {
+    for (auto count = in_.get<std::size_t>(); count > 0; --count) numbers.push_back(in_.get<double>());
   }
   template <class T>
   void operator()(std::optional<T>& field) const {

@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 #include "core/base/errors.h"
 #include "core/base/number_text.h"
+#include "core/base/units.h"
 #include "core/base/whole_file.h"
 #include "core/formats/file_kind.h"
 #include "core/formats/map_formats.h"
@@ -38,10 +41,10 @@ void check_options(const MapReadOptions& options, const std::string& where) {
     throw InputError(options.name + " origin", value, "finite numbers",
                      fmt::format("`{} origin` = {} for {}; finite numbers are required", options.name, value, where));
   }
-  if (!(std::isfinite(options.scale) && options.scale > 0.0)) {
-    throw InputError(options.name + " unit", fmt::format("{}", options.scale), "a factor that is finite and > 0",
+  if (options.scale && !(std::isfinite(*options.scale) && *options.scale > 0.0)) {
+    throw InputError(options.name + " unit", fmt::format("{}", *options.scale), "a factor that is finite and > 0",
                      fmt::format("`{} unit` gives a factor of {} for {}; it must be finite and > 0", options.name,
-                                 options.scale, where));
+                                 *options.scale, where));
   }
 }
 
@@ -57,6 +60,8 @@ std::optional<Point> known_pitch(const MapHeader& header, const MapReadOptions& 
                     "be left out)",
                     where, header.pitch->x, header.pitch->y, options.name, pitch));
   }
+  // What the file rounds more than single precision would, as the size of a field, the user may know better.
+  if (header.pitch_rounding > kSinglePitchRounding) return Point{pitch, pitch};
   return header.pitch;
 }
 
@@ -75,24 +80,77 @@ std::optional<Point> known_origin(const MapHeader& header, const MapReadOptions&
   return header.origin;
 }
 
-/// A file that names its unit must be read with that unit: no file is scaled twice, or not at all, unnoticed.
-void check_unit(const MapHeader& header, const MapReadOptions& options, const std::string& where) {
-  if (!header.unit) return;
+/// Why a unit is none of the quantity.
+std::string unit_hint(const std::string& unit, MapQuantity quantity) {
+  if (quantity == MapQuantity::Rate && known_length_unit(unit)) {
+    return " (removal rates are required here, not heights; of the surface that spots left, give their `tif dwell "
+           "time`)";
+  }
+  if (quantity == MapQuantity::Height && known_rate_unit(unit)) return " (heights are required here, not rates)";
+  return "";
+}
+
+/// The factor to nm (nm/s). A file that names its unit must be read with that unit: no file is scaled twice, or not at
+/// all, unnoticed.
+double known_scale(const MapHeader& header, const MapReadOptions& options, const std::string& where) {
+  if (!header.unit) return options.scale.value_or(1.0);
   double factor = 0.0;
   try {
     factor = unit_factor(*header.unit, options.quantity);
   } catch (const InputError& error) {
-    throw InputError(fmt::format("{}: header says unit {} ({})", where, error.what(),
-                                 options.quantity == MapQuantity::Rate
-                                     ? "removal rates are required here, not heights; of the surface that spots left, "
-                                       "give their `tif dwell time`"
-                                     : "heights are required here, not rates"));
+    throw InputError(
+        fmt::format("{}: header says unit {}{}", where, error.what(), unit_hint(*header.unit, options.quantity)));
   }
-  if (!same(factor, options.scale, factor)) {
+  if (options.scale && !same(factor, *options.scale, factor)) {
     throw InputError(
         fmt::format("{}: header says unit {} (a factor of {} to nm), but `{} unit` gives a factor of {}; they "
-                    "must agree: give `{} unit` {}",
-                    where, *header.unit, factor, options.name, options.scale, options.name, *header.unit));
+                    "must agree: leave it out, or give `{} unit` {}",
+                    where, *header.unit, factor, options.name, *options.scale, options.name, *header.unit));
+  }
+  return factor;
+}
+
+/// Refuses what the header says unclearly and neither it nor an option says clearly. The places of points say pitch and
+/// origin as well.
+void settle_unclear(const MapHeader& header, const MapReadOptions& options, bool points) {
+  using About = UnclearStatement::About;
+  for (const UnclearStatement& unclear : header.unclear) {
+    const auto [settled, option] = [&]() -> std::pair<bool, const char*> {
+      switch (unclear.about) {
+        case About::Unit:
+          return {header.unit || options.scale, "unit"};
+        case About::Pitch:
+          return {points || header.pitch || options.pitch, "pixel"};
+        case About::Origin:
+          return {points || header.origin || options.origin || !options.origin_counts, "origin"};
+        case About::NoData:
+          return {!header.no_data.empty() || options.no_data, "no data"};
+      }
+      return {false, ""};
+    }();
+    if (settled) continue;
+    // The origin of a removal function is where its tool axis says; no option gives it.
+    const bool has_option = unclear.about != About::Origin || options.name == "map";
+    throw InputError(unclear.message + (has_option ? fmt::format("; or give `{} {}`", options.name, option) : ""));
+  }
+}
+
+void append(std::vector<std::string>& history, std::vector<std::string> lines) {
+  history.insert(history.end(), std::make_move_iterator(lines.begin()), std::make_move_iterator(lines.end()));
+}
+
+/// Numbers of the file to nm; infinite ones are refused.
+void scale_values(HeightMap& map, double scale, const std::string& where) {
+  for (std::size_t i = 0; i < map.values.size(); ++i) {
+    double& value = map.values[i];
+    const double read = value;
+    value *= scale;
+    if (!std::isinf(value)) continue;
+    const Index pixel = static_cast<Index>(i);
+    throw InputError(
+        fmt::format("{}: value {} in row {}, column {} of the map is infinite (in nm); a finite number, or "
+                    "nan for no data, is required",
+                    where, read, pixel / map.grid.cols + 1, pixel % map.grid.cols + 1));
   }
 }
 
@@ -110,7 +168,14 @@ void check_origin_is_clear(const MapSource& source, const MapReadOptions& option
 }
 
 HeightMap map_of_source(MapSource source, const MapReadOptions& options, const std::string& where) {
-  check_unit(source.header, options, where);
+  if (options.grid) {
+    throw InputError(
+        fmt::format("{}: `{} grid` is for points x y z, but the file holds a grid of {} x {} values; "
+                    "leave it out",
+                    where, options.name, source.rows, source.cols));
+  }
+  settle_unclear(source.header, options, false);
+  const double scale = known_scale(source.header, options, where);
   check_origin_is_clear(source, options, where);
   check_pixels(static_cast<double>(source.rows), static_cast<double>(source.cols), options.limit, where);
   const std::optional<Point> pitch = known_pitch(source.header, options, where);
@@ -120,24 +185,78 @@ HeightMap map_of_source(MapSource source, const MapReadOptions& options, const s
   }
   const Point on_camera{source.camera_pixel.x * pitch->x, source.camera_pixel.y * pitch->y};
   const Point origin = known_origin(source.header, options, where).value_or(on_camera);
+  append(source.header.history, remove_no_data({&source.values, source.raw_factor, source.header.no_data},
+                                               options.no_data, where, options.name));
   const Grid grid{source.rows, source.cols, pitch->x, pitch->y, origin};
   const std::string field = source.header.pitch ? source.pitch_field : fmt::format("`{} pixel`", options.name);
   check_part_size(grid, field.empty() ? "pitch_mm" : field, where);
   HeightMap map(grid, std::move(source.values));
   map.history = std::move(source.header.history);
-  map.quantity = options.quantity;
+  scale_values(map, scale, where);
   return map;
 }
 
-HeightMap read_xyz(std::string_view text, const MapReadOptions& options, const std::string& where) {
+/// The marks among the heights of points, before these become a map.
+std::vector<std::string> remove_no_data_of_points(XyzText& xyz, const MapReadOptions& options,
+                                                  const std::string& where) {
+  std::vector<double> heights;
+  for (const XyzPoint& point : xyz.points) heights.push_back(point.height);
+  std::vector<std::string> history =
+      remove_no_data({&heights, 1.0, xyz.header.no_data}, options.no_data, where, options.name);
+  for (std::size_t i = 0; i < heights.size(); ++i) xyz.points[i].height = heights[i];
+  return history;
+}
+
+HeightMap fit_points_of(const XyzText& xyz, const MapReadOptions& options, const std::string& where,
+                        const Progress& progress) {
+  if (options.pitch && !same(*options.pitch, options.grid->pitch, options.grid->pitch)) {
+    throw InputError(
+        fmt::format("{}: `{} pixel` is {} mm, but `{} grid` has a pitch of {} mm; they must agree (or `{} "
+                    "pixel` be left out)",
+                    where, options.name, *options.pitch, options.name, options.grid->pitch, options.name));
+  }
+  std::vector<HeightPoint> points;
+  for (const XyzPoint& point : xyz.points) points.push_back({point.position, point.height});
+  try {
+    const Grid grid = grid_over(points, options.grid->pitch, options.origin);
+    ScatterSummary summary;
+    HeightMap map = scattered_surface(std::move(points), grid, *options.grid, summary, options.threads, progress);
+    map.history.push_back(fmt::format(
+        "grid pitch={},reach={:.6g}: {} points about {:.4g} mm apart, {} of {} pixels have data", options.grid->pitch,
+        summary.reach, xyz.points.size(), summary.spacing, summary.pixels, map.grid.size()));
+    return map;
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", where, error.what()));
+  }
+}
+
+HeightMap read_xyz(std::string_view text, const MapReadOptions& options, const std::string& where,
+                   const Progress& progress) {
+  if (options.table) {
+    throw InputError(fmt::format("{}: `{} table` is for a matrix, but the file holds points x y z; leave it out", where,
+                                 options.name));
+  }
   XyzText xyz = parse_xyz_text(text, where);
-  check_unit(xyz.header, options, where);
-  HeightMap map = grid_points(xyz.points, known_pitch(xyz.header, options, where),
-                              known_origin(xyz.header, options, where), where, options.name, options.limit);
+  settle_unclear(xyz.header, options, true);
+  const double scale = known_scale(xyz.header, options, where);
+  append(xyz.header.history, remove_no_data_of_points(xyz, options, where));
+  HeightMap map = options.grid
+                      ? fit_points_of(xyz, options, where, progress)
+                      : grid_points(xyz.points, known_pitch(xyz.header, options, where),
+                                    known_origin(xyz.header, options, where), where, options.name, options.limit);
   check_part_size(map.grid, "the points' pitch", where);
+  append(xyz.header.history, std::move(map.history));
   map.history = std::move(xyz.header.history);
-  map.quantity = options.quantity;
+  scale_values(map, scale, where);
   return map;
+}
+
+HeightMap read_matrix(std::string_view text, const MapReadOptions& options, const std::string& where) {
+  const bool headed = options.table && options.table->kind != MatrixTable::Kind::Heights;
+  bool named_columns = false;
+  MapSource matrix = parse_matrix_text(text, where, headed ? &named_columns : nullptr);
+  apply_matrix_table(matrix, options.table, named_columns, where, options.name);
+  return map_of_source(std::move(matrix), options, where);
 }
 
 std::string extension_of(const std::filesystem::path& file) { return lower_case(file.extension().string()); }
@@ -151,12 +270,16 @@ MapSource read_array(const MapFormat& format, std::string_view bytes, const std:
 }
 
 HeightMap parse_map(const MapName& name, std::string_view bytes, const MapReadOptions& options,
-                    const std::string& where) {
+                    const std::string& where, const Progress& progress) {
   if (bytes.empty()) {
     throw InputError(fmt::format("{}: the file is empty; {} is required", where, accepted_map_formats()));
   }
   const std::string extension = extension_of(name.file);
   if (const MapFormat* format = map_format_of(bytes, extension)) {
+    if (options.table) {
+      throw InputError(fmt::format("{}: `{} table` is for a matrix as text, but the file is {}; leave it out", where,
+                                   options.name, format->name));
+    }
     MapSource source = read_array(*format, bytes, name.inside, where, options.limit);
     if (is_npy(bytes)) add_npy_sidecar(name.file, bytes, source);
     return map_of_source(std::move(source), options, where);
@@ -169,40 +292,43 @@ HeightMap parse_map(const MapName& name, std::string_view bytes, const MapReadOp
     throw InputError(fmt::format("{}: the file is text, which holds one array; leave out ':{}'", where, name.inside));
   }
   if (extension == ".npy") throw InputError(fmt::format("{}: not an NPY array but text; name it .csv or .xyz", where));
-  if (extension == ".xyz" || names_xyz_columns(bytes)) return read_xyz(bytes, options, where);
-  return map_of_source(parse_matrix_text(bytes, where), options, where);
+  if (extension == ".xyz" || names_xyz_columns(bytes)) return read_xyz(bytes, options, where, progress);
+  return read_matrix(bytes, options, where);
 }
 
-/// Values to nm; every one finite or NaN, and one at least finite.
-void scale_and_check(HeightMap& map, double scale, const std::string& where) {
-  bool any = false;
-  for (std::size_t i = 0; i < map.values.size(); ++i) {
-    double& value = map.values[i];
-    const double read = value;
-    value *= scale;
-    if (std::isinf(value)) {
-      const Index pixel = static_cast<Index>(i);
-      throw InputError(
-          fmt::format("{}: value {} in row {}, column {} of the map is infinite (in nm); a finite number, or "
-                      "nan for no data, is required",
-                      where, read, pixel / map.grid.cols + 1, pixel % map.grid.cols + 1));
-    }
-    any = any || std::isfinite(value);
+/// One value at least, and no more than a part can span.
+void check_values(const HeightMap& map, const MapReadOptions& options, const std::string& where) {
+  double low = std::nan(""), high = low;
+  for (const double value : map.values) {
+    if (!(value >= low)) low = std::isnan(value) ? low : value;
+    if (!(value <= high)) high = std::isnan(value) ? high : value;
   }
-  if (!any) {
+  if (std::isnan(low)) {
     throw InputError(fmt::format("{}: all {} values are no data (nan); at least one finite value is required", where,
                                  map.values.size()));
   }
+  const double most = options.max_pv.value_or(kMostSpan);
+  if (high - low <= most) return;
+  const bool rate = options.quantity == MapQuantity::Rate;
+  const char* const unit = rate ? "mm/s" : "mm";
+  throw InputError(
+      fmt::format("{}: {} from {:.6g} to {:.6g} {} (peak to valley {:.6g} {}); at most {:.6g} {} is accepted: is their "
+                  "unit right, is "
+                  "one of them a mark for no data (`{} no data`)?{}",
+                  where, rate ? "rates" : "heights", low / units::kNmPerMm, high / units::kNmPerMm, unit,
+                  (high - low) / units::kNmPerMm, unit, most / units::kNmPerMm, unit, options.name,
+                  rate ? "" : fmt::format(" Or give `{} max pv` [mm]", options.name)));
 }
 
 }  // namespace
 
-HeightMap read_map(const std::filesystem::path& file, const MapReadOptions& options) {
+HeightMap read_map(const std::filesystem::path& file, const MapReadOptions& options, const Progress& progress) {
   const std::string where = fmt::format("{} {}", options.name, file.string());
   check_options(options, where);
   const MapName name = split_map_name(file);
-  HeightMap map = parse_map(name, read_whole_file(name.file), options, where);
-  scale_and_check(map, options.scale, where);
+  HeightMap map = parse_map(name, read_whole_file(name.file), options, where, progress);
+  map.quantity = options.quantity;
+  check_values(map, options, where);
   return map;
 }
 

@@ -5,29 +5,43 @@
 #include <string>
 
 #include "core/base/grid_limit.h"
+#include "core/base/progress.h"
 #include "core/base/staged_files.h"
+#include "core/formats/matrix_table.h"
+#include "core/formats/no_data.h"
 #include "core/map/height_map.h"
+#include "core/map/scattered_surface.h"
 
 namespace dwell {
 
 /// What a map file does not say about itself.
 struct MapReadOptions {
-  std::optional<double> pitch;                 // pixel pitch [mm]; required by files that carry none
-  std::optional<Point> origin;                 // centre of pixel (0, 0) [mm]; default (0, 0), or what the file says
-  double scale = 1.0;                          // factor from the file's value unit to nm (or nm/s)
-  std::string name = "map";                    // what error messages call it: "map" or "tif"
+  std::optional<double> pitch;  // pixel pitch [mm]; required by files that carry none
+  std::optional<Point> origin;  // centre of pixel (0, 0) [mm]; default (0, 0), or what the file says
+  std::optional<double> scale;  // factor from the file's unit to nm (or nm/s); default: what it says, or 1
+  std::string name = "map";     // what error messages call it: "map" or "tif"
   MapQuantity quantity = MapQuantity::Height;  // what the values are; a file that says otherwise is refused
   PixelLimit limit;                            // given, it also allows a packed file to unpack that far
   /// Whether places in the file's own coordinates count. Not for a removal function that is centred by its grid or its
   /// centroid: what only seems to say an origin is skipped then.
   bool origin_counts = true;
+  std::optional<NoDataMarkers> no_data;  // numbers of the file that stand for no data, besides what it says
+  std::optional<double> max_pv;          // the most that heights or rates may span [nm], [nm/s]; default kMostSpan
+  std::optional<MatrixTable> table;      // what the first row and column of a matrix as text are
+  std::optional<ScatterOptions> grid;    // points x y z are scattered: a surface is fitted to them
+  int threads = 1;                       // for that fit
 };
+
+/// 10 mm, 10 mm/s: what spans more is in another unit, or holds numbers that are no heights.
+inline constexpr double kMostSpan = 1e7;
 
 /// Reads a map by the file's content and extension (docs/formats.md). `file` may name one array of a file that holds
 /// several, as `run.h5:/before` (core/formats/map_name.h). What an NPY array does not say is taken from its sidecar
-/// (core/formats/npy_sidecar.h), if it has one.
-/// Throws InputError naming file, line or field, value, and what is accepted.
-HeightMap read_map(const std::filesystem::path& file, const MapReadOptions& options = {});
+/// (core/formats/npy_sidecar.h), if it has one. What was done on the way (marks for no data, a table's index, the
+/// gridding of points) is in the map's history.
+/// Throws InputError naming file, line or field, value, and what is accepted; Interrupted.
+HeightMap read_map(const std::filesystem::path& file, const MapReadOptions& options = {},
+                   const Progress& progress = {});
 
 /// Writes a map, whole or not at all, in the format of the extension (core/formats/map_formats.h); an NPY array with
 /// its sidecar. Values are written in nm (rates in nm/s) so that they read back equal.

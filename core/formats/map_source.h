@@ -13,6 +13,7 @@ struct MapSource {
   Index rows = 0;
   Index cols = 0;
   std::vector<double> values;  // row-major, row 0 = smallest y, NaN = no data, in header.unit
+  double raw_factor = 1.0;     // values are the file's numbers times this: marks for no data are numbers of the file
   MapHeader header;            // what the file says: pitch, origin, unit, history; nothing it leaves open
   std::string pitch_hint;      // ends the message when neither file nor option says a pitch
   std::string pitch_field;     // what of the file says the pitch, with its value, for messages; may be empty

@@ -9,6 +9,7 @@
 #include "core/base/errors.h"
 #include "core/base/number_text.h"
 #include "core/base/text_lines.h"
+#include "core/formats/text_header.h"
 
 namespace dwell {
 namespace {
@@ -32,15 +33,43 @@ bool next_field(std::string_view& row, bool& more, char separator, std::string_v
   return true;
 }
 
+/// Why a field is no height; of "5<tab>2" in "1,5<tab>2,5", that the commas are decimal commas.
+std::string why_no_field(std::string_view field, char separator) {
+  constexpr std::string_view kDigits = "0123456789";
+  const std::size_t gap = separator == ',' ? trim(field).find_first_of(" \t") : std::string_view::npos;
+  const bool numbers = gap != std::string_view::npos && finite_number(trim(field).substr(0, gap)) &&
+                       finite_number(trim(field).substr(gap)) && kDigits.find(trim(field).back()) != kDigits.npos;
+  if (!numbers) return why_no_height(field);
+  return fmt::format(
+      "{} is not a number; if the commas are decimal commas: these are not accepted, write points (one "
+      "kind of separator a file)",
+      in_quotes(field));
+}
+
+/// Where a row stands, and whether words in it are names of columns.
+struct RowPlace {
+  const std::string& where;
+  long line;
+  bool may_name;
+  bool* names;  // set if it does
+};
+
 /// Appends the row's values; returns their number.
-Index read_row(std::string_view row, char separator, const std::string& where, long line, std::vector<double>& values) {
+Index read_row(std::string_view row, char separator, const RowPlace& place, std::vector<double>& values) {
   Index count = 0;
   bool more = true;
   for (std::string_view field; next_field(row, more, separator, field);) {
     ++count;
-    const std::optional<double> value = height_number(field);
+    std::optional<double> value = height_number(field);
+    if (!value && place.may_name && place.names) {
+      *place.names = true;
+      value = std::nan("");
+    }
     if (!value) {
-      throw InputError(fmt::format("{}, line {}, column {}: {}", where, line, count, why_no_height(field)));
+      const bool name = place.may_name && field.find_first_of("0123456789") == std::string_view::npos;
+      throw InputError(
+          fmt::format("{}, line {}, column {}: {}{}", place.where, place.line, count, why_no_field(field, separator),
+                      name ? "; names of columns are left out with `map table` or `tif table` index" : ""));
     }
     values.push_back(*value);
   }
@@ -71,8 +100,9 @@ bool is_a_row(std::string_view comment, char separator, Index cols) {
 
 }  // namespace
 
-MapSource parse_matrix_text(std::string_view text, const std::string& where) {
+MapSource parse_matrix_text(std::string_view text, const std::string& where, bool* named_columns) {
   MapSource matrix;
+  TextHeader header(where);
   char separator = ' ';
   long first_line = 0, blank_line = 0;  // the latter: between rows, 0 = none
   for (TextLines lines(text); lines.next();) {
@@ -98,7 +128,7 @@ MapSource parse_matrix_text(std::string_view text, const std::string& where) {
             "required",
             where, lines.number(), in_quotes(trimmed)));
       }
-      read_header_line(trimmed, fmt::format("{}, line {}", where, lines.number()), matrix.header);
+      header.read_comment(trimmed, lines.number());
       continue;
     }
     if (blank_line > 0) {
@@ -115,7 +145,8 @@ MapSource parse_matrix_text(std::string_view text, const std::string& where) {
       first_line = lines.number();
     }
     if (separator == ' ') row = trimmed;
-    const Index count = read_row(row, separator, where, lines.number(), matrix.values);
+    const RowPlace place{where, lines.number(), matrix.rows == 0, named_columns};
+    const Index count = read_row(row, separator, place, matrix.values);
     if (matrix.rows == 0) {
       matrix.cols = count;
     } else if (count != matrix.cols) {
@@ -125,6 +156,7 @@ MapSource parse_matrix_text(std::string_view text, const std::string& where) {
     ++matrix.rows;
   }
   if (matrix.rows == 0) throw InputError(fmt::format("{}: no row of numbers; a matrix of heights is required", where));
+  matrix.header = header.header_of_matrix(matrix.rows, matrix.cols);
   matrix.pitch_hint = matrix.cols == 3 ? "; or, if its lines are x y z, name it .xyz or begin it with a line 'x y z'"
                                        : ", or begin the file with a line '# pitch_mm: 0.1'";
   return matrix;

@@ -13,6 +13,11 @@ namespace {
 
 constexpr double kPitchAgreement = 1e-3;  // a pitch typed with few digits (0.0938 for 0.09375 is 5e-4)
 
+/// What tells a grid with gaps from scattered points: the share of its places that have a point; where that is less,
+/// the share of points with another beside them in x and one in y. Fewer points than these tell nothing.
+constexpr double kLeastFilled = 0.25, kLeastNeighboured = 0.5;
+constexpr std::size_t kLeastToJudge = 9;
+
 struct Direction {
   char letter;
   double Point::*coordinate;
@@ -33,7 +38,7 @@ Lattice lattice_of(const std::vector<XyzPoint>& points, Direction axis, const st
 }
 
 void check_on_lattice(const std::vector<XyzPoint>& points, Direction axis, const Lattice& lattice,
-                      const std::string& where) {
+                      const std::string& where, const std::string& name) {
   const XyzPoint* worst = &points.front();
   double worst_deviation = -1.0;
   for (const XyzPoint& point : points) {
@@ -44,10 +49,11 @@ void check_on_lattice(const std::vector<XyzPoint>& points, Direction axis, const
     if (!(deviation <= worst_deviation)) worst = &point, worst_deviation = deviation;
   }
   if (!(worst_deviation <= kLatticeTolerance)) {
-    throw InputError(
-        fmt::format("{}, line {}: {} = {} mm is not on the regular grid {} + {} k (k = 0, 1, ...) of the "
-                    "other points; points of a regular grid are required, in any order, gaps allowed",
-                    where, worst->line, axis.letter, worst->position.*axis.coordinate, lattice.origin, lattice.pitch));
+    throw InputError(fmt::format(
+        "{}, line {}: {} = {} mm is not on the regular grid {} + {} k (k = 0, 1, ...) of the "
+        "other points; points of a regular grid are required, in any order, gaps allowed; or give `{} grid` "
+        "pitch=MM if they are scattered",
+        where, worst->line, axis.letter, worst->position.*axis.coordinate, lattice.origin, lattice.pitch, name));
   }
 }
 
@@ -68,15 +74,45 @@ void check_agreement(const Lattice& lattice, Direction axis, const std::optional
 }
 
 /// A stray point far away makes a grid of nothing but gaps.
-void check_size(const Lattice& x, const Lattice& y, std::size_t points, const std::string& where) {
+void check_size(const Lattice& x, const Lattice& y, std::size_t points, const std::string& where,
+                const std::string& name) {
   constexpr double kMostPixels = 1e6, kMostPixelsPerPoint = 100.0;
   const double pixels = static_cast<double>(x.count) * static_cast<double>(y.count);
   if (!(pixels <= std::max(kMostPixels, kMostPixelsPerPoint * static_cast<double>(points)))) {
     throw InputError(
         fmt::format("{}: {} points make a grid of {} x {} pixels (pitch {} x {} mm); a grid of at most {} "
-                    "pixels a point is accepted: look for a stray point",
-                    where, points, y.count, x.count, x.pitch, y.pitch, kMostPixelsPerPoint));
+                    "pixels a point is accepted: look for a stray point, or give `{} grid` pitch=MM if the points are "
+                    "scattered",
+                    where, points, y.count, x.count, x.pitch, y.pitch, kMostPixelsPerPoint, name));
   }
+}
+
+/// Scattered points with rounded coordinates lie on a grid as well, that of the last digit, and fill little of it. A
+/// ring or a few lines fill little of their rectangle, but there the next place has a point too.
+void check_filled(const Lattice& x, const Lattice& y, const std::vector<long>& line_of, std::size_t points,
+                  const std::string& where, const std::string& name) {
+  const double places = static_cast<double>(x.count) * static_cast<double>(y.count);
+  const double filled = static_cast<double>(points) / places;
+  if (points < kLeastToJudge || filled >= kLeastFilled) return;
+  Index neighboured = 0;
+  for (Index row = 0; row < y.count; ++row) {
+    for (Index col = 0; col < x.count; ++col) {
+      const auto at = static_cast<std::size_t>(row * x.count + col);
+      if (line_of[at] == 0) continue;
+      const bool beside =
+          x.count == 1 || (col > 0 && line_of[at - 1] > 0) || (col + 1 < x.count && line_of[at + 1] > 0);
+      const auto width = static_cast<std::size_t>(x.count);
+      const bool above =
+          y.count == 1 || (row > 0 && line_of[at - width] > 0) || (row + 1 < y.count && line_of[at + width] > 0);
+      neighboured += beside && above ? 1 : 0;
+    }
+  }
+  if (static_cast<double>(neighboured) >= kLeastNeighboured * static_cast<double>(points)) return;
+  throw InputError(fmt::format(
+      "{}: its {} points fill {:.3g} % of a grid of {} x {} places (pitch {:.6g} x {:.6g} mm) and do not lie "
+      "side by side on it; {:.0f} % are required of points of a regular grid. Give `{} grid` pitch=MM to fit "
+      "a surface to scattered points",
+      where, points, 100.0 * filled, y.count, x.count, x.pitch, y.pitch, 100.0 * kLeastFilled, name));
 }
 
 }  // namespace
@@ -92,9 +128,9 @@ HeightMap grid_points(const std::vector<XyzPoint>& points, std::optional<Point> 
   }
   // With the pitches of the map: coordinates that were taken as one, being the same but for rounding, must also be so
   // on a borrowed pitch.
-  check_on_lattice(points, kX, x, where);
-  check_on_lattice(points, kY, y, where);
-  check_size(x, y, points.size(), where);
+  check_on_lattice(points, kX, x, where, name);
+  check_on_lattice(points, kY, y, where, name);
+  check_size(x, y, points.size(), where, name);
   check_pixels(static_cast<double>(y.count), static_cast<double>(x.count), limit, where);
   check_agreement(x, kX, pitch, origin, where, name);
   check_agreement(y, kY, pitch, origin, where, name);
@@ -112,6 +148,7 @@ HeightMap grid_points(const std::vector<XyzPoint>& points, std::optional<Point> 
     line_of[pixel] = point.line;
     map.values[pixel] = point.height;
   }
+  check_filled(x, y, line_of, points.size(), where, name);
   return map;
 }
 

@@ -236,6 +236,7 @@ MapSource parse_sdf_text(std::string_view text, const std::string& where, const 
   source.header.pitch = Point{pitch_x, pitch_y};
   source.pitch_field =
       fmt::format("SDF header: Xscale = {}, Yscale = {} [m]", header.text("Xscale"), header.text("Yscale"));
+  source.raw_factor = nm;
   source.values = read_text_grid(
       words, grid, text.size(),
       [nm](std::string_view word) {

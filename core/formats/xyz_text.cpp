@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <array>
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <iterator>
@@ -11,6 +11,9 @@
 #include "core/base/errors.h"
 #include "core/base/number_text.h"
 #include "core/base/text_lines.h"
+#include "core/base/units.h"
+#include "core/formats/text_header.h"
+#include "core/formats/xyz_columns.h"
 #include "core/map/value_units.h"
 
 namespace dwell {
@@ -20,46 +23,20 @@ constexpr double kFarthest = 1e12;  // [mm]; nothing of a part lies there, and d
 
 bool is_separator(char c) { return c == ' ' || c == '\t' || c == ',' || c == ';'; }
 
-/// The unit suffix of a column name: "z_um" -> "um", "z" -> "". Nothing if the name is another one.
-std::optional<std::string> unit_of_column(const std::string& name, std::string_view stem) {
-  if (!name.starts_with(stem)) return std::nullopt;
-  if (name.size() == stem.size()) return "";
-  if (name[stem.size()] != '_') return std::nullopt;
-  return name.substr(stem.size() + 1);
-}
-
-/// Units of the columns x, y, z of a line that names them.
-std::optional<std::array<std::string, 3>> column_units(std::string_view line) {
-  line = trim(line);
-  while (line.starts_with('#')) line = trim(line.substr(1));
-  std::vector<std::string> names(1);
-  for (const char c : lower_case(line)) {
-    if (!is_separator(c)) {
-      names.back() += c;
-    } else if (!names.back().empty()) {
-      names.emplace_back();
-    }
-  }
-  if (names.size() != 3) return std::nullopt;
-  const auto x = unit_of_column(names[0], "x"), y = unit_of_column(names[1], "y");
-  auto z = unit_of_column(names[2], "z");
-  if (!z) z = unit_of_column(names[2], "height");
-  if (!x || !y || !z) return std::nullopt;
-  return std::array{*x, *y, *z};
-}
-
-void take_column_units(const std::array<std::string, 3>& units, const std::string& place, MapHeader& header) {
-  for (const std::string& lateral : {units[0], units[1]}) {
-    if (!lateral.empty() && lateral != "mm") {
-      throw InputError(fmt::format("{}: x or y in '{}'; both must be in mm", place, lateral));
-    }
-  }
-  if (units[2].empty()) return;
-  if (header.unit && *header.unit != units[2]) {
+/// What the line that names the columns says of their units.
+void take_columns(const XyzColumns& columns, const std::string& place, TextHeader& header) {
+  const auto& [x, y, z] = columns.units;
+  if (columns.unit_apart && known_length_unit(z) != known_length_unit("mm")) {
     throw InputError(
-        fmt::format("{}: z in '{}', but unit = '{}' above; they must agree", place, units[2], *header.unit));
+        fmt::format("{}: one unit, {}, behind three columns: of z alone, or of all? Name them as 'x_mm y_mm z_um'",
+                    place, in_quotes(z)));
   }
-  header.unit = units[2];
+  if (!x.empty()) header.take_lateral_unit(x, "x");
+  if (!y.empty()) header.take_lateral_unit(y, "y");
+  if (x.empty() != y.empty()) {
+    throw InputError(fmt::format("{}: only one of x and y has a unit; name the columns as 'x_mm y_mm z_nm'", place));
+  }
+  if (!z.empty()) header.take_unit(z, "z");
 }
 
 /// Cuts a number of at most kFarthest and the separator after it (blanks around at most one comma or semicolon) off the
@@ -74,20 +51,59 @@ bool take_coordinate(std::string_view& rest, double& value) {
   return true;
 }
 
-XyzPoint read_point(std::string_view line, const std::string& where, long number) {
+/// Whether the line holds three fields, one at least a number with a decimal comma: "0,0 0,5 1,5".
+bool has_decimal_commas(std::string_view line) {
+  std::size_t fields = 0, commas = 0;
+  while (!line.empty()) {
+    const std::size_t end = std::min(line.find_first_of(" \t;"), line.size());
+    std::string field(trim(line.substr(0, end)));
+    line.remove_prefix(std::min(end + 1, line.size()));
+    if (field.empty()) continue;
+    const std::size_t comma = field.find(',');
+    if (comma != std::string::npos && comma + 1 < field.size()) ++commas, field[comma] = '.';
+    if (!finite_number(field)) return false;
+    ++fields;
+  }
+  return fields == 3 && commas > 0;
+}
+
+[[noreturn]] void refuse_point(std::string_view line, const std::string& where, long number, bool first) {
+  const std::string place = fmt::format("{}, line {}: {}", where, number, in_quotes(line));
+  if (has_decimal_commas(line)) {
+    throw InputError(fmt::format("{} has decimal commas; they are not accepted, write points", place));
+  }
+  const bool names = first && line.find_first_of("xyzXYZ") != std::string_view::npos;
+  throw InputError(fmt::format(
+      "{} is not a point; x y z separated by blanks, commas, semicolons or tabs is required, x and y in mm, at most {} "
+      "mm from 0{}",
+      place, kFarthest,
+      names ? "; a line that names the columns is read as 'x_mm y_mm z_nm' or 'x[mm] y[mm] z[nm]'" : ""));
+}
+
+XyzPoint read_point(std::string_view line, const std::string& where, long number, bool first) {
   XyzPoint point;
   point.line = number;
   std::string_view rest = line;
   if (!take_coordinate(rest, point.position.x) || !take_coordinate(rest, point.position.y)) {
-    throw InputError(
-        fmt::format("{}, line {}: '{}' is not a point; x y z separated by blanks, commas, semicolons or "
-                    "tabs is required, x and y in mm, at most {} mm from 0",
-                    where, number, line.substr(0, 60), kFarthest));
+    refuse_point(line, where, number, first);
   }
   const std::optional<double> height = height_number(rest);
+  if (!height && has_decimal_commas(line)) refuse_point(line, where, number, first);
   if (!height) throw InputError(fmt::format("{}, line {}, column 3: {}", where, number, why_no_height(rest)));
   point.height = *height;
   return point;
+}
+
+/// Coordinates in another unit than mm.
+void scale_positions(std::vector<XyzPoint>& points, double lateral_nm, const std::string& where) {
+  for (XyzPoint& point : points) {
+    for (double* v : {&point.position.x, &point.position.y}) {
+      *v = *v * lateral_nm / units::kNmPerMm;
+      if (std::abs(*v) <= kFarthest) continue;
+      throw InputError(fmt::format("{}, line {}: x or y is {} mm; at most {} mm from 0 is required", where, point.line,
+                                   *v, kFarthest));
+    }
+  }
 }
 
 bool starts_like_number(std::string_view line) {
@@ -101,7 +117,7 @@ bool names_xyz_columns(std::string_view text) {
   for (TextLines lines(text); lines.next();) {
     const std::string_view line = trim(lines.line());
     if (line.empty()) continue;
-    if (column_units(line)) return true;
+    if (parse_xyz_columns(line)) return true;
     if (line.front() != '#') return false;
   }
   return false;
@@ -109,20 +125,24 @@ bool names_xyz_columns(std::string_view text) {
 
 XyzText parse_xyz_text(std::string_view text, const std::string& where) {
   XyzText xyz;
+  TextHeader header(where);
   for (TextLines lines(text); lines.next();) {
     const std::string_view line = trim(lines.line());
     if (line.empty()) continue;
     const bool comment = line.front() == '#' && !starts_with_spreadsheet_error(line);
     if (comment || (xyz.points.empty() && !starts_like_number(line))) {
-      const std::string place = fmt::format("{}, line {}", where, lines.number());
-      const auto units = column_units(line);
-      if (units) take_column_units(*units, place, xyz.header);
-      if (comment && !units) read_header_line(line, place, xyz.header);
-      if (comment || units) continue;
+      header.set_line(lines.number());
+      const auto columns = parse_xyz_columns(line);
+      if (columns) take_columns(*columns, fmt::format("{}, line {}", where, lines.number()), header);
+      if (comment && !columns) header.read_comment(line, lines.number());
+      if (comment || columns) continue;
     }
-    xyz.points.push_back(read_point(line, where, lines.number()));
+    xyz.points.push_back(read_point(line, where, lines.number(), xyz.points.empty()));
   }
   if (xyz.points.empty()) throw InputError(fmt::format("{}: no point; lines x y z are required", where));
+  const double lateral = header.lateral_unit().value_or(units::kNmPerMm);
+  if (lateral != units::kNmPerMm) scale_positions(xyz.points, lateral, where);
+  xyz.header = header.header_of_points();
   return xyz;
 }
 

@@ -21,11 +21,12 @@ struct XyzText {
   MapHeader header;
 };
 
-/// Whether a line before the first number names the columns x, y and z (with or without '#', unit suffixes allowed).
+/// Whether a line before the first number names the columns x, y and z (core/formats/xyz_columns.h).
 bool names_xyz_columns(std::string_view text);
 
-/// Reads lines `x y z` (docs/formats.md), separated by blanks, tabs, commas or semicolons. `where` begins error
-/// messages. Throws InputError naming the line of what is not such a point. Cost O(bytes).
+/// Reads lines `x y z` (docs/formats.md), separated by blanks, tabs, commas or semicolons; coordinates in another
+/// unit than mm, which a header must name, become mm. `where` begins error messages. Throws InputError naming the line
+/// of what is not such a point. Cost O(bytes).
 XyzText parse_xyz_text(std::string_view text, const std::string& where);
 
 /// The map as lines `x y z` with a header, in nm, every pixel (nan where there is no data), read back equal.

@@ -7,6 +7,7 @@
 #include "core/base/errors.h"
 #include "core/base/spec_text.h"
 #include "core/base/threads.h"
+#include "core/base/units.h"
 #include "core/base/whole_file.h"
 #include "core/formats/map_io.h"
 #include "core/formats/map_name.h"
@@ -18,12 +19,52 @@
 
 namespace dwell {
 
+namespace {
+
+/// Whether the axis of the tool is given as a place in its file.
+bool is_centred_at_a_place(const JobOptions& options) {
+  return options.tif_centre && options.tif_centre->kind == TifCentre::Kind::Given;
+}
+
+MapReadOptions map_reading(const JobOptions& options) {
+  MapReadOptions read;
+  read.pitch = options.map_pixel_mm;
+  read.origin = options.map_origin_mm;
+  if (!options.map_unit.empty()) read.scale = height_unit_nm(options.map_unit);
+  read.limit = {options.max_pixels};
+  read.no_data = options.map_no_data;
+  if (options.map_max_pv_mm) read.max_pv = *options.map_max_pv_mm * units::kNmPerMm;
+  read.table = options.map_table;
+  read.grid = options.map_grid;
+  read.threads = thread_count(options.threads);
+  return read;
+}
+
+/// Of a file of rates, or of the surface that spots left.
+MapReadOptions tif_reading(const JobOptions& options, MapQuantity quantity) {
+  MapReadOptions read;
+  read.name = "tif";
+  read.quantity = quantity;
+  read.pitch = options.tif_pixel_mm;
+  // Job files of dwell 0.2 say nm/s where no unit was given, also of the surface that spots left.
+  const bool said = !options.tif_unit.empty() && !(quantity == MapQuantity::Height && options.tif_unit == "nm/s");
+  if (said) read.scale = unit_factor(options.tif_unit, quantity);
+  read.limit = {options.max_pixels};
+  read.origin_counts = is_centred_at_a_place(options);
+  read.no_data = options.tif_no_data;
+  read.table = options.tif_table;
+  read.grid = options.tif_grid;
+  read.threads = thread_count(options.threads);
+  return read;
+}
+
+}  // namespace
+
 HeightMap load_map(const JobOptions& options, std::vector<InputFile>& inputs, const Progress& progress) {
   if (options.map.empty()) throw InputError("--map: required; a height-error map, for instance mirror.csv");
-  const MapReadOptions read{options.map_pixel_mm, options.map_origin_mm, height_unit_nm(options.map_unit), "map",
-                            MapQuantity::Height,  {options.max_pixels}};
+  const MapReadOptions read = map_reading(options);
   progress.step("reading the map");
-  HeightMap map = read_map(options.map, read);
+  HeightMap map = read_map(options.map, read, progress.of_part("map"));
   inputs.push_back({"map", options.map, sha256_of_file(split_map_name(options.map).file)});
   MapStepContext context{read, &inputs, thread_count(options.threads), progress.of_part("map")};
   apply_map_steps(map, parse_map_steps(options.map_steps), context);
@@ -32,17 +73,9 @@ HeightMap load_map(const JobOptions& options, std::vector<InputFile>& inputs, co
 
 namespace {
 
-/// Whether the axis of the tool is given as a place in its file.
-bool is_centred_at_a_place(const JobOptions& options) {
-  return options.tif_centre && options.tif_centre->kind == TifCentre::Kind::Given;
-}
-
 /// The removal function from the surface that spots of a known dwell time left.
 RemovalFunction removal_of_spots(const JobOptions& options) {
-  const std::string unit = options.tif_unit == JobOptions{}.tif_unit ? "nm" : options.tif_unit;
-  const MapReadOptions read{options.tif_pixel_mm, std::nullopt,         height_unit_nm(unit),          "tif",
-                            MapQuantity::Height,  {options.max_pixels}, is_centred_at_a_place(options)};
-  HeightMap depth = read_map(options.tif, read);
+  HeightMap depth = read_map(options.tif, tif_reading(options, MapQuantity::Height));
   for (double& value : depth.values) value = -value;
   SpotOptions spots;
   spots.dwell_time = *options.tif_dwell_time_s;
@@ -65,9 +98,7 @@ TifCentre centre_of(const HeightMap& rates, const std::optional<TifCentre>& want
 }
 
 RemovalFunction removal_of_rates(const JobOptions& options) {
-  const MapReadOptions read{options.tif_pixel_mm, std::nullopt,         rate_unit_nm_per_s(options.tif_unit), "tif",
-                            MapQuantity::Rate,    {options.max_pixels}, is_centred_at_a_place(options)};
-  const HeightMap rates = read_map(options.tif, read);
+  const HeightMap rates = read_map(options.tif, tif_reading(options, MapQuantity::Rate));
   return measured_removal(rates, centre_of(rates, options.tif_centre));
 }
 

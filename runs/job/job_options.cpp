@@ -17,6 +17,7 @@
 #include "paths/path_catalogue.h"
 #include "runs/drawing/figure_format.h"
 #include "runs/job/place_option.h"
+#include "runs/job/scatter_option.h"
 #include "runs/map_steps/map_steps.h"
 #include "runs/programs/gcode_dialect.h"
 #include "solvers/solver_catalogue.h"
@@ -53,6 +54,8 @@ int whole(const std::string& text) {
 /// A number as the job file and the summary write it: the shortest that reads back equal.
 std::string shown(double value) { return fmt::format("{}", value); }
 std::string shown(const std::optional<double>& value) { return value ? shown(*value) : ""; }
+std::string shown(const std::optional<NoDataMarkers>& value) { return value ? to_string(*value) : ""; }
+std::string shown(const std::optional<MatrixTable>& value) { return value ? to_string(*value) : ""; }
 
 /// The solvers, as a user names them.
 std::string solver_words() {
@@ -82,13 +85,32 @@ std::vector<JobOptionRecord> make_table() {
       {"map-pixel", "map_pixel_mm", "MM", "pixel pitch of the map, for formats that carry none", false, true,
        [](Options& o, const std::string& t) { o.map_pixel_mm = number(t, ranges::kPitch); },
        [](const Options& o) { return shown(o.map_pixel_mm); }},
-      {"map-unit", "map_unit", "UNIT", "unit of the heights: nm, um, mm or m", false, false,
-       [](Options& o, const std::string& t) { height_unit_nm(t), o.map_unit = t; },
+      {"map-unit", "map_unit", "UNIT", "unit of the heights: nm, um, mm or m (default as the file says, else nm)",
+       false, false, [](Options& o, const std::string& t) { height_unit_nm(t), o.map_unit = t; },
        [](const Options& o) { return o.map_unit; }},
       {"map-origin", "map_origin_mm", "X,Y",
        "position of the map's first pixel in mm (default 0,0 or what the file says)", false, false,
        [](Options& o, const std::string& t) { o.map_origin_mm = parse_point(t); },
        [](const Options& o) { return o.map_origin_mm ? to_string(*o.map_origin_mm) : std::string(); }},
+      {"map-no-data", "map_no_data", "VALUE",
+       "number in the map's file that stands for no data, in its own unit, as -9999; several separated by commas; or "
+       "none: every number is a height",
+       false, false, [](Options& o, const std::string& t) { o.map_no_data = parse_no_data(t); },
+       [](const Options& o) { return shown(o.map_no_data); }},
+      {"map-max-pv", "map_max_pv_mm", "MM",
+       "most that the heights may span in mm; a map that spans more is refused (default 10)", false, true,
+       [](Options& o, const std::string& t) { o.map_max_pv_mm = number(t, ranges::kSize); },
+       [](const Options& o) { return shown(o.map_max_pv_mm); }},
+      {"map-table", "map_table", "WHAT",
+       "what the first row and column of a matrix as text are: heights; index (left out); or mm, um or m: coordinates "
+       "in this unit",
+       false, false, [](Options& o, const std::string& t) { o.map_table = parse_matrix_table(t); },
+       [](const Options& o) { return shown(o.map_table); }},
+      {"map-grid", "map_grid", "pitch=MM[,reach=MM]",
+       "fits a surface of this pixel pitch to points x y z that lie on no grid; no data farther than reach from the "
+       "nearest point (default 1.5 times their spacing)",
+       false, false, [](Options& o, const std::string& t) { o.map_grid = parse_scatter_options(t); },
+       [](const Options& o) { return to_string(o.map_grid); }},
       {"map-steps", "map_steps", "STEPS",
        "how to prepare the map, before all else: STEP;STEP;... of docs/maps.md, as crop:rect:0,0,9,9;fill:harmonic",
        false, false, [](Options& o, const std::string& t) { parse_map_steps(t), o.map_steps = t; },
@@ -107,9 +129,20 @@ std::vector<JobOptionRecord> make_table() {
        false, true, [](Options& o, const std::string& t) { o.tif_pixel_mm = number(t, ranges::kPitch); },
        [](const Options& o) { return shown(o.tif_pixel_mm); }},
       {"tif-unit", "tif_unit", "UNIT",
-       "unit of the removal rates: nm/s, um/s, um/min or m/s (of the surface that spots left: nm, um, mm or m)", false,
-       false, [](Options& o, const std::string& t) { check_height_or_rate_unit(t), o.tif_unit = t; },
+       "unit of the removal rates: nm/s, um/s, um/min or m/s (of the surface that spots left: nm, um, mm or m); "
+       "default "
+       "as the file says, else nm/s (nm)",
+       false, false, [](Options& o, const std::string& t) { check_height_or_rate_unit(t), o.tif_unit = t; },
        [](const Options& o) { return o.tif_unit; }},
+      {"tif-no-data", "tif_no_data", "VALUE", "the same as --map-no-data for the removal function's file", false, false,
+       [](Options& o, const std::string& t) { o.tif_no_data = parse_no_data(t); },
+       [](const Options& o) { return shown(o.tif_no_data); }},
+      {"tif-table", "tif_table", "WHAT", "the same as --map-table for the removal function's file", false, false,
+       [](Options& o, const std::string& t) { o.tif_table = parse_matrix_table(t); },
+       [](const Options& o) { return shown(o.tif_table); }},
+      {"tif-grid", "tif_grid", "pitch=MM[,reach=MM]", "the same as --map-grid for the removal function's file", false,
+       false, [](Options& o, const std::string& t) { o.tif_grid = parse_scatter_options(t); },
+       [](const Options& o) { return to_string(o.tif_grid); }},
       {"tif-dwell-time", "tif_dwell_time_s", "SECONDS",
        "the removal function's file is a surface, flat before, after the tool stood on it for so many seconds at one "
        "or "

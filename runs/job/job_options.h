@@ -6,7 +6,10 @@
 
 #include "core/base/point.h"
 #include "core/form/form_terms.h"
+#include "core/formats/matrix_table.h"
+#include "core/formats/no_data.h"
 #include "core/map/aperture.h"
+#include "core/map/scattered_surface.h"
 #include "core/motion/motion.h"
 #include "core/tif/removal_function.h"
 #include "core/tif/removal_orientation.h"
@@ -23,13 +26,20 @@ namespace dwell {
 struct JobOptions {
   std::string map;
   std::optional<double> map_pixel_mm;
-  std::string map_unit = "nm";
+  std::string map_unit;  // empty: as the file says, else nm
   std::optional<Point> map_origin_mm;
+  std::optional<NoDataMarkers> map_no_data;
+  std::optional<double> map_max_pv_mm;  // nothing: 10 mm
+  std::optional<MatrixTable> map_table;
+  std::optional<ScatterOptions> map_grid;
   std::string map_steps;
   std::optional<double> max_pixels;  // nothing: kMaxPixels, and no file that unpacks to many times its size
   std::string tif;
   std::optional<double> tif_pixel_mm;
-  std::string tif_unit = "nm/s";
+  std::string tif_unit;  // empty: as the file says, else nm/s
+  std::optional<NoDataMarkers> tif_no_data;
+  std::optional<MatrixTable> tif_table;
+  std::optional<ScatterOptions> tif_grid;
   std::optional<double> tif_dwell_time_s;
   std::optional<TifCentre> tif_centre;  // nothing: as the file says
   double tif_angle_deg = 0.0;

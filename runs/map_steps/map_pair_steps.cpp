@@ -21,13 +21,16 @@
 namespace dwell {
 namespace {
 
-/// Another map, read as the first was unless the step has its own pixel, unit or origin.
+/// Another map, read as the first was unless the step has its own pixel, unit or origin; table and gridding are those
+/// of the first map's file alone.
 HeightMap read_other(const std::string& file, const MapStep& step, MapStepContext& context) {
   MapReadOptions read = context.read;
+  read.table.reset();
+  read.grid.reset();
   if (const auto pixel = step.optional_number("pixel")) read.pitch = *pixel;
   if (const auto origin = step.point("origin")) read.origin = *origin;
   if (step.has("unit")) read.scale = height_unit_nm(step.word("unit"));
-  HeightMap map = read_map(file, read);
+  HeightMap map = read_map(file, read, context.progress);
   context.inputs->push_back({step.record->name, file, sha256_of_file(file)});
   return map;
 }

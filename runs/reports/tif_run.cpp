@@ -12,6 +12,7 @@
 #include "core/base/units.h"
 #include "core/tif/models/removal_models.h"
 #include "core/tif/removal_orientation.h"
+#include "runs/job/input_files.h"
 #include "runs/job/place_option.h"
 
 namespace dwell {
@@ -41,11 +42,16 @@ void refuse_unused(const TifJob& job) {
   only(!job.baseline.empty(), spot, "--baseline", "--spot");
   only(!job.registration.empty(), spot, "--register", "--spot");
   const JobOptions& o = job.job;
-  only(o.map_pixel_mm || o.map_origin_mm || o.map_unit != "nm" || !o.map_steps.empty(), measured,
+  only(o.map_pixel_mm || o.map_origin_mm || !o.map_unit.empty() || !o.map_steps.empty(), measured,
        "--map-pixel, --map-origin, --map-unit or --map-steps",
        "--spot or --trench (for a file of rates: --tif-pixel, --tif-unit)");
-  only(o.tif_pixel_mm || o.tif_unit != "nm/s" || o.tif_centre, !measured, "--tif-pixel, --tif-unit or --tif-centre",
+  only(o.map_no_data || o.map_max_pv_mm || o.map_table || o.map_grid, measured,
+       "--map-no-data, --map-max-pv, --map-table or --map-grid",
+       "--spot or --trench (for a file of rates: --tif-no-data, --tif-table, --tif-grid)");
+  only(o.tif_pixel_mm || !o.tif_unit.empty() || o.tif_centre, !measured, "--tif-pixel, --tif-unit or --tif-centre",
        "a file of rates (for --spot and --trench: --map-pixel, --map-unit, --centre)");
+  only(o.tif_no_data || o.tif_table || o.tif_grid, !measured, "--tif-no-data, --tif-table or --tif-grid",
+       "a file of rates (for --spot and --trench: --map-no-data, --map-table, --map-grid)");
 }
 
 HeightMap read_heights(const std::string& file, const TifJob& job, const char* role, std::vector<InputFile>& inputs,

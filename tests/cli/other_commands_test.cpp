@@ -143,6 +143,19 @@ TEST(MapCommand, DoesStepsInOrderAndContinuesTheHistory) {
   EXPECT_EQ(map.grid.rows, 9);
 }
 
+TEST(MapCommand, TakesOutMarksAndIndicesAsAsked) {
+  const SmallInputs inputs;
+  inputs.folder.file("bad.csv", ",0,1,2\n0,4,-9999,2\n1,3,5,8\n2,7,7,1\n");
+  const ProgramResult result = inputs.run(
+      {"map", "bad.csv", "--map-table", "mm", "--map-no-data", "-9999", "--map-unit", "um", "--write", "a.csv"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  expect_has(result.out, "made      no data: 1 pixels of -9999, as asked\n");
+  const HeightMap map = read_map(inputs / "a.csv");
+  EXPECT_EQ(map.grid, (Grid{3, 3, 1.0, 1.0, {}}));
+  EXPECT_TRUE(std::isnan(map.at(0, 1)));
+  EXPECT_EQ(map.at(1, 2), 8e3);
+}
+
 TEST(MapCommand, ListsTheStepsAndRefusesOthers) {
   const SmallInputs inputs;
   const ProgramResult listed = inputs.run({"map", "--steps"});

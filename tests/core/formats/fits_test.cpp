@@ -144,7 +144,7 @@ TEST(Fits, NamesTheKeywordOfWhatItRefuses) {
 
 TEST(Fits, WritesWhatItReadsBackEqual) {
   const test::TemporaryFolder folder;
-  HeightMap map(Grid{2, 3, 0.1, 1.0 / 3.0, {-1.7, 0.1 + 0.2}}, {NAN, 1e300, -1.0 / 3.0, 0.0, 5.0, 6.0});
+  HeightMap map(Grid{2, 3, 0.1, 1.0 / 3.0, {-1.7, 0.1 + 0.2}}, {NAN, 1e6 / 7.0, -1.0 / 3.0, 0.0, 5.0, 6.0});
   map.history = {"read part.dat", "it's " + std::string(200, 'x'), "caf\xc3\xa9"};
   write_map(folder.path() / "a.fits", map);
   const HeightMap back = read_map(folder.path() / "a.fits");

@@ -92,7 +92,9 @@ TEST(MatrixText, NamesLineAndColumnOfWhatItRefuses) {
   refused("1,-inf\n", {"line 1, column 2", "infinite"});
   refused("1,1e999\n", {"line 1, column 2", "range"});
   refused("1,5;2,5\n", {"line 1, column 1", "'1,5'", "decimal comma"});
-  refused("1,5 2,5\n", {"line 1, column 2", "'5 2'"});
+  refused("1,5 2,5\n", {"line 1, column 2", "'5 2'", "decimal commas"});
+  refused("1,5\t2,5\n3,1\t4,2\n", {"line 1, column 2", "'5\\t2'", "decimal commas", "points"});
+  refused("1\t2,5\n", {"line 1, column 1", "'1\\t2'", "decimal commas"});
   refused("0x10,2\n", {"line 1, column 1", "'0x10'"});
   refused("1,+-2\n", {"line 1, column 2"});
   refused("# only a comment\n", {"no row of numbers"});

@@ -1,10 +1,12 @@
 #include "core/formats/xyz_text.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "core/formats/point_grid.h"
+#include "core/map/value_units.h"
 #include "tests/core/base/expect_error.h"
 
 namespace dwell {
@@ -49,6 +51,30 @@ TEST(XyzText, ReadsEverySeparatorAndAHeaderLine) {
   EXPECT_EQ(parse_xyz_text("x_mm y_mm z_um\n0 0 1\n", "map").header.unit, "um");
 }
 
+TEST(XyzText, TakesTheUnitsOfItsColumnsInEverySpelling) {
+  for (const std::string names :
+       {"x_mm y_mm z_um", "x[mm]  y[mm]  z[um]", "# x[mm] y[mm] z[um]", "X (mm),Y (mm),Z (micron)",
+        "# x/mm; y/mm; z/um", "\"X [mm]\",\"Y [mm]\",\"Z [\xc2\xb5m]\"", "x in mm, y in mm, z in um",
+        "# x mm y mm height um", "# unit: um\nx y z", "# heights in um\n# x y z", "x y z[um]"}) {
+    const XyzText xyz = parse_xyz_text(names + "\n0 0 1\n0.5 1 2\n", "map a.xyz");
+    ASSERT_TRUE(xyz.header.unit.has_value()) << names;
+    EXPECT_EQ(height_unit_nm(*xyz.header.unit), 1e3) << names;
+    EXPECT_EQ(xyz.points[1].position, (Point{0.5, 1.0})) << names;
+  }
+}
+
+TEST(XyzText, ConvertsCoordinatesToMillimetres) {
+  for (const std::string names : {"# x (m)  y (m)  height (m)", "x_m y_m z_nm", "# lateral unit: m\n# unit: nm",
+                                  "# x, y, z units: m", "# x,y in m, z in um", "# x: m, y: m, z: nm", "# X, Y, Z in m",
+                                  "# x and y in metres; height in nm", "# xy units: metres\nx y z_um"}) {
+    const XyzText xyz = parse_xyz_text(names + "\n0 0 1\n0.002 -0.001 2\n", "map a.xyz");
+    EXPECT_DOUBLE_EQ(xyz.points[1].position.x, 2.0) << names;
+    EXPECT_DOUBLE_EQ(xyz.points[1].position.y, -1.0) << names;
+    EXPECT_TRUE(xyz.header.unit.has_value()) << names;
+  }
+  EXPECT_DOUBLE_EQ(parse_xyz_text("x_um y_um z\n250 0 1\n", "map").points[0].position.x, 0.25);
+}
+
 TEST(XyzText, RecognisesALineThatNamesItsColumns) {
   EXPECT_TRUE(names_xyz_columns("x y z\n1 2 3\n"));
   EXPECT_TRUE(names_xyz_columns("# made by hand\n# X_mm, Y_mm, Z_nm\n1,2,3\n"));
@@ -69,7 +95,14 @@ TEST(XyzText, NamesTheLineItRefuses) {
   expect_refused("# nothing\n", {"no point"});
   expect_refused("0 0 1\n#N/A 0 3\n", {"line 2", "'#N/A 0 3'"});
   expect_refused("hello\n0 0 1\n", {"line 1", "'hello'"});
-  expect_refused("x_um y_um z\n0 0 1\n", {"line 1", "'um'", "mm"});
+  expect_refused("x_px y_px z\n0 0 1\n", {"line 1", "'px'", "mm"});
+  expect_refused("x_mm y_um z\n0 0 1\n", {"line 1", "'um'", "agree"});
+  expect_refused("x_mm y z_nm\n0 0 1\n", {"line 1", "only one of x and y", "x_mm y_mm z_nm"});
+  expect_refused("x, y, z [um]\n0 0 1\n", {"line 1", "'um'", "of z alone, or of all", "x_mm y_mm z_um"});
+  expect_refused("x y z_waves\n0 0 1\n", {"line 1", "'waves'", "nm, um"});
+  expect_refused("xpos ypos z(nm)\n0 0 1\n", {"line 1", "'xpos ypos z(nm)'", "'x_mm y_mm z_nm'"});
+  expect_refused("0,0 0,0 1,5\n0,5 0,0 2,5\n", {"line 1", "'0,0 0,0 1,5'", "decimal commas", "points"});
+  expect_refused("0,0\t1\t1,5\n", {"line 1", "'0,0\\t1\\t1,5'", "decimal commas"});
   expect_refused("# unit: nm\nx y z_um\n0 0 1\n", {"line 2", "'um'", "'nm'"});
 }
 
@@ -83,6 +116,30 @@ TEST(PointGrid, NamesPointsOffTheGridAndPointsGivenTwice) {
   expect_refused(text + "3 2 1\n", {"line 21", "(3, 2)", "line 14"});
   expect_refused(text + "3 900000 1\n", {"21 points", "900001 x 5", "stray"});
   expect_refused("1 1 5\n", {"one place", "`map pixel`"});
+}
+
+TEST(PointGrid, RefusesScatteredPoints) {
+  // Random places of one decimal: the grid of the last digit holds them all and is nearly empty.
+  std::string random, jittered, ring, tracks;
+  unsigned dice = 1;
+  const auto roll = [&dice](unsigned sides) { return (dice = dice * 1664525U + 1013904223U) / 65536U % sides; };
+  for (int i = 0; i < 60; ++i) random += fmt::format("{} {} {}\n", roll(100) * 0.1, roll(100) * 0.1, i);
+  for (int i = 0; i < 25; ++i) {
+    jittered += fmt::format("{:.2f} {:.2f} {}\n", i % 5 + 0.01 * roll(7) - 0.03, i / 5 + 0.01 * roll(7) - 0.03, i);
+  }
+  expect_refused(random, {"map a.xyz", "60 points fill", "pitch 0.1 x 0.1 mm", "25 % are required", "`map grid`"});
+  expect_refused(jittered, {"map a.xyz", "25 points", "`map grid`"});
+  // A ring fills little of its square but lies side by side, and so do tracks with wide gaps.
+  int points = 0;
+  for (int y = -50; y <= 50; ++y) {
+    for (int x = -50; x <= 50; ++x) {
+      const int square = x * x + y * y;
+      if (square >= 46 * 46 && square <= 50 * 50) ring += fmt::format("{} {} 1\n", x * 0.1, y * 0.1), ++points;
+    }
+  }
+  EXPECT_EQ(grid_of(ring).valid_pixels(), points);
+  for (int i = 0; i < 40; ++i) tracks += fmt::format("{} {} 1\n", i % 20 * 0.1, i / 20 * 5);
+  EXPECT_EQ(grid_of(tracks).valid_pixels(), 40);
 }
 
 TEST(PointGrid, RefusesPointsThatAreAbsurdlyFarApart) {

@@ -25,11 +25,18 @@ JobOptions unusual() {
   o.map_pixel_mm = 0.1;
   o.map_unit = "um";
   o.map_origin_mm = Point{-12.5, 1.0 / 3.0};
+  o.map_no_data = NoDataMarkers{{-9999.0, 0.1}};
+  o.map_max_pv_mm = 25.0;
+  o.map_table = parse_matrix_table("um");
+  o.map_grid = ScatterOptions{0.3, 1.0 / 7.0};
   o.map_steps = "crop:data; subtract:file=/data/b.csv,how=resample";
   o.max_pixels = 1e6;
   o.tif = "gaussian:peak=1,fwhm=2.8,radius=5";
   o.tif_pixel_mm = 0.2;
   o.tif_unit = "um/min";
+  o.tif_no_data = NoDataMarkers{};
+  o.tif_table = parse_matrix_table("index");
+  o.tif_grid = ScatterOptions{0.2, {}};
   o.tif_dwell_time_s = 4.5;
   o.tif_centre = parse_tif_centre("0.5,-0.25");
   o.tif_angle_deg = -37.5;

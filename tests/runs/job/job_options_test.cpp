@@ -53,6 +53,11 @@ TEST(JobOptionTable, GivesBackWhatItIsGiven) {
        std::initializer_list<std::pair<const char*, const char*>>{{"map-pixel", "0.0938"},
                                                                   {"map-unit", "um"},
                                                                   {"map-origin", "-12.5,3"},
+                                                                  {"map-no-data", "-9999,32767"},
+                                                                  {"map-no-data", "none"},
+                                                                  {"map-max-pv", "12.5"},
+                                                                  {"map-table", "index"},
+                                                                  {"map-grid", "pitch=0.5,reach=2"},
                                                                   {"map-steps", "crop:data;fill:harmonic"},
                                                                   {"max-pixels", "1000000000"},
                                                                   {"tif-unit", "um/min"},
@@ -120,11 +125,16 @@ TEST(JobOptionTable, RefusesUnknownWordsNamingTheAcceptedOnes) {
     expect_input_error([&] { set(options, flag, text); }, {std::string("--") + flag, text});
     expect_input_error([&] { set(options, flag, text); }, words);
   };
-  refused("map-unit", "waves", {"nm", "um", "mm"});
-  refused("tif-unit", "waves/s", {"nm/s", "um/min", "m/s"});
-  refused("tif-unit", "waves", {"nm", "um", "mm"});
+  refused("map-unit", "furlong", {"nm", "um", "mm"});
+  refused("tif-unit", "furlong/s", {"nm/s", "um/min", "m/s"});
+  refused("tif-unit", "furlong", {"nm", "um", "mm"});
   refused("map-origin", "1", {"X,Y"});
   refused("map-origin", "1,nan", {"X,Y"});
+  refused("map-no-data", "nan", {"finite number", "none"});
+  refused("map-table", "rows", {"heights", "index", "mm"});
+  refused("map-grid", "0.5", {"pitch=MM[,reach=MM]"});
+  refused("map-grid", "reach=1", {"pitch=MM[,reach=MM]"});
+  refused("tif-grid", "pitch=-1", {"both > 0"});
   refused("tif-centre", "left", {"middle", "centroid", "X,Y"});
   refused("path", "zigzag:pitch=1", {"raster", "nearest", "file"});
   refused("motion", "go", {"moving", "stop"});

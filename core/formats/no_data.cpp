@@ -1,0 +1,159 @@
+#include "core/formats/no_data.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/base/errors.h"
+#include "core/base/number_text.h"
+
+namespace dwell {
+namespace {
+
+constexpr std::size_t kLeastRepeats = 4;
+constexpr double kFarSpans = 10.0;
+constexpr double kLeftOut = 0.01;  // of the values at either end, one at least, for the span of the others
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+/// Also where the file holds it in single precision.
+bool is_marker(double value, double marker, double factor) {
+  return value == marker * factor || value == static_cast<double>(static_cast<float>(marker)) * factor ||
+         std::abs(value - marker * factor) <= 1e-12 * std::abs(value);
+}
+
+std::size_t remove_huge(const RawValues& raw, double& largest) {
+  std::size_t count = 0;
+  for (double& value : *raw.values) {
+    if (!(std::abs(value) >= kLeastMarker * std::abs(raw.factor))) continue;
+    if (std::isinf(value)) continue;  // of an array; refused by whoever reads the map
+    if (!(std::abs(value) < std::abs(largest))) largest = value;
+    value = kNone;
+    ++count;
+  }
+  return count;
+}
+
+std::size_t remove_marker(const RawValues& raw, double marker) {
+  std::size_t count = 0;
+  for (double& value : *raw.values) {
+    if (std::isnan(value) || !is_marker(value, marker, raw.factor)) continue;
+    value = kNone;
+    ++count;
+  }
+  return count;
+}
+
+/// An extreme value, and how often it stands there.
+struct Extreme {
+  double value = kNone;
+  std::size_t count = 0;
+
+  void add(double v, bool beyond) {
+    if (count == 0 || beyond)
+      *this = {v, 1};
+    else if (v == value)
+      ++count;
+  }
+  /// Whether it may stand for no data.
+  bool may_mark() const { return count >= kLeastRepeats && value != 0.0; }
+};
+
+/// What 98 % of the values besides the two span, from at most a million of them; and the nearest to either end.
+struct Rest {
+  double span = 0.0, low = kNone, high = kNone;
+};
+
+Rest rest_of(const std::vector<double>& values, const Extreme& low, const Extreme& high) {
+  constexpr std::size_t kSamples = 1'000'000;
+  const std::size_t step = values.size() / kSamples + 1;
+  Rest rest;
+  std::vector<double> samples;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double v = values[i];
+    const bool marks = (low.may_mark() && v == low.value) || (high.may_mark() && v == high.value);
+    if (std::isnan(v) || marks) continue;
+    if (!(v >= rest.low)) rest.low = v;
+    if (!(v <= rest.high)) rest.high = v;
+    if (i % step == 0) samples.push_back(v);
+  }
+  if (samples.size() < kLeastRepeats) return rest;
+  const auto cut =
+      std::max<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(kLeftOut * static_cast<double>(samples.size())), 1);
+  const auto first = samples.begin() + cut, last = samples.end() - 1 - cut;
+  std::nth_element(samples.begin(), first, samples.end());
+  const double from = *first;
+  std::nth_element(samples.begin(), last, samples.end());
+  rest.span = *last - from;
+  return rest;
+}
+
+void refuse_lone_extreme(const RawValues& raw, const std::string& where, const std::string& name) {
+  Extreme low, high;
+  for (const double v : *raw.values) {
+    if (std::isnan(v)) continue;
+    low.add(v, v < low.value);
+    high.add(v, v > high.value);
+  }
+  if (!low.may_mark() && !high.may_mark()) return;
+  const Rest rest = rest_of(*raw.values, low, high);
+  const auto refuse = [&](const Extreme& extreme, double nearest) {
+    const double shown = extreme.value / raw.factor;
+    throw InputError(
+        fmt::format("{}: {} pixels are {}, and no other is nearer than {} to it: a mark for no data? Give `{} no data` "
+                    "{} if so, or "
+                    "`{} no data` none if it is a height",
+                    where, extreme.count, shown, nearest / raw.factor, name, shown, name));
+  };
+  const auto lone = [&](const Extreme& extreme, double nearest) {
+    const double gap = std::abs(nearest - extreme.value);
+    return extreme.may_mark() && rest.span > 0.0 && gap > kFarSpans * rest.span;
+  };
+  if (lone(low, rest.low)) refuse(low, rest.low);
+  if (lone(high, rest.high)) refuse(high, rest.high);
+}
+
+}  // namespace
+
+NoDataMarkers parse_no_data(const std::string& text) {
+  NoDataMarkers markers;
+  if (text == "none") return markers;
+  for (const std::string_view field : split(text, ',')) {
+    const auto value = finite_number(field);
+    if (!value) {
+      throw InputError(
+          fmt::format("'{}'; accepted: a finite number as the file holds it, several separated by commas, "
+                      "or none",
+                      text));
+    }
+    markers.values.push_back(*value);
+  }
+  return markers;
+}
+
+std::string to_string(const NoDataMarkers& markers) {
+  std::string text;
+  for (const double value : markers.values) text += (text.empty() ? "" : ",") + fmt::format("{}", value);
+  return text.empty() ? "none" : text;
+}
+
+std::vector<std::string> remove_no_data(const RawValues& raw, const std::optional<NoDataMarkers>& asked,
+                                        const std::string& where, const std::string& name) {
+  std::vector<std::string> history;
+  double largest = 0.0;
+  if (const std::size_t count = remove_huge(raw, largest); count > 0) {
+    history.push_back(
+        fmt::format("no data: {} pixels of {:g} or more, as {:g}", count, kLeastMarker, largest / raw.factor));
+  }
+  for (const double marker : raw.no_data) {
+    history.push_back(fmt::format("no data: {} pixels of {}, as the file says", remove_marker(raw, marker), marker));
+  }
+  for (const double marker : asked ? asked->values : std::vector<double>()) {
+    history.push_back(fmt::format("no data: {} pixels of {}, as asked", remove_marker(raw, marker), marker));
+  }
+  if (!asked || !asked->values.empty()) refuse_lone_extreme(raw, where, name);
+  return history;
+}
+
+}  // namespace dwell

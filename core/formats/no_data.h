@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace dwell {
+
+/// What the user says of values that stand for no data.
+struct NoDataMarkers {
+  std::vector<double> values;  // as the file holds them; empty = none is, every number is a height
+};
+
+/// "-9999", "-9999,32767" or "none". Throws InputError naming what is accepted.
+NoDataMarkers parse_no_data(const std::string& text);
+
+/// The text that parses to it again.
+std::string to_string(const NoDataMarkers& markers);
+
+/// Numbers of a file and what it says of them.
+struct RawValues {
+  std::vector<double>* values;  // as read; NaN = no data
+  double factor = 1.0;          // the reader has multiplied the file's numbers by it
+  std::vector<double> no_data;  // what the file itself says stands for no data
+};
+
+/// Numbers from which on no instrument means a height, as the file holds them: the largest float (3.4e38), half of it,
+/// 9.97e36 of netCDF, 1e30 and 1e20 of others.
+inline constexpr double kLeastMarker = 1e20;
+
+/// Sets to NaN what is no height: numbers of kLeastMarker and more, and those that the file or the user names. Returns
+/// a line each, for the map's history. Without a word of the user, one extreme value is refused that stands in four
+/// pixels or more while nothing else is near it (-9999, 32767, 65535 around a part): farther from all others than ten
+/// times what 98 % of these span. Never so 0, which flat parts, masks and removal functions have. `where` begins the
+/// message, `name` is "map" or "tif" (the option to name). Throws InputError. Cost O(values).
+std::vector<std::string> remove_no_data(const RawValues& raw, const std::optional<NoDataMarkers>& asked,
+                                        const std::string& where, const std::string& name);
+
+}  // namespace dwell

@@ -1,0 +1,251 @@
+#include "core/formats/text_header.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/formats/map_io.h"
+#include "core/map/value_units.h"
+#include "tests/core/base/expect_error.h"
+#include "tests/core/base/temporary_folder.h"
+
+namespace dwell {
+namespace {
+
+using About = UnclearStatement::About;
+
+/// Of a matrix of 3 rows and 4 columns.
+MapHeader header_of(const std::string& lines) {
+  TextHeader header("map a.csv");
+  long number = 0;
+  for (std::size_t begin = 0; begin < lines.size();) {
+    const std::size_t end = std::min(lines.find('\n', begin), lines.size());
+    header.read_comment(lines.substr(begin, end - begin), ++number);
+    begin = end + 1;
+  }
+  return header.header_of_matrix(3, 4);
+}
+
+bool says_nothing(const MapHeader& h) {
+  return !h.unit && !h.pitch && !h.origin && h.no_data.empty() && h.unclear.empty() && h.history.empty();
+}
+
+/// Whether something about this is unclear, and the message says the line and all of the words.
+void expect_unclear(const std::string& line, About about, std::initializer_list<std::string> words) {
+  const MapHeader header = header_of("# first\n" + line);
+  ASSERT_EQ(header.unclear.size(), 1u) << line;
+  EXPECT_EQ(header.unclear[0].about, about) << line;
+  for (const std::string& word : words) {
+    EXPECT_NE(header.unclear[0].message.find(word), std::string::npos) << word << " in " << header.unclear[0].message;
+  }
+}
+
+TEST(TextHeader, TakesTheUnitOfTheValuesInEverySpelling) {
+  for (const char* line : {"# unit: um",
+                           "# Unit: um",
+                           "# UNITS = um",
+                           "# units um",
+                           "#unit=um",
+                           "## unit :um",
+                           "# height unit: micron",
+                           "# Height_Units: [um]",
+                           "# Value units: \xc2\xb5m",
+                           "# z unit: \xce\xbcm",
+                           "# zunit: um",
+                           "# unit (um)",
+                           "# data unit: micrometres",
+                           "# units of heights: um",
+                           "# unit of z: um",
+                           "# heights in um",
+                           "# All heights are given in microns",
+                           "# Height [um]",
+                           "# z: um",
+                           "# z (um)",
+                           "# Height: um",
+                           "# Surface error: um",
+                           "# Tuesday, units: um",
+                           "# note: heights in um",
+                           "# x: right; unit: um",
+                           "# \"unit: um\"",
+                           "# surface_unit: Micrometer"}) {
+    const MapHeader header = header_of(line);
+    ASSERT_TRUE(header.unit.has_value()) << line;
+    EXPECT_EQ(unit_factor(*header.unit, MapQuantity::Height), 1e3) << line;
+    EXPECT_TRUE(header.unclear.empty()) << line << ": " << header.unclear[0].message;
+  }
+  EXPECT_EQ(unit_factor(*header_of("# rate unit: um/min").unit, MapQuantity::Rate), 1e3 / 60.0);
+}
+
+TEST(TextHeader, TakesThePitchInEveryUnit) {
+  for (const char* line : {"# pitch_mm: 0.25",
+                           "# Pitch_MM = 0.25",
+                           "# pitch_um: 250",
+                           "# pitch: 250 um",
+                           "# pitch = 0.25mm",
+                           "# Pixel size: 0.25 mm",
+                           "# PixelSize [um]: 250",
+                           "# pixel_size_um=250",
+                           "# Pixel size (x,y): 0.25 mm",
+                           "# pixel pitch 0.25 mm",
+                           "# the pitch is 0.25 mm",
+                           "# Lateral resolution: 2.5e-4 m",
+                           "# pixel spacing: 250 \xc2\xb5m",
+                           "# pixel scale: 0.25 mm/pixel",
+                           "# mm/pixel: 0.25",
+                           "# mm per px = 0.25",
+                           "# sampling: 0.25 mm",
+                           "# dx: 0.25 mm; dy: 0.25 mm",
+                           "# dx = 250 um, dy = 0.25 mm",
+                           "# Camera Res: 0.00025 m",
+                           "# pitch: 0.25 x 0.25 mm",
+                           "# pitch_mm: [0.25, 0.25]",
+                           "# x pixel size: 0.25 mm, y pixel size: 0.25 mm",
+                           "# xscale: 0.25 mm; yscale: 0.25 mm"}) {
+    const MapHeader header = header_of(line);
+    ASSERT_TRUE(header.pitch.has_value()) << line;
+    EXPECT_DOUBLE_EQ(header.pitch->x, 0.25) << line;
+    EXPECT_DOUBLE_EQ(header.pitch->y, 0.25) << line;
+  }
+  EXPECT_EQ(header_of("# pitch: 0.25 \xc3\x97 0.5 mm").pitch, (Point{0.25, 0.5}));
+  EXPECT_EQ(header_of("# pitch_mm: 0.1,0.3").pitch, (Point{0.1, 0.3}));
+  EXPECT_EQ(header_of("# pitch_mm: 0.1; 0.3; note").pitch, (Point{0.1, 0.3}));
+  EXPECT_EQ(header_of("# dy_mm: 0.5\n# dx_mm: 0.25").pitch, (Point{0.25, 0.5}));
+}
+
+TEST(TextHeader, TakesTheSizeThatGwyddionWrites) {
+  // Four columns and three rows: the size is that of all pixels, edge to edge.
+  const MapHeader header = header_of("# Channel: Fig\n# Width: 12.000 mm\n# Height: 9.600 mm\n# Value units: m");
+  EXPECT_DOUBLE_EQ(header.pitch->x, 3.0);
+  EXPECT_DOUBLE_EQ(header.pitch->y, 3.2);
+  EXPECT_EQ(header.unit, "m");
+  EXPECT_NEAR(header.pitch_rounding, 0.0005 / 9.6, 1e-12);
+  test::expect_input_error([] { header_of("# Channel: F\n# Width: 12 mm\n# Height: 9 mm\n# pitch_mm: 2"); },
+                           {"map a.csv", "Width", "3 x 3 mm", "2 x 2 mm", "agree"});
+  // Of another program it may be from the first pixel to the last.
+  expect_unclear("# width: 12 mm", About::Pitch, {"width", "12 mm", "pitch_mm"});
+  expect_unclear("# size: 12 x 9", About::Pitch, {"line 2", "size", "'12 x 9'"});
+  EXPECT_TRUE(says_nothing(header_of("# size: 3 x 4")));
+  EXPECT_TRUE(says_nothing(header_of("# Width: 4\n# Height: 3")));
+  EXPECT_TRUE(says_nothing(header_of("# Size: 640 x 480 pixels")));
+}
+
+TEST(TextHeader, TakesTheOriginAndRefusesAnOffset) {
+  for (const char* line : {"# origin_mm: 100,-50", "# Origin_mm: 100, -50", "# origin = 100 x -50 mm",
+                           "# Origin [um]: 100000,-50000", "# x0_mm: 100; y0_mm: -50", "# xmin: 100 mm, ymin: -5 cm"}) {
+    const MapHeader header = header_of(line);
+    ASSERT_TRUE(header.origin.has_value()) << line;
+    EXPECT_DOUBLE_EQ(header.origin->x, 100.0) << line;
+    EXPECT_DOUBLE_EQ(header.origin->y, -50.0) << line;
+  }
+  expect_unclear("# origin: 100,50", About::Origin, {"line 2", "origin", "'100,50'", "origin_mm"});
+  expect_unclear("# offset: 3 mm", About::Origin, {"line 2", "offset", "'3 mm'", "origin_mm"});
+  expect_unclear("# X_Offset_mm: 3", About::Origin, {"X_Offset_mm", "'3'"});
+  expect_unclear("# x0: 3 mm", About::Origin, {"x0", "one direction"});
+  EXPECT_TRUE(says_nothing(header_of("# offset: 0,0\n# origin: Oslo\n# z offset: 0")));
+}
+
+TEST(TextHeader, TakesTheValueForNoData) {
+  for (const char* line : {"# nodata: -9999", "# NoData_value = -9999", "# NODATA -9999", "# no data: -9999",
+                           "# missing value: -9999", "# _FillValue: -9999", "# Bad data value = -9999"}) {
+    EXPECT_EQ(header_of(line).no_data, std::vector<double>{-9999.0}) << line;
+  }
+  EXPECT_EQ(header_of("# nodata: -9999, 32767").no_data, (std::vector<double>{-9999.0, 32767.0}));
+  EXPECT_TRUE(says_nothing(header_of("# nodata: nan\n# no data: none\n# bad pixels: 17\n# mask: 3 mm")));
+  expect_unclear("# missing: -9999", About::NoData, {"missing", "-9999", "nodata"});
+}
+
+TEST(TextHeader, KeepsWhatIsUnclearForWhoeverKnowsTheOptions) {
+  expect_unclear("# pitch: 0.25", About::Pitch, {"map a.csv, line 2", "pitch", "'0.25'", "without a unit", "pitch_mm"});
+  expect_unclear("# resolution: 0.1 mm", About::Pitch, {"resolution"});
+  expect_unclear("# the pixel pitch was found to be 0.25 mm", About::Pitch, {"pitch_mm"});
+  expect_unclear("# z scale: 1e-9", About::Unit, {"z scale", "'1e-9'", "unit"});
+  expect_unclear("# dz: 2 nm", About::Unit, {"dz", "unit"});
+  expect_unclear("# measured height map of Tuesday (um)", About::Unit, {"looks like the unit", "# unit: um"});
+  expect_unclear("# unit um of the surface", About::Unit, {"unit um of"});
+  expect_unclear("# lateral unit: um", About::Pitch, {"lateral unit"});
+  expect_unclear("# dx: 0.5 mm", About::Pitch, {"dx", "one direction"});
+}
+
+TEST(TextHeader, RefusesByNameWhatItCannotRead) {
+  const auto refused = [](const std::string& line, std::initializer_list<std::string> words) {
+    test::expect_input_error([&] { header_of("# first\n" + line); }, {"map a.csv, line 2"});
+    test::expect_input_error([&] { header_of("# first\n" + line); }, words);
+  };
+  refused("# Unit: waves", {"Unit", "'waves'", "nm, um, mm, m"});
+  refused("# heights in fringes", {"'fringes'", "nm, um"});
+  refused("# z [waves]", {"'waves'", "nm, um"});
+  refused("# pitch: unknown", {"pitch", "'unknown'", "mm or with a unit"});
+  refused("# Pitch_mm: 0", {"Pitch_mm", "'0'"});
+  refused("# pixel size: 0.5 furlongs", {"pixel size", "'0.5 furlongs'"});
+  refused("# pitch_um: 250 mm", {"pitch_um", "'250 mm'", "um"});
+  refused("# dx=0.5 dy=0.5", {"dx", "'0.5 dy=0.5'"});
+  refused("# origin_mm: 1", {"origin_mm", "'1'", "x,y"});
+  refused("# origin: x=1 mm, y=2 mm", {"origin", "'x=1 mm'"});
+  refused("# nodata: BAD", {"nodata", "'BAD'", "nan"});
+  refused("# lateral units: pixel", {"lateral units", "'pixel'"});
+}
+
+TEST(TextHeader, RefusesWhatIsSaidTwiceOrOtherwise) {
+  test::expect_input_error([] { header_of("# unit: nm\n# unit: nm"); }, {"line 2", "unit", "second time"});
+  test::expect_input_error([] { header_of("# unit: nm\n# Heights in um"); }, {"line 2", "'um'", "unit = 'nm'"});
+  test::expect_input_error([] { header_of("# unit: nm\n# rate unit: nm/s"); }, {"line 2", "'nm/s'", "agree"});
+  EXPECT_EQ(header_of("# unit: um\n# Heights in micrometres").unit, "um");
+  test::expect_input_error([] { header_of("# pitch_mm: 0.5\n# pixel size: 0.4 mm"); },
+                           {"line 2", "0.4", "0.5", "agree"});
+  EXPECT_EQ(header_of("# pitch_mm: 0.5\n# pixel size: 500 um").pitch, (Point{0.5, 0.5}));
+}
+
+TEST(TextHeader, LeavesOtherCommentsAlone) {
+  for (const char* line : {"# measured on Tuesday 12:30:05",
+                           "# rows: row 1 = smallest y; columns: column 1 = smallest x",
+                           "# instrument: Zygo Verifire, 633 nm",
+                           "# wavelength: 632.8 nm",
+                           "# operator: N. N., part no. 5",
+                           "# unit under test",
+                           "# unit number: 5",
+                           "# C:/data/height.txt",
+                           "# date=2024-03-01",
+                           "# tool: 5 mm wheel",
+                           "# z range: 12 to 30",
+                           "# x: to the right, y: up",
+                           "# x 0.5 mm",
+                           "# scale: 1",
+                           "# Step 3 of 5",
+                           "# step: 3",
+                           "# temperature in degrees",
+                           "# average of 16 maps",
+                           "# units",
+                           "# ",
+                           "#",
+                           "# :",
+                           "# =,;|",
+                           "# original: part-7.dat"}) {
+    const MapHeader header = header_of(line);
+    EXPECT_TRUE(says_nothing(header)) << line << (header.unclear.empty() ? "" : ": " + header.unclear[0].message);
+  }
+  EXPECT_EQ(header_of("# made: crop, unit: um").history, std::vector<std::string>{"crop, unit: um"});
+}
+
+// The whole way: an option settles what is unclear and never what is wrong.
+TEST(TextHeader, AnOptionSettlesWhatIsUnclear) {
+  const test::TemporaryFolder folder;
+  const auto file = folder.file("a.csv", "# pitch: 250\n# origin: 1,2\n# scale: 1e-3\n# missing: 7\n1,2\n4,7\n");
+  MapReadOptions options;
+  const auto refused = [&](const std::string& key, const std::string& option) {
+    test::expect_input_error([&] { read_map(file, options); }, {"a.csv", key, option});
+  };
+  refused("pitch = '250'", "`map pixel`");
+  options.pitch = 0.25;
+  refused("origin = '1,2'", "`map origin`");
+  options.origin = Point{1.0, 2.0};
+  refused("scale = '1e-3'", "`map unit`");
+  options.scale = 1e3;
+  refused("missing = '7'", "`map no data`");
+  options.no_data = NoDataMarkers{{7.0}};
+  const HeightMap map = read_map(file, options);
+  EXPECT_EQ(map.at(1, 0), 4e3);
+  EXPECT_TRUE(std::isnan(map.at(1, 1)));
+}
+
+}  // namespace
+}  // namespace dwell
