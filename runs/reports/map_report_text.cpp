@@ -123,7 +123,7 @@ std::string map_report_text(const MapReport& report) {
                       slope_number(report.slope.x), slope_number(report.slope.y), slope_number(report.slope.total));
   text += dropped_text(report.removed_fit);
   if (report.form) text += form_text(report);
-  if (report.spectrum) text += spectrum_text(*report.spectrum, report.statistics.rms);
+  if (report.spectrum) text += spectrum_text(*report.spectrum, report.statistics.rms_about_zero());
   return text;
 }
 

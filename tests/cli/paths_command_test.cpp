@@ -54,7 +54,7 @@ TEST(PathsCommand, RefusesWhatIsWrongAndLeavesNothing) {
   };
   refused({}, {"--paths: required", "--kinds"});
   refused({"--paths", "raster,zigzag"}, {"unknown kind \"zigzag\"", "accepted: raster"});
-  refused({"--paths", "raster", "--pitch", "-1"}, {"--pitch", "-1", "> 0"});
+  refused({"--paths", "raster", "--pitch", "-1"}, {"--pitch", "-1", "from 1e-06"});
   refused({"--paths", "raster", "--path", "raster"}, {"unknown option --path"});
   refused({"--paths", "raster", "--map", "absent.csv"}, {"absent.csv"});
 }

@@ -136,7 +136,7 @@ const std::vector<Wrong>& cases() {
        {"path.csv: dwell point 2 = (5, -1e+15) mm is 1e+15 mm from the map"}},
       {"endless_dwell", none, {"--min-dwell", "1e300"}, {"--min-dwell", "'1e300'", "from 0 to 1e+07 (s)"}},
       {"endless_feed", none, {"--max-feed", "1e-9"}, {"--max-feed", "'1e-9'", "from 0.01 to 1e+07 (mm/min)"}},
-      {"endless_rate", none, {"--tif", "gaussian:peak=1e300,fwhm=2"}, {"peak = 1e+300", "1e+16"}},
+      {"endless_rate", none, {"--tif", "gaussian:peak=1e300,fwhm=2"}, {"peak = \"1e300\"", "from -1e+16 to 1e+16"}},
       {"large_rate", none, {"--tif", "gaussian:peak=1e10,fwhm=2"}, {"peak = 10000000000 nm/s", "from 1e-09 to 1e+09"}},
       {"out_in_an_earlier_result",
        [](const SmallInputs& inputs) {

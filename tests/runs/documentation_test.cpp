@@ -1,5 +1,7 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <string>
 
@@ -7,6 +9,7 @@
 #include "core/tif/models/removal_models.h"
 #include "paths/path_catalogue.h"
 #include "runs/job/job_options.h"
+#include "runs/programs/gcode_codes.h"
 #include "runs/reports/plan_files.h"
 #include "solvers/solver_catalogue.h"
 
@@ -64,6 +67,20 @@ TEST(Documentation, AddingNamesFilesThatExist) {
     ++files;
   }
   EXPECT_GT(files, 20u);
+}
+
+// A word of G-code that is accepted stands in the table of them, its number as it is written.
+TEST(Documentation, ListsEveryCodeThatAProgramMayHold) {
+  const std::string text = read_whole_file(DWELL_SOURCE_DIR "/docs/formats.md");
+  const std::size_t from = text.find("### Programs that can be read"), to = text.find("\n## ", from);
+  std::string table = text.substr(from, to - from);
+  std::replace(table.begin(), table.end(), '`', ' ');
+  std::replace(table.begin(), table.end(), ',', ' ');
+  for (const GcodeCode& code : gcode_codes()) {
+    if (code.effect == GcodeEffect::Refused) continue;
+    const std::string word = fmt::format(" {}{} ", code.letter, code.tenths / 10.0);
+    EXPECT_NE(table.find(word), std::string::npos) << "docs/formats.md lacks" << word;
+  }
 }
 
 }  // namespace

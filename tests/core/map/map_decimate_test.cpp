@@ -105,8 +105,9 @@ TEST(Resample, RefusesAPitchThatIsNoneOrTooFine) {
   for (const double pitch : {0.0, -1.0, kNoData, 1.0 / 0.0}) {
     expect_input_error([&] { resample_map(map, {pitch, 0.2}); }, {"pitch", "finite and > 0"});
   }
-  expect_input_error([&] { resample_map(map, {1e-9, 1e-9}); }, {"pixels are accepted"});
-  expect_input_error([&] { resample_map(map, {1e9, 1e9}); }, {"no block of"});
+  expect_input_error([&] { resample_map(map, {1e-6, 1e-6}); }, {"pixels are accepted"});
+  expect_input_error([&] { resample_map(map, {1e4, 1e4}); }, {"no block of"});
+  expect_input_error([&] { resample_map(map, {1e-9, 0.2}); }, {"1e-09", "from 1e-06 to 10000 (mm)"});
 }
 
 }  // namespace

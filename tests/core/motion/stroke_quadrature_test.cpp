@@ -97,8 +97,11 @@ TEST(StrokeQuadrature, TakesAStrokeOfOneHalf) {
 
 // A surface that is zero outside a box: what lies there adds nothing, and costs nothing however long it is.
 TEST(StrokeQuadrature, LeavesOutWhatLiesBeyondTheReach) {
-  const SplineSurface surface = random_surface(5);  // zero two pitches beyond its grid
-  const LatticeBox reach{-2.0, static_cast<double>(kGrid.cols + 1), -2.0, static_cast<double>(kGrid.rows + 1)};
+  const SplineSurface surface = random_surface(5);
+  const Grid& g = surface.grid();  // of its coefficients; zero two pitches beyond
+  const LatticeBox reach{(g.x(-2) - kGrid.origin.x) / kGrid.pitch_x, (g.x(g.cols + 1) - kGrid.origin.x) / kGrid.pitch_x,
+                         (g.y(-2) - kGrid.origin.y) / kGrid.pitch_y,
+                         (g.y(g.rows + 1) - kGrid.origin.y) / kGrid.pitch_y};
   std::mt19937_64 random(8);
   std::uniform_real_distribution<double> x(-9.0, 9.0), y(1.0, 18.0);
   for (int k = 0; k < 200; ++k) {

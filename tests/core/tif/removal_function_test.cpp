@@ -55,11 +55,11 @@ TEST(SpinningDisc, HasTheRateOfItsRimAndTheVolumeOfACone) {
 
 TEST(RemovalFunction, NamesTheParameterOutOfRange) {
   for (double bad : {0.0, -1.0, kNaN, kInfinity}) {
-    expect_input_error([&] { gaussian_removal(bad, 1.0, 1.0); }, {"removal function", "peak", "> 0"});
-    expect_input_error([&] { gaussian_removal(1.0, bad, 1.0); }, {"removal function", "fwhm", "> 0"});
-    expect_input_error([&] { gaussian_removal(1.0, 1.0, bad); }, {"removal function", "radius", "> 0"});
+    expect_input_error([&] { gaussian_removal(bad, 1.0, 1.0); }, {"removal function", "peak", "from 1e-0"});
+    expect_input_error([&] { gaussian_removal(1.0, bad, 1.0); }, {"removal function", "fwhm", "from 1e-0"});
+    expect_input_error([&] { gaussian_removal(1.0, 1.0, bad); }, {"removal function", "radius", "from 1e-0"});
     expect_input_error([&] { spinning_disc_removal(bad, 1.0); }, {"removal function", "slope", "> 0"});
-    expect_input_error([&] { spinning_disc_removal(1.0, bad); }, {"removal function", "radius", "> 0"});
+    expect_input_error([&] { spinning_disc_removal(1.0, bad); }, {"removal function", "radius", "from 1e-06"});
   }
 }
 

@@ -154,7 +154,7 @@ TEST(RandomRaster, ReadsSpreadsInMillimetresAndPercent) {
       message("random-raster:pitch=2,spread=%"),
       "path \"random-raster:pitch=2,spread=%\": spread = \"%\"; required a length in mm or a share of the pitch, for "
       "instance spread=20%");
-  for (const char* seed : {"-1", "1.5", "1e17", "inf"}) {
+  for (const char* seed : {"-1", "1.5", "1e16", "inf"}) {
     const std::string text = std::string("random-raster:pitch=1,seed=") + seed;
     EXPECT_EQ(message(text), "path \"" + text + "\": seed = \"" + seed + "\"; required a whole number from 0 to 2^53");
   }

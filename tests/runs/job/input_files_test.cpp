@@ -77,10 +77,10 @@ TEST(LoadRemovalFunction, RefusesBadFormulas) {
   expect_input_error([] { tif_of("gaussian:peak=8,fwhm=2,sigma=1"); }, {"either fwhm or sigma"});
   expect_input_error([] { tif_of("gaussian:fwhm=2"); }, {"peak"});
   expect_input_error([] { tif_of("gaussian:peak=nan,fwhm=2"); }, {"peak", "nan"});
-  expect_input_error([] { tif_of("gaussian:peak=-1,fwhm=2"); }, {"peak", "-1", "> 0"});
+  expect_input_error([] { tif_of("gaussian:peak=-1,fwhm=2"); }, {"peak", "-1", "from 1e-09"});
   expect_input_error([] { tif_of("gaussian:peak=1,fwhm=2,width=3"); }, {"width", "peak, fwhm, sigma, radius"});
   expect_input_error([] { tif_of("disc:slope=1"); }, {"radius"});
-  expect_input_error([] { tif_of("disc:slope=1,radius=0"); }, {"radius", "> 0"});
+  expect_input_error([] { tif_of("disc:slope=1,radius=0"); }, {"radius", "from 1e-06"});
 }
 
 TEST(LoadRemovalFunction, ReadsAFileWithItsUnitPitchAndAxis) {

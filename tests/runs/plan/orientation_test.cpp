@@ -212,7 +212,7 @@ TEST_P(Orientation, BumpIsRemovedWhereItIsByTheToolAsMeasured) {
       by_formula = removals_by_formula(plan.part().map.grid, rows);  // the dialect changes none
     for (const char* name : {"program.nc", "feed.csv"}) {
       SCOPED_TRACE(fmt::format("{} {}", dialect, name));
-      const Simulation read_back = simulate_file(std::filesystem::path(o.out) / name, std::nullopt, o, {});
+      const Simulation read_back = simulate_file(std::filesystem::path(o.out) / name, {}, o, {});
       expect_removal_at_the_bump(read_back.removal);
       EXPECT_LE(read_back.after.rms, 0.05 * read_back.before.rms);
       expect_tool_as_measured(read_back.removal, by_formula);

@@ -26,7 +26,7 @@ TEST(ProgramFormats, EveryFormatReadsBackWhatItWrote) {
     EXPECT_TRUE(files.insert(format.file).second) << format.file;
     EXPECT_FALSE(format.name.empty() || format.about.empty());
     ASSERT_EQ(program_format_of("\n " + written[k].bytes), &format) << format.name;
-    const Program read = format.read(written[k].bytes, "there", std::nullopt, {});
+    const Program read = format.read(written[k].bytes, "there", {}, {});
     EXPECT_TRUE(same_removing_steps(read, program_of(table), units::mm_per_s(3000.0))) << format.name;
     EXPECT_EQ(read.file, "there");
   }

@@ -98,7 +98,7 @@ TEST(GcodeReader, NamesLineAndWordOfWhatItCannotAccept) {
   refused("G0 G1 X1", "\"G1\": is the second word of its kind");
   refused("G1 X", "\"X\" has no readable number");
   refused("G1 X1..5", "\"X1..5\" has no readable number");
-  refused("G1 Xnan", "\"X\" has no readable number");
+  refused("G1 Xnan", "\"Xnan\" has no readable number");
   refused("G1 X1e3", "\"e3\"");
   refused("G1 X+-1", "\"X+-1\" has no readable number");
   refused("G1 X#5", "\"X\" has no readable number");
@@ -261,7 +261,7 @@ TEST(GcodeReader, AsksForAKnownPosition) {
                   "line 2: G0 over the part while the tool is not known to be lifted");
   expect_contains(message("G0 Z0\nG0 X1 Y1\nM2\n"),
                   "line 2: G0 over the part while the tool is not known to be lifted");
-  expect_contains(message("G0 Z1\nG4 P1\nM2\n"), "line 2: G4 at an unknown position");
+  expect_contains(message("G0 Z1\nG4 P1.\nM2\n"), "line 2: G4 at an unknown position");
   expect_contains(message("G0 Z1\nG91 X1\nM2\n"), "line 2: X1 after G91 from an unknown position");
   expect_contains(message("X1 Y1\nM2\n"), "line 1: X, Y or Z before any G0 or G1");
   // The first rapid arrives from where the machine stood.

@@ -156,7 +156,7 @@ TEST(TurnedTool, ActsAtTheRightPlaceInASimulation) {
        {std::pair{0.0, "none"}, {90.0, "none"}, {90.0, "x"}, {-90.0, "y"}, {30.0, "none"}}) {
     options.tif_angle_deg = angle;
     options.tif_flip = parse_flip(flip);
-    const Simulation s = simulate_file(program, std::nullopt, options, {});
+    const Simulation s = simulate_file(program, {}, options, {});
     const double a = angle * 3.14159265358979323846 / 180.0;
     for (Index i = 0; i < s.removal.grid.size(); ++i) {
       const Point d = s.removal.grid.centre(i) - Point{2.0, 1.0};

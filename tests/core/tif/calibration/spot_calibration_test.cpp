@@ -254,7 +254,7 @@ TEST(CalibrateSpots, RefusesBeforeAndAfterSwapped) {
 TEST(CalibrateSpots, RefusesWhatItCannotUse) {
   const HeightMap depth = depth_of(after_spots(kGrid, kFour, 5.0, 0.1, 1));
   for (const double seconds : {0.0, -5.0, kNaN, HUGE_VAL}) {
-    expect_input_error([&] { calibrate_spots(depth, options_for(seconds)); }, {"`dwell time` = ", "> 0"});
+    expect_input_error([&] { calibrate_spots(depth, options_for(seconds)); }, {"`dwell time` = ", "from 1e-09"});
   }
   const auto with = [&](auto change) {
     return [&depth, change] {

@@ -98,7 +98,7 @@ TEST(CalibrateTrench, RefusesWhatItCannotUse) {
       calibrate_trench(depth, options);
     };
   };
-  expect_input_error(with(0.0, 0.0), {"`feed` = 0 mm/min", "> 0"});
+  expect_input_error(with(0.0, 0.0), {"`feed` = 0 mm/min", "from 0.01"});
   expect_input_error(with(std::nan(""), 0.0), {"`feed` = nan"});
   expect_input_error(with(1.0, 90.0), {"no trench found", "`direction`"});
   HeightMap swapped = depth;
