@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "bench/json_access.h"
-#include "bench/suite.h"
 #include "solvers/solver_catalogue.h"
 
 namespace dwell::bench {

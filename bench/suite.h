@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "bench/budget.h"
-#include "solvers/problem/dwell_solver.h"
 
 namespace dwell::bench {
 

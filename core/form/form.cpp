@@ -4,7 +4,6 @@
 
 #include <stdexcept>
 
-#include "core/base/errors.h"
 #include "core/form/form_polynomials.h"
 
 namespace dwell {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/form/form.h"
+#include "core/form/form_terms.h"
 #include "core/map/height_map.h"
 
 namespace dwell {

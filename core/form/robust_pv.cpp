@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/form/map_statistics.h"
+#include "core/form/polynomial_fit.h"
 
 namespace dwell {
 

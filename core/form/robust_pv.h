@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "core/form/polynomial_fit.h"
+#include "core/map/height_map.h"
 
 namespace dwell {
 

@@ -11,7 +11,7 @@
 
 namespace dwell {
 
-/// What a curve about a centre asks of its user.
+/// The options that all curves about a centre share.
 struct CentredCurveOptions {
   double pitch = 0.0;             // distance between neighbouring turns [mm], finite and > 0; required
   std::optional<double> step;     // distance of dwell points along the curve [mm], finite and > 0; default = pitch

@@ -58,7 +58,7 @@ struct ScanFrame {
   Interval v;    // extent across [mm]
 };
 
-/// What every planner of straight lines asks of its user.
+/// The options that all planners of straight lines share.
 struct ScanOptions {
   double pitch = 0.0;      // distance between lines [mm]
   double step = 0.0;       // distance between dwell points of a line [mm]

@@ -6,7 +6,6 @@
 
 #include "core/base/errors.h"
 #include "core/base/threads.h"
-#include "core/form/form.h"
 
 namespace dwell {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "core/base/units.h"
+#include "core/form/form.h"
 #include "core/removal/removal_geometry.h"
 #include "core/removal/simulate.h"
 #include "paths/feed/plan_program.h"

@@ -10,10 +10,9 @@
 #include "core/base/spec_text.h"
 #include "core/base/threads.h"
 #include "core/base/units.h"
-#include "core/base/whole_file.h"
-#include "core/formats/map_io.h"
 #include "core/tif/models/removal_models.h"
 #include "core/tif/removal_orientation.h"
+#include "runs/job/input_files.h"
 #include "runs/job/place_option.h"
 
 namespace dwell {

@@ -7,14 +7,13 @@
 #include "core/tif/calibration/spot_calibration.h"
 #include "core/tif/calibration/trench_calibration.h"
 #include "core/tif/removal_analysis.h"
-#include "runs/job/input_files.h"
+#include "runs/base/input_file.h"
 #include "runs/job/job_options.h"
 #include "solvers/fits/ceres_removal_fit.h"
 
 namespace dwell {
 
-/// What a user asks of `dwell tif`, in the user's own words and units. Exactly one of job.tif, spot and trench is
-/// given.
+/// The options of `dwell tif`, in the user's own words and units. Exactly one of job.tif, spot and trench is given.
 struct TifJob {
   JobOptions job;      // tif and how to read it; map_pixel_mm, map_unit, map_origin_mm for spot, before and trench
   std::string spot;    // map after the tool stood on it

@@ -6,7 +6,7 @@
 
 #include "core/base/progress.h"
 #include "core/map/height_map.h"
-#include "core/tif/models/removal_models.h"
+#include "core/tif/models/removal_model.h"
 
 namespace dwell {
 

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "core/map/height_map.h"
-#include "core/tif/models/removal_models.h"
+#include "core/tif/models/removal_model.h"
 
 namespace dwell {
 

@@ -6,7 +6,6 @@
 
 #include "core/base/grid_limit.h"
 #include "core/map/map_sampler.h"
-#include "core/map/map_turn.h"
 #include "tests/core/base/expect_error.h"
 #include "tests/core/map/uneven_map.h"
 

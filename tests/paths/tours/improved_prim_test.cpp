@@ -2,7 +2,6 @@
 
 #include <ostream>
 
-#include "core/form/form.h"
 #include "core/form/map_statistics.h"
 #include "core/formats/map_io.h"
 #include "paths/metrics/path_metrics.h"

@@ -6,7 +6,6 @@
 
 #include "runs/job/planned_job.h"
 #include "runs/plan/plan_problem.h"
-#include "runs/plan/weight_choice.h"
 #include "runs/reports/plan_files.h"
 #include "runs/reports/plan_output.h"
 #include "tests/core/base/expect_error.h"

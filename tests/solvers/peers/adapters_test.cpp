@@ -13,7 +13,6 @@
 #include "core/removal/sparse_removal.h"
 #include "core/tif/removal_kernel.h"
 #include "solvers/peers/ceres_solver.h"
-#include "solvers/peers/nlopt_solver.h"
 #include "solvers/problem/certificate.h"
 #include "solvers/solver_catalogue.h"
 

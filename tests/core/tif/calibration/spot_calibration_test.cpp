@@ -7,7 +7,6 @@
 #include <numeric>
 
 #include "core/tif/calibration/spot_finder.h"
-#include "core/tif/removal_function.h"
 #include "tests/core/base/expect_error.h"
 #include "tests/core/tif/calibration/spot_truth.h"
 
