@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "core/form/form.h"
+#include "core/form/form_terms.h"
 #include "core/map/height_map.h"
 
 namespace dwell {

@@ -15,6 +15,7 @@
 #include "core/base/errors.h"
 #include "core/numerics/dense_solve.h"
 #include "core/numerics/median.h"
+#include "core/tif/models/removal_models.h"
 #include "solvers/fits/removal_fit_starts.h"
 #include "solvers/fits/stop_callback.h"
 

@@ -7,6 +7,7 @@
 
 #include "core/base/whole_file.h"
 #include "core/formats/map_io.h"
+#include "runs/job/input_files.h"
 #include "runs/job/place_option.h"
 #include "runs/job/planned_job.h"
 #include "runs/reports/simulation.h"
