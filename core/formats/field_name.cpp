@@ -89,7 +89,7 @@ bool is_upper(char c) { return std::isupper(static_cast<unsigned char>(c)) != 0;
 bool is_lower(char c) { return std::islower(static_cast<unsigned char>(c)) != 0; }
 
 /// "Pixel size (um)" and "PixelSize_um" -> pixel, size, um.
-std::vector<std::string> words_of(std::string_view name) {
+std::vector<std::string> name_words(std::string_view name) {
   std::vector<std::string> words(1);
   for (std::size_t i = 0; i < name.size(); ++i) {
     const bool camel =
@@ -215,7 +215,7 @@ FieldTopic topic_of(std::string_view word, FieldAxis axis) {
 }  // namespace
 
 FieldName parse_field_name(std::string_view name) {
-  std::vector<std::string> words = words_of(name);
+  std::vector<std::string> words = name_words(name);
   if (words.empty()) return {};
   FieldName field;
   if (const auto unit = find_unit(words)) {

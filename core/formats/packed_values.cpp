@@ -29,18 +29,18 @@ class Unpacker {
   }
 
   double height(double value) {
-    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+    constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
     const double number = stored(value);
     for (std::size_t i = 0; i < packing_.no_data.size(); ++i) {
       if (!is_marker(number, packing_.no_data[i].value, packing_.single_precision)) continue;
       ++counts_[i];
-      return kNone;
+      return kNoValue;
     }
     const double result = number * packing_.scale + packing_.offset;
     const double ranged = packing_.range_of_heights ? result : number;
     if ((packing_.least && ranged < *packing_.least) || (packing_.most && ranged > *packing_.most)) {
       ++beyond_;
-      return kNone;
+      return kNoValue;
     }
     return result;
   }
