@@ -178,7 +178,7 @@ TEST(FitRemovalFunction, RefusesWhatItCannotFit) {
   };
   expect_input_error(with("bonnet", {}), {"cap must be held", "`fit` bonnet:cap=VALUE"});
   expect_input_error(with("gaussian", {{"width", 2.0}}), {"unknown parameter \"width\"", "x, y, peak, fwhm"});
-  expect_input_error(with("gaussian", {{"fwhm", -2.0}}), {"fwhm = -2", "> 0"});
+  expect_input_error(with("gaussian", {{"fwhm", -2.0}}), {"fwhm = -2", "> 1e-06"});
   expect_input_error(with("gaussian", {{"peak", 0.0}}), {"peak = 0"});
   expect_input_error([] { fit_removal(HeightMap(kGrid), removal_model("gaussian")); }, {"0 samples"});
 }

@@ -169,7 +169,8 @@ TEST(RemovalOfSpec, PrestonsLawGivesTheRate) {
 }
 
 TEST(RemovalOfSpec, RefusesWhatIsOutOfRange) {
-  expect_input_error([] { of("planetary:radius=0,eccentricity=0.8,peak=1"); }, {"planetary", "radius = 0 mm", "> 1e-06"});
+  expect_input_error([] { of("planetary:radius=0,eccentricity=0.8,peak=1"); },
+                     {"planetary", "radius = 0 mm", "> 1e-06"});
   expect_input_error([] { of("planetary:radius=1,peak=1"); }, {"eccentricity", "missing"});
   expect_input_error([] { of("planetary:radius=1,eccentricity=0.8"); }, {"rpm", "missing"});
   expect_input_error([] { of("planetary:radius=1,eccentricity=0.8,peak=1,rpm=3"); }, {"either peak"});
