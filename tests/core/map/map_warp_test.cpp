@@ -150,11 +150,11 @@ TEST(PlaneTransform, InverseUndoesIt) {
 TEST(MapWarp, StopsWhenAsked) {
   const HeightMap map(Grid{40, 30, 0.5, 0.5, {}}, std::vector<double>(1200, 1.0));
   const Progress stop{{}, [] { return true; }};
-  EXPECT_THROW(warped(map, {}, map.grid, 1, stop), Interrupted);
-  EXPECT_THROW(rotated(map, 33.0, {}, 2, stop), Interrupted);
+  EXPECT_THROW(warp_map(map, {}, map.grid, 1, stop), Interrupted);
+  EXPECT_THROW(rotate_map(map, 33.0, {}, 2, {}, stop), Interrupted);
   std::vector<std::string> lines;
   const Progress listener{[&](const std::string& line) { lines.push_back(line); }, {}};
-  warped(map, {}, map.grid, 1, listener);
+  warp_map(map, {}, map.grid, 1, listener);
   EXPECT_EQ(lines, (std::vector<std::string>{"the spline through the map", "resampling: 0 %"}));
 }
 
