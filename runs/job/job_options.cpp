@@ -40,7 +40,8 @@ double not_negative(const std::string& text) {
 }
 
 void check_height_or_rate_unit(const std::string& unit) {
-  unit_factor(unit, known_rate_unit(unit) ? MapQuantity::Rate : MapQuantity::Height);
+  const bool rate = known_rate_unit(unit) || unit.find('/') != std::string::npos;
+  unit_factor(unit, rate ? MapQuantity::Rate : MapQuantity::Height);
 }
 
 double any_angle(const std::string& text) {
