@@ -12,6 +12,9 @@ void hold_standard_streams();
 /// stalled (a full pipe) for so many milliseconds at most, -1 for ever.
 void say(const std::string& text, int patience_ms = -1);
 
+/// Puts text to standard output. What cannot be written, finish_output() says at the end.
+void print(const std::string& text);
+
 /// Sends off what was printed to standard output. False, and said on standard error, if it could not all be written
 /// (a full device, closed): then the answer is lost. For the end of the program.
 bool finish_output();
