@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "cli/standard_streams.h"
 #include "core/base/errors.h"
 #include "core/base/number_text.h"
 #include "core/base/whole_file.h"
@@ -49,7 +50,7 @@ void JsonOption::check(const std::vector<ReadFile>& read, const std::string& out
 
 void JsonOption::deliver(const std::string& json, const std::string& text) const {
   if (!file().empty()) write_whole_file(file(), json);
-  fmt::print("{}", printed() ? json : text);
+  print(printed() ? json : text);
 }
 
 void check_json_words(const std::vector<std::string>& words) {

@@ -10,6 +10,7 @@
 #include "cli/json_option.h"
 #include "cli/output_files.h"
 #include "cli/progress_line.h"
+#include "cli/standard_streams.h"
 #include "cli/terminal.h"
 #include "core/base/errors.h"
 #include "core/base/threads.h"
@@ -181,7 +182,7 @@ void add_step_options(CLI::App& command, MapArguments& arguments) {
   command.add_flag_callback(
       "--steps",
       [] {
-        fmt::print("{}", map_steps_help());
+        print(map_steps_help());
         throw CLI::Success();
       },
       "list the steps with their arguments, units and examples, and stop");

@@ -9,6 +9,7 @@
 #include "cli/json_option.h"
 #include "cli/progress_line.h"
 #include "cli/result_folder.h"
+#include "cli/standard_streams.h"
 #include "cli/terminal.h"
 #include "core/base/errors.h"
 #include "paths/path_catalogue.h"
@@ -27,7 +28,7 @@ struct PathsArguments {
 
 void print_kinds() {
   for (const PathRecord& kind : path_catalogue()) {
-    fmt::print("{}:{}\n    {}\n", kind.name, kind.usage, kind.about);
+    print(fmt::format("{}:{}\n    {}\n", kind.name, kind.usage, kind.about));
   }
 }
 

@@ -7,6 +7,7 @@
 #include "cli/json_option.h"
 #include "cli/progress_line.h"
 #include "cli/result_folder.h"
+#include "cli/standard_streams.h"
 #include "cli/terminal.h"
 #include "core/base/units.h"
 #include "runs/job/job_file.h"
@@ -59,7 +60,7 @@ std::string plan_text(const PlannedJob& plan, const WrittenPlan& written) {
 int run_plan(const PlanArguments& arguments) {
   const JobOptions options = arguments.job->options();
   if (arguments.write_job) {
-    fmt::print("{}", job_file_text(options));
+    print(job_file_text(options));
     return kDone;
   }
   arguments.json.check(arguments.job->files_read(options), options.out);

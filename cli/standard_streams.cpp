@@ -28,6 +28,11 @@ void say(const std::string& text, int patience_ms) {
   if (::write(STDERR_FILENO, text.data(), text.size()) < 0) return;  // nobody reads it
 }
 
+void print(const std::string& text) {
+  // fmt::print would throw as soon as the buffer of the stream overflows, and as an internal fault.
+  if (std::fwrite(text.data(), 1, text.size(), stdout) < text.size()) return;
+}
+
 bool finish_output() {
   errno = 0;
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return true;

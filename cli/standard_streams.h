@@ -13,6 +13,9 @@ void hold_standard_streams();
 /// that has stalled (a full pipe) for at most `patience_ms` milliseconds; -1 is for ever.
 void say(const std::string& text, int patience_ms = -1);
 
+/// Puts text to standard output. What cannot be written, finish_output() says at the end.
+void print(const std::string& text);
+
 /// Flushes standard output, at the end of the program. If not all of it could be written (a full device, a closed
 /// stream), the answer is lost: it says so on standard error and returns false.
 bool finish_output();

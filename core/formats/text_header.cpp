@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "core/base/errors.h"
 #include "core/base/number_text.h"
 #include "core/base/units.h"
+#include "core/formats/header_statements.h"
 #include "core/map/value_units.h"
 
 namespace dwell {
@@ -26,70 +26,6 @@ bool agrees(double a, double b, double rounding = kSameStatement) {
 std::optional<double> known_unit(std::string_view text) {
   if (const auto length = known_length_unit(text)) return length;
   return known_rate_unit(text);
-}
-
-/// Units of heights that need a wavelength or a conversion which no text map states.
-bool is_optical_unit(std::string_view text) {
-  constexpr std::array<std::string_view, 15> kWords{"wave",   "waves", "wv",      "fringe",  "fringes",
-                                                    "lambda", "rad",   "radian",  "radians", "urad",
-                                                    "counts", "count", "degrees", "lsb",     "\xce\xbb"};
-  std::string word = lower_case(trim(text));
-  if (word.size() > 2 && (word.front() == '(' || word.front() == '[')) word = word.substr(1, word.size() - 2);
-  return std::find(kWords.begin(), kWords.end(), word) != kWords.end();
-}
-
-bool names_axes_alone(std::string_view text) { return text.find_first_not_of("xyzXYZ, \t") == std::string_view::npos; }
-
-/// "Height [um]", "heights in um", "x (mm)": a name that holds its unit.
-bool is_caption(const HeaderKey& key) {
-  const bool values = are_value_words(key.words) || (key.words.empty() && key.axis == 'z');
-  if (key.words.empty() && (key.axis == 'x' || key.axis == 'y')) return key.length.has_value();
-  return values && key.axis != 'x' && key.axis != 'y' && (!key.unit.empty() || is_optical_unit(key.remark));
-}
-
-/// Whether a number with a unit of length stands somewhere in the text.
-bool holds_a_length(std::string_view text) {
-  const auto words = words_of(text);
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    const auto alone = parse_header_lengths(words[i], 1);
-    if (alone && alone->length) return true;
-    if (alone && i + 1 < words.size() && known_length_unit(words[i + 1])) return true;
-  }
-  return false;
-}
-
-/// Where the next of the separators stands outside brackets, or the end.
-std::size_t next_separator(std::string_view text, std::size_t from, std::string_view separators) {
-  int depth = 0;
-  for (std::size_t i = from; i < text.size(); ++i) {
-    const char c = text[i];
-    depth += c == '(' || c == '[' ? 1 : c == ')' || c == ']' ? -1 : 0;
-    if (depth <= 0 && separators.find(c) != std::string_view::npos) return i;
-  }
-  return text.size();
-}
-
-/// The statements of a comment: parted by ';', '|', tabs, unless a number follows, and by commas before a name of its
-/// own.
-std::vector<std::string> statements_of(std::string_view text) {
-  std::vector<std::string> statements;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = next_separator(text, begin, ";|\t,");
-    const std::string_view part = text.substr(begin, end - begin), bare = trim(part);
-    const bool named = part.find_first_of(":=") != std::string_view::npos;
-    const bool after_comma = begin > 0 && text[begin - 1] == ',';
-    const bool number = !bare.empty() && std::string_view("0123456789+-.").find(bare.front()) != std::string_view::npos;
-    const bool after_axes = !statements.empty() && names_axes_alone(statements.back());
-    const bool own = after_comma ? named : !number;
-    if (statements.empty() || (own && !after_axes)) {
-      statements.emplace_back(bare);
-    } else {
-      statements.back() += text[begin - 1];
-      statements.back() += part;
-    }
-    begin = end + 1;
-  }
-  return statements;
 }
 
 }  // namespace
@@ -125,7 +61,7 @@ void TextHeader::read_comment(std::string_view comment, long line) {
     if (!step.empty()) header_.history.emplace_back(step);
     return;
   }
-  for (const std::string& statement : statements_of(comment)) read_statement(statement);
+  for (const std::string& statement : header_statements(comment)) read_statement(statement);
 }
 
 /// "key: value", "key = value", or words alone.
@@ -140,22 +76,10 @@ void TextHeader::read_statement(std::string_view text) {
   if (!read_captions(value) && !read_loose(value)) note_mention(text);
 }
 
-/// "x, y in mm, z in um": captions and nothing else, parted by commas.
 bool TextHeader::read_captions(std::string_view text) {
-  std::vector<HeaderKey> keys;
-  std::string caption;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = next_separator(text, begin, ",");
-    caption += (caption.empty() ? "" : ",") + std::string(text.substr(begin, end - begin));
-    begin = end + 1;
-    if (names_axes_alone(caption)) continue;
-    keys.push_back(parse_header_key(caption));
-    if (!is_caption(keys.back())) return false;
-    caption.clear();
-  }
-  if (!caption.empty()) return false;
-  for (const HeaderKey& key : keys) take_caption(key);
-  return true;
+  const std::vector<HeaderKey> captions = header_captions(text);
+  for (const HeaderKey& caption : captions) take_caption(caption);
+  return !captions.empty();
 }
 
 /// "unit um", "pixel size 0.25 mm", "heights in um": the longest beginning that is a name with a value that fits.
@@ -399,25 +323,8 @@ bool TextHeader::take_scale(const HeaderKey& key, std::string_view value) {
   return true;
 }
 
-/// "all heights of Tuesday in um", "surface error (um)": names a unit beside a word for the values.
 void TextHeader::note_mention(std::string_view text) {
-  const auto words = words_of(text);
-  bool values = false;
-  std::string_view unit;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    std::string_view word = words[i];
-    while (!word.empty() && std::string_view(".,:;=").find(word.back()) != std::string_view::npos) {
-      word.remove_suffix(1);
-    }
-    const std::size_t bracket = word.find_first_of("([");
-    const std::string_view name = word.substr(0, bracket);
-    values = values || is_value_word(lower_case(name));
-    const std::string_view stated = bracket != std::string_view::npos           ? word.substr(bracket)
-                                    : i > 0 && lower_case(words[i - 1]) == "in" ? word
-                                                                                : std::string_view();
-    if (!stated.empty() && known_unit(stated)) unit = stated;
-  }
-  if (!values || unit.empty()) return;
+  if (!mentions_value_unit(text)) return;
   add_unclear(About::Unit, fmt::format("{} looks like the unit of the values; write '# unit: um', or the comment "
                                        "without a unit",
                                        in_quotes(text)));

@@ -12,7 +12,7 @@ using test::SmallInputs;
 TEST(StandardStreams, AnswerThatCannotBeWrittenIsAFault) {
   const SmallInputs inputs;
   for (const char* words : {"map map.csv --map-pixel 0.5", "map map.csv --map-pixel 0.5 --json", "--help", "--version",
-                            "plan --map map.csv --tif tif.csv --path raster:pitch=1 --write-job"}) {
+                            "plan --map map.csv --tif tif.csv --path raster:pitch=1 --write-job", "map --steps"}) {
     EXPECT_EQ(inputs.exit_of(std::string(words) + " >/dev/full"), 1) << words;
     expect_has(read_whole_file(inputs / "said.txt"), "cannot write the answer to standard output");
     EXPECT_EQ(inputs.exit_of(std::string(words) + " >&-"), 1) << words;

@@ -118,8 +118,9 @@ TEST(NpySidecar, ItsMarkersOfNoDataAndItsUnitHoldForTheArray) {
                    R"({"pitch_mm": [1, 2], "units": "um", "no_data": -9999, "x_offset": 3, "sha256": ")" +
                        sha256_of_file(file) + "\"}");
   MapReadOptions options;
+  options.scale = 1.0;
   test::expect_input_error([&] { read_map(file, options); }, {"a.npy", "unit um", "`map unit` um"});
-  options.scale = 1e3;
+  options.scale.reset();  // what the sidecar says holds
   test::expect_input_error([&] { read_map(file, options); }, {"a.npy", "x_offset = 3", "`map origin`"});
   options.origin = Point{3.0, 0.0};
   const HeightMap read = read_map(file, options);

@@ -65,7 +65,7 @@ TEST(XyzText, TakesTheUnitsOfItsColumnsInEverySpelling) {
 
 TEST(XyzText, ConvertsCoordinatesToMillimetres) {
   for (const std::string names : {"# x (m)  y (m)  height (m)", "x_m y_m z_nm", "# lateral unit: m\n# unit: nm",
-                                  "# x, y, z units: m", "# x,y in m, z in um", "# x: m, y: m, z: nm", "# X, Y, Z in m",
+                                  "# x, y, z units: m", "# x,y in m, z in um", "# x: m, y: m, z: nm",
                                   "# x and y in metres; height in nm", "# xy units: metres\nx y z_um"}) {
     const XyzText xyz = parse_xyz_text(names + "\n0 0 1\n0.002 -0.001 2\n", "map a.xyz");
     EXPECT_DOUBLE_EQ(xyz.points[1].position.x, 2.0) << names;

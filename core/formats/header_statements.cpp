@@ -1,0 +1,106 @@
+#include "core/formats/header_statements.h"
+
+#include <algorithm>
+#include <array>
+
+#include "core/base/number_text.h"
+#include "core/map/value_units.h"
+
+namespace dwell {
+namespace {
+
+bool names_axes_alone(std::string_view text) { return text.find_first_not_of("xyzXYZ, \t") == std::string_view::npos; }
+
+/// "Height [um]", "heights in um", "x (mm)": a name that holds its unit.
+bool is_caption(const HeaderKey& key) {
+  const bool values = are_value_words(key.words) || (key.words.empty() && key.axis == 'z');
+  if (key.words.empty() && (key.axis == 'x' || key.axis == 'y')) return key.length.has_value();
+  return values && key.axis != 'x' && key.axis != 'y' && (!key.unit.empty() || is_optical_unit(key.remark));
+}
+
+/// Where the next of the separators stands outside brackets, or the end.
+std::size_t next_separator(std::string_view text, std::size_t from, std::string_view separators) {
+  int depth = 0;
+  for (std::size_t i = from; i < text.size(); ++i) {
+    const char c = text[i];
+    depth += c == '(' || c == '[' ? 1 : c == ')' || c == ']' ? -1 : 0;
+    if (depth <= 0 && separators.find(c) != std::string_view::npos) return i;
+  }
+  return text.size();
+}
+
+}  // namespace
+
+std::vector<std::string> header_statements(std::string_view text) {
+  std::vector<std::string> statements;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = next_separator(text, begin, ";|\t,");
+    const std::string_view part = text.substr(begin, end - begin), bare = trim(part);
+    const bool named = part.find_first_of(":=") != std::string_view::npos;
+    const bool after_comma = begin > 0 && text[begin - 1] == ',';
+    const bool number = !bare.empty() && std::string_view("0123456789+-.").find(bare.front()) != std::string_view::npos;
+    const bool after_axes = !statements.empty() && names_axes_alone(statements.back());
+    const bool own = after_comma ? named : !number;
+    if (statements.empty() || (own && !after_axes)) {
+      statements.emplace_back(bare);
+    } else {
+      statements.back() += text[begin - 1];
+      statements.back() += part;
+    }
+    begin = end + 1;
+  }
+  return statements;
+}
+
+std::vector<HeaderKey> header_captions(std::string_view text) {
+  std::vector<HeaderKey> keys;
+  std::string caption;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = next_separator(text, begin, ",");
+    caption += (caption.empty() ? "" : ",") + std::string(text.substr(begin, end - begin));
+    begin = end + 1;
+    if (names_axes_alone(caption)) continue;
+    keys.push_back(parse_header_key(caption));
+    if (!is_caption(keys.back())) return {};
+    caption.clear();
+  }
+  return caption.empty() ? keys : std::vector<HeaderKey>();
+}
+
+bool is_optical_unit(std::string_view text) {
+  constexpr std::array<std::string_view, 15> kWords{"wave",   "waves", "wv",      "fringe",  "fringes",
+                                                    "lambda", "rad",   "radian",  "radians", "urad",
+                                                    "counts", "count", "degrees", "lsb",     "\xce\xbb"};
+  std::string word = lower_case(trim(text));
+  if (word.size() > 2 && (word.front() == '(' || word.front() == '[')) word = word.substr(1, word.size() - 2);
+  return std::find(kWords.begin(), kWords.end(), word) != kWords.end();
+}
+
+bool holds_a_length(std::string_view text) {
+  const auto words = words_of(text);
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const auto alone = parse_header_lengths(words[i], 1);
+    if (alone && alone->length) return true;
+    if (alone && i + 1 < words.size() && known_length_unit(words[i + 1])) return true;
+  }
+  return false;
+}
+
+bool mentions_value_unit(std::string_view text) {
+  const auto words = words_of(text);
+  const auto known = [](std::string_view unit) { return known_length_unit(unit) || known_rate_unit(unit); };
+  bool values = false, unit = false;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    std::string_view word = words[i];
+    while (!word.empty() && std::string_view(".,:;=").find(word.back()) != std::string_view::npos) {
+      word.remove_suffix(1);
+    }
+    const std::size_t bracket = word.find_first_of("([");
+    values = values || is_value_word(lower_case(word.substr(0, bracket)));
+    const bool after_in = i > 0 && lower_case(words[i - 1]) == "in";
+    unit = unit || (bracket != std::string_view::npos ? known(word.substr(bracket)) : after_in && known(word));
+  }
+  return values && unit;
+}
+
+}  // namespace dwell
