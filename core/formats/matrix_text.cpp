@@ -38,7 +38,8 @@ std::string why_no_field(std::string_view field, char separator) {
   constexpr std::string_view kDigits = "0123456789";
   const std::size_t gap = separator == ',' ? trim(field).find_first_of(" \t") : std::string_view::npos;
   const bool numbers = gap != std::string_view::npos && finite_number(trim(field).substr(0, gap)) &&
-                       finite_number(trim(field).substr(gap)) && kDigits.find(trim(field).back()) != kDigits.npos;
+                       finite_number(trim(field).substr(gap)) &&
+                       kDigits.find(trim(field).back()) != std::string_view::npos;
   if (!numbers) return why_no_height(field);
   return fmt::format(
       "{} is not a number; if the commas are decimal commas: these are not accepted, write points (one "
