@@ -68,9 +68,9 @@ std::vector<HeaderKey> header_captions(std::string_view text) {
 }
 
 bool is_optical_unit(std::string_view text) {
-  constexpr std::array<std::string_view, 15> kWords{"wave",   "waves", "wv",      "fringe",  "fringes",
-                                                    "lambda", "rad",   "radian",  "radians", "urad",
-                                                    "counts", "count", "degrees", "lsb",     "\xce\xbb"};
+  constexpr std::array<std::string_view, 16> kWords{"mrad",   "wave",    "waves",  "wv",      "fringe", "fringes",
+                                                    "lambda", "rad",     "radian", "radians", "urad",   "counts",
+                                                    "count",  "degrees", "lsb",    "\xce\xbb"};
   std::string word = lower_case(trim(text));
   if (word.size() > 2 && (word.front() == '(' || word.front() == '[')) word = word.substr(1, word.size() - 2);
   return std::find(kWords.begin(), kWords.end(), word) != kWords.end();

@@ -229,6 +229,14 @@ MapSource parse_sdf_text(std::string_view text, const std::string& where, const 
   if (!std::isfinite(nm) || !std::isfinite(pitch_x) || !std::isfinite(pitch_y)) {
     throw InputError(fmt::format("{}: Xscale, Yscale or Zscale is beyond any surface", where));
   }
+  // A hundred times the pixels of any instrument: such a scale is in mm, not in m as the format has it.
+  constexpr double kWidestPitch = 50.0;  // [mm]
+  if (std::max(pitch_x, pitch_y) > kWidestPitch) {
+    throw InputError(
+        fmt::format("{}: SDF header: Xscale = {}, Yscale = {} [m] is a pitch of {} x {} mm; the scales are "
+                    "in m (0.0005 is 0.5 mm), and at most 0.05 is accepted",
+                    where, header.text("Xscale"), header.text("Yscale"), pitch_x, pitch_y));
+  }
   TextWords words(lines, kBcrComment);
   MapSource source;
   source.rows = grid.rows;

@@ -77,12 +77,44 @@ std::vector<NamedColumn> named_columns_of(std::string_view line) {
   return columns;
 }
 
-}  // namespace
+/// Words for the place of a point, and others that columns of points have.
+constexpr std::array<std::string_view, 21> kPlaceColumns{"x",   "y",    "z",    "r",     "rho",    "theta", "phi",
+                                                         "row", "rows", "col",  "cols",  "column", "i",     "j",
+                                                         "u",   "v",    "east", "north", "up",     "lon",   "lat"};
+constexpr std::array<std::string_view, 20> kOtherColumns{
+    "height", "heights", "h",       "dz",   "sag",   "value",   "rate",      "index", "id",    "sigma",
+    "error",  "weight",  "weights", "mask", "valid", "quality", "intensity", "pos",   "point", "line"};
 
-std::optional<XyzColumns> parse_xyz_columns(std::string_view line) {
+template <class Words>
+bool is_among(const Words& words, std::string_view word) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+std::string_view uncommented(std::string_view line) {
   line = trim(line);
   while (!line.empty() && line.front() == '#') line = trim(line.substr(1));
-  std::vector<NamedColumn> columns = named_columns_of(lower_case(line));
+  return line;
+}
+
+}  // namespace
+
+bool names_other_columns(std::string_view line) {
+  std::size_t places = 0, names = 0, units = 0;
+  for (const auto& [word, apart] : column_words_of(lower_case(uncommented(line)))) {
+    if (names_unit(word)) {
+      ++units;
+    } else if (word.front() != '(' && word.front() != '[') {
+      const std::string name = named_column(word).name;
+      if (!is_among(kPlaceColumns, name) && !is_among(kOtherColumns, name)) return false;
+      ++names;
+      places += is_among(kPlaceColumns, name) ? 1 : 0;
+    }
+  }
+  return names == 0 ? units > 0 : places > 1;
+}
+
+std::optional<XyzColumns> parse_xyz_columns(std::string_view line) {
+  std::vector<NamedColumn> columns = named_columns_of(lower_case(uncommented(line)));
   if (columns.size() != 3 || columns[0].name != "x" || columns[1].name != "y") return std::nullopt;
   constexpr std::array<std::string_view, 8> kThird{"z", "height", "heights", "h", "dz", "sag", "value", "rate"};
   if (std::find(kThird.begin(), kThird.end(), columns[2].name) == kThird.end()) return std::nullopt;

@@ -17,4 +17,8 @@ struct XyzColumns {
 /// "# x (m)  y (m)  height (m)", "x/mm y/mm z/nm". Nothing if it names anything else.
 std::optional<XyzColumns> parse_xyz_columns(std::string_view line);
 
+/// Whether a comment that parse_xyz_columns does not know names columns all the same: others, or in another order
+/// ("y x z", "r theta z", "x y z weight"), or gives units without names ("mm mm um", "[um]").
+bool names_other_columns(std::string_view line);
+
 }  // namespace dwell

@@ -106,6 +106,14 @@ void scale_positions(std::vector<XyzPoint>& points, double lateral_nm, const std
   }
 }
 
+/// Points are always x, y, z: to take other columns for them would turn the part or take a place for a height.
+[[noreturn]] void refuse_columns(std::string_view line, const std::string& where, long number) {
+  throw InputError(
+      fmt::format("{}, line {}: {} names columns in a way that is not known; x, y and z in this order are "
+                  "required, named as 'x_mm y_mm z_nm' or 'x[mm] y[mm] z[nm]'",
+                  where, number, in_quotes(line)));
+}
+
 bool starts_like_number(std::string_view line) {
   const char c = line.front();
   return (c >= '0' && c <= '9') || c == '-' || c == '+' || c == '.';
@@ -134,6 +142,7 @@ XyzText parse_xyz_text(std::string_view text, const std::string& where) {
       header.set_line(lines.number());
       const auto columns = parse_xyz_columns(line);
       if (columns) take_columns(*columns, fmt::format("{}, line {}", where, lines.number()), header);
+      if (comment && !columns && names_other_columns(line)) refuse_columns(line, where, lines.number());
       if (comment && !columns) header.read_comment(line, lines.number());
       if (comment || columns) continue;
     }

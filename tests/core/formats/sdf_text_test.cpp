@@ -141,6 +141,15 @@ HeightMap asymmetric_map_with_history() {
   return map;
 }
 
+// Scales in mm would make a part of metres.
+TEST(SdfText, RefusesScalesThatAreNotInMetres) {
+  for (const std::string field : {"Xscale", "Yscale"}) {
+    const std::string text = with(file("aISO-1.0"), field, field + " = 0.25\r\n");
+    test::expect_input_error([&] { parse_sdf_text(text, kSdfName); },
+                             {"map a.sdf", field + " = 0.25", "250", "at most 0.05"});
+  }
+}
+
 TEST(SdfText, ReadsBackEqualWithoutAnyOption) {
   const test::TemporaryFolder folder;
   write_map(folder.path() / "a.sdf", asymmetric_map_with_history());

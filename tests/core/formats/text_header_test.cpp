@@ -76,6 +76,26 @@ TEST(TextHeader, TakesTheUnitOfTheValuesInEverySpelling) {
   EXPECT_EQ(unit_factor(*header_of("# rate unit: um/min").unit, MapQuantity::Rate), 1e3 / 60.0);
 }
 
+TEST(TextHeader, TakesAUnitThatStandsAlone) {
+  for (const char* line : {"# um", "# [um]", "#microns", "# (\xc2\xb5m)"}) {
+    const MapHeader header = header_of(line);
+    ASSERT_TRUE(header.unit) << line;
+    EXPECT_EQ(known_length_unit(*header.unit), 1e3) << line;
+  }
+  EXPECT_EQ(header_of("# um/s").unit, "um/s");
+  for (const char* line : {"# waves", "# lambda", "# [mrad]"}) {
+    test::expect_input_error([&] { header_of(line); }, {"line 1", "a unit of height"});
+  }
+}
+
+TEST(TextHeader, FindsAUnitInBracketsBehindAnyWords) {
+  for (const char* line : {"# dz [um]", "# TIF [um/s]", "# wavefront (nm)", "# slope [urad]", "# sag of run 7 [m]"}) {
+    expect_unclear(line, About::Unit, {"line 2", "unit of the values"});
+  }
+  EXPECT_TRUE(says_nothing(header_of("# aperture [mm]")));
+  EXPECT_TRUE(says_nothing(header_of("# measured through the window of the long chamber (nm)")));
+}
+
 TEST(TextHeader, TakesThePitchInEveryUnit) {
   for (const char* line : {"# pitch_mm: 0.25",
                            "# Pitch_MM = 0.25",

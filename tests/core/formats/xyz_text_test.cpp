@@ -75,6 +75,20 @@ TEST(XyzText, ConvertsCoordinatesToMillimetres) {
   EXPECT_DOUBLE_EQ(parse_xyz_text("x_um y_um z\n250 0 1\n", "map").points[0].position.x, 0.25);
 }
 
+// "# Y [mm] X [mm] Z [nm]" was read as x y z with heights in mm: a million times too high, and turned.
+TEST(XyzText, RefusesColumnsInAnotherOrderAndUnitsWithoutNames) {
+  for (const std::string names :
+       {"# Y [mm] X [mm] Z [nm]", "# y x z", "# y_mm x_mm z_nm", "# x z y", "# X [mm] Z [nm] Y [mm]", "# r theta z",
+        "# row col z", "# x_mm,y_mm,z_um,weight", "# East(mm) North(mm) Up(um)", "# X_pos(mm) Y_pos(mm) Error(um)",
+        "# mm mm um", "# (mm) (mm) (um)", "# [mm] [mm] [um]", "# um"}) {
+    expect_refused(names + "\n0 0 1\n", {"map a.xyz, line 1", "names columns", "'x_mm y_mm z_nm'"});
+  }
+  for (const std::string prose : {"# scanned along x, then along y", "# row 7 was measured twice", "# line by line",
+                                  "# by i and j", "# valid points only"}) {
+    EXPECT_EQ(parse_xyz_text(prose + "\n0 0 1\n", "map a.xyz").points.size(), 1u) << prose;
+  }
+}
+
 TEST(XyzText, RecognisesALineThatNamesItsColumns) {
   EXPECT_TRUE(names_xyz_columns("x y z\n1 2 3\n"));
   EXPECT_TRUE(names_xyz_columns("# made by hand\n# X_mm, Y_mm, Z_nm\n1,2,3\n"));
