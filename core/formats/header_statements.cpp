@@ -4,6 +4,7 @@
 #include <array>
 
 #include "core/base/number_text.h"
+#include "core/base/units.h"
 #include "core/map/value_units.h"
 
 namespace dwell {
@@ -101,6 +102,16 @@ bool mentions_value_unit(std::string_view text) {
     unit = unit || (bracket != std::string_view::npos ? known(word.substr(bracket)) : after_in && known(word));
   }
   return values && unit;
+}
+
+bool is_caption_with_unit(std::string_view text) {
+  constexpr std::size_t kMostWords = 4;
+  const std::size_t open = text.find_last_of("([");
+  if (open == std::string_view::npos || open == 0 || (text.back() != ')' && text.back() != ']')) return false;
+  const std::string_view unit = trim(text.substr(open + 1, text.size() - open - 2));
+  const bool lateral = known_length_unit(unit) == units::kNmPerMm;
+  if (words_of(text.substr(0, open)).size() > kMostWords || lateral) return false;
+  return known_length_unit(unit) || known_rate_unit(unit) || is_optical_unit(unit);
 }
 
 }  // namespace dwell

@@ -25,4 +25,8 @@ bool holds_a_length(std::string_view text);
 /// Whether the text names a unit beside a word for the values: "all heights of Tuesday in um", "surface error (um)".
 bool mentions_value_unit(std::string_view text);
 
+/// "dz [um]", "TIF [um/s]", "slope [urad]": a few words with a unit in brackets behind them, which may be that of the
+/// values whatever the words are. Millimetres are those of lengths along the part.
+bool is_caption_with_unit(std::string_view text);
+
 }  // namespace dwell

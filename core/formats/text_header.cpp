@@ -28,18 +28,6 @@ std::optional<double> known_unit(std::string_view text) {
   return known_rate_unit(text);
 }
 
-/// "dz [um]", "TIF [um/s]", "slope [urad]": a few words with a unit in brackets behind them, which may be that of the
-/// values whatever the words are. Millimetres are those of lengths along the part.
-bool is_caption_with_unit(std::string_view text) {
-  constexpr std::size_t kMostWords = 4;
-  const std::size_t open = text.find_last_of("([");
-  if (open == std::string_view::npos || open == 0 || (text.back() != ')' && text.back() != ']')) return false;
-  const std::string_view unit = trim(text.substr(open + 1, text.size() - open - 2));
-  const bool lateral = known_length_unit(unit) == units::kNmPerMm;
-  if (words_of(text.substr(0, open)).size() > kMostWords || lateral) return false;
-  return known_unit(unit) || is_optical_unit(unit);
-}
-
 }  // namespace
 
 std::string TextHeader::place() const { return fmt::format("{}, line {}", where_, line_); }
