@@ -30,7 +30,7 @@ void say(const std::string& text, int patience_ms) {
 
 void print(const std::string& text) {
   // fmt::print would throw as soon as the buffer of the stream overflows, and as an internal fault.
-  if (std::fwrite(text.data(), 1, text.size(), stdout) < text.size()) return;
+  std::fwrite(text.data(), 1, text.size(), stdout);
 }
 
 bool finish_output() {

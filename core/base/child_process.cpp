@@ -12,12 +12,12 @@
 #include <cerrno>
 #include <cmath>
 #include <csignal>
-#include <fstream>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
 
 #include "core/base/descriptor.h"
+#include "core/base/memory.h"
 
 namespace dwell {
 namespace {
@@ -48,13 +48,6 @@ constexpr bool kSanitized = true;
 constexpr bool kSanitized = false;
 #endif
 
-/// Address space of this process; 0 if the system does not tell.
-std::size_t address_space() {
-  std::size_t pages = 0;
-  std::ifstream("/proc/self/statm") >> pages;
-  return pages * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
-}
-
 /// A crash is an answer here: no handler of the host program, no core file, no words on the terminal. The copy ends
 /// with its original, which may be ended while it waits for the answer.
 void be_quiet(const ChildLimits& limits) {
@@ -65,7 +58,7 @@ void be_quiet(const ChildLimits& limits) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_IGN);
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_CPU, static_cast<rlim_t>(std::max(1.0, std::round(limits.cpu_seconds))));
-  if (!kSanitized) limit(RLIMIT_AS, address_space() + limits.bytes);
+  if (!kSanitized) limit(RLIMIT_AS, address_space_in_use() + limits.bytes);
   const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
   if (nowhere >= 0) ::dup2(nowhere, STDERR_FILENO);
 }

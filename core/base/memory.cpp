@@ -59,6 +59,8 @@ std::size_t limit_of_address_space() {
 
 }  // namespace
 
+std::size_t address_space_in_use() { return held_by_this_process().address_space; }
+
 std::size_t memory_to_be_had() {
   const Held held = held_by_this_process();
   // What the allocator keeps free is in the address space, but is to be had.

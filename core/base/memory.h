@@ -13,6 +13,9 @@ class OutOfMemory : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// The address space of this process [bytes]; 0 if the system does not say.
+std::size_t address_space_in_use();
+
 /// What this process may still take [bytes]: the least of what the system has free, what its control group leaves and
 /// what its own limit of address space leaves. Without an answer of the system, the largest number there is.
 std::size_t memory_to_be_had();

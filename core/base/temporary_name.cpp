@@ -14,7 +14,6 @@
 #include <string>
 #include <string_view>
 #include <system_error>
-#include <vector>
 
 namespace dwell {
 namespace {
@@ -67,7 +66,6 @@ bool is_left(const Descriptor& entry, pid_t maker) {
 void remove_leftovers(const fs::path& target) {
   const std::string stem = stem_for(target);
   std::error_code error;
-  std::vector<fs::path> left;
   for (fs::directory_iterator entry(folder_of(target), error), end; !error && entry != end; entry.increment(error)) {
     const auto maker = maker_of(entry->path().filename().native(), stem);
     if (!maker) continue;

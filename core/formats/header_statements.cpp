@@ -89,7 +89,6 @@ bool holds_a_length(std::string_view text) {
 
 bool mentions_value_unit(std::string_view text) {
   const auto words = words_of(text);
-  const auto known = [](std::string_view unit) { return known_length_unit(unit) || known_rate_unit(unit); };
   bool values = false, unit = false;
   for (std::size_t i = 0; i < words.size(); ++i) {
     std::string_view word = words[i];
@@ -99,7 +98,8 @@ bool mentions_value_unit(std::string_view text) {
     const std::size_t bracket = word.find_first_of("([");
     values = values || is_value_word(lower_case(word.substr(0, bracket)));
     const bool after_in = i > 0 && lower_case(words[i - 1]) == "in";
-    unit = unit || (bracket != std::string_view::npos ? known(word.substr(bracket)) : after_in && known(word));
+    unit = unit || (bracket != std::string_view::npos ? known_value_unit(word.substr(bracket)).has_value()
+                                                      : after_in && known_value_unit(word));
   }
   return values && unit;
 }
@@ -111,7 +111,7 @@ bool is_caption_with_unit(std::string_view text) {
   const std::string_view unit = trim(text.substr(open + 1, text.size() - open - 2));
   const bool lateral = known_length_unit(unit) == units::kNmPerMm;
   if (words_of(text.substr(0, open)).size() > kMostWords || lateral) return false;
-  return known_length_unit(unit) || known_rate_unit(unit) || is_optical_unit(unit);
+  return known_value_unit(unit) || is_optical_unit(unit);
 }
 
 }  // namespace dwell

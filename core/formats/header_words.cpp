@@ -24,9 +24,7 @@ constexpr std::array<std::string_view, 15> kWordsThatSayNothing{
 constexpr std::array<std::string_view, 4> kPixelWords{"px", "pix", "pixel", "pixels"};
 
 /// Whether a word in a name is a unit there. "in" is not: it says where the unit stands.
-bool is_unit_in_name(std::string_view word) {
-  return word != "in" && (known_length_unit(word) || known_rate_unit(word));
-}
+bool is_unit_in_name(std::string_view word) { return word != "in" && known_value_unit(word); }
 
 /// Cuts "/pixel", " per px" and their like off the end.
 bool cut_per_pixel(std::string_view& text) {

@@ -253,7 +253,7 @@ std::string unit_of_label(const std::string& label) {
     const std::size_t at = text.rfind(open);
     if (at == std::string_view::npos) return "";
     const std::string unit(trim(text.substr(at + 1, text.size() - at - 2)));
-    return known_length_unit(unit) || known_rate_unit(unit) ? unit : "";
+    return known_value_unit(unit) ? unit : "";
   }
   return "";
 }

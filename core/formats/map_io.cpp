@@ -218,7 +218,7 @@ HeightMap fit_points_of(const XyzText& xyz, const MapReadOptions& options, const
   std::vector<HeightPoint> points;
   for (const XyzPoint& point : xyz.points) points.push_back({point.position, point.height});
   try {
-    const Grid grid = grid_over(points, options.grid->pitch, options.origin);
+    const Grid grid = grid_over(points, options.grid->pitch, options.origin, options.limit);
     ScatterSummary summary;
     HeightMap map = scattered_surface(std::move(points), grid, *options.grid, summary, options.threads, progress);
     map.history.push_back(fmt::format(

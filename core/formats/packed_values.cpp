@@ -15,7 +15,7 @@ double with_other_sign(double value, int bits) {
   return value >= 0.5 * all ? value - all : value;
 }
 
-bool is_marker(double value, double marker, bool single_precision) {
+bool is_stored_marker(double value, double marker, bool single_precision) {
   return value == marker || (single_precision && static_cast<float>(value) == static_cast<float>(marker));
 }
 
@@ -32,7 +32,7 @@ class Unpacker {
     constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
     const double number = stored(value);
     for (std::size_t i = 0; i < packing_.no_data.size(); ++i) {
-      if (!is_marker(number, packing_.no_data[i].value, packing_.single_precision)) continue;
+      if (!is_stored_marker(number, packing_.no_data[i].value, packing_.single_precision)) continue;
       ++counts_[i];
       return kNoValue;
     }
@@ -45,7 +45,7 @@ class Unpacker {
     return result;
   }
 
-  std::string told() const {
+  std::string describe() const {
     std::string text, none;
     const auto add = [](std::string& list, const std::string& part) { list += (list.empty() ? "" : ", ") + part; };
     if (packing_.other_sign_bits > 0) add(text, "integers stored without a sign");
@@ -86,7 +86,7 @@ std::string unpack_values(const PackedValues& packing, std::vector<double>& valu
   if (plain) return "";
   Unpacker unpacker(packing);
   for (double& value : values) value = unpacker.height(value);
-  return unpacker.told();
+  return unpacker.describe();
 }
 
 }  // namespace dwell

@@ -23,11 +23,6 @@ bool agrees(double a, double b, double rounding = kSameStatement) {
   return std::abs(a - b) <= std::max(rounding, kSameStatement) * std::max(std::abs(a), std::abs(b));
 }
 
-std::optional<double> known_unit(std::string_view text) {
-  if (const auto length = known_length_unit(text)) return length;
-  return known_rate_unit(text);
-}
-
 }  // namespace
 
 std::string TextHeader::place() const { return fmt::format("{}, line {}", where_, line_); }
@@ -63,7 +58,7 @@ void TextHeader::read_comment(std::string_view comment, long line) {
   }
   if (is_optical_unit(comment))
     throw InputError(fmt::format("{}: {}; {} required", place(), in_quotes(comment), kAcceptedUnits));
-  if (known_unit(comment)) return take_unit(comment, "the comment");
+  if (known_value_unit(comment)) return take_unit(comment, "the comment");
   for (const std::string& statement : header_statements(comment)) read_statement(statement);
 }
 
@@ -117,7 +112,7 @@ bool TextHeader::take(HeaderKey key, std::string_view value, bool loose) {
       return false;
     case HeaderRole::Unit:
       if (take_value_unit(key, value, sure)) return true;
-      if (!(prose && meaning.sure && known_unit(words.front()))) return false;
+      if (!(prose && meaning.sure && known_value_unit(words.front()))) return false;
       add_unclear(About::Unit, fmt::format("{} looks like the unit of the values; write '# unit: um'",
                                            in_quotes(key.shown + " " + std::string(value))));
       return true;
@@ -144,7 +139,7 @@ bool TextHeader::take(HeaderKey key, std::string_view value, bool loose) {
 }
 
 void TextHeader::take_unit(std::string_view unit, const std::string& key) {
-  const auto factor = known_unit(unit);
+  const auto factor = known_value_unit(unit);
   if (!factor) throw InputError(fmt::format("{}: {} = '{}'; {} required", place(), key, unit, kAcceptedUnits));
   const bool rate = !known_length_unit(unit), rate_before = header_.unit && !known_length_unit(*header_.unit);
   if (header_.unit && (!agrees(*factor, *unit_factor_) || rate != rate_before)) {
@@ -158,7 +153,7 @@ void TextHeader::take_unit(std::string_view unit, const std::string& key) {
 }
 
 bool TextHeader::take_value_unit(const HeaderKey& key, std::string_view value, bool sure) {
-  if (known_unit(value)) {
+  if (known_value_unit(value)) {
     only_once(key, HeaderRole::Unit);
     take_unit(value, key.shown);
     if (key.every_axis) take_lateral_unit(value, key.shown);
@@ -235,7 +230,7 @@ bool TextHeader::take_pitch(const HeaderKey& key, std::string_view value, bool s
 }
 
 bool TextHeader::take_size(const HeaderKey& key, std::string_view value) {
-  if (known_unit(value) && are_value_words(key.words)) return take_value_unit(key, value, true);  // "Height: nm"
+  if (known_value_unit(value) && are_value_words(key.words)) return take_value_unit(key, value, true);  // "Height: nm"
   const auto lengths = parse_header_lengths(value);
   if (!lengths || lengths->pixels) return false;
   const double unit = unit_of_lengths(key, value, *lengths);

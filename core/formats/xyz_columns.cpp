@@ -18,8 +18,6 @@ struct NamedColumn {
 
 bool parts_names(char c) { return c == ' ' || c == '\t' || c == ',' || c == ';' || c == '"' || c == '\''; }
 
-bool names_unit(std::string_view word) { return known_length_unit(word) || known_rate_unit(word); }
-
 /// Cuts a name, or a unit in brackets, off the line.
 std::string take_column_word(std::string_view& rest) {
   std::size_t size = 0;
@@ -63,9 +61,10 @@ std::vector<NamedColumn> named_columns_of(std::string_view line) {
   const auto words = column_words_of(line);
   for (std::size_t i = 0; i < words.size(); ++i) {
     const auto& [word, apart] = words[i];
-    if (word == "in" && i + 1 < words.size() && words[i + 1].first != "in" && names_unit(words[i + 1].first)) continue;
+    if (word == "in" && i + 1 < words.size() && words[i + 1].first != "in" && known_value_unit(words[i + 1].first))
+      continue;
     const bool bracketed = word.front() == '(' || word.front() == '[';
-    const bool alone = !columns.empty() && columns.back().unit.empty() && names_unit(word);
+    const bool alone = !columns.empty() && columns.back().unit.empty() && known_value_unit(word);
     if (!bracketed && !alone) {
       columns.push_back(named_column(word));
       continue;
@@ -101,7 +100,7 @@ std::string_view uncommented(std::string_view line) {
 bool names_other_columns(std::string_view line) {
   std::size_t places = 0, names = 0, units = 0;
   for (const auto& [word, apart] : column_words_of(lower_case(uncommented(line)))) {
-    if (names_unit(word)) {
+    if (known_value_unit(word)) {
       ++units;
     } else if (word.front() != '(' && word.front() != '[') {
       const std::string name = named_column(word).name;

@@ -1,6 +1,6 @@
 #include "core/map/scattered_surface.h"
 
-#include <Eigen/Dense>
+#include <Eigen/QR>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,9 +8,10 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "core/base/errors.h"
-#include "core/base/grid_limit.h"
+#include "core/numerics/median.h"
 
 namespace dwell {
 namespace {
@@ -80,7 +81,9 @@ double fitted_height(const Neighbourhood& around, Point place, double radius) {
     qr.setThreshold(kLeastSingular);
     qr.compute(basis.topLeftCorner(count, terms));
     if (qr.rank() < terms) return std::nan("");
-    return Eigen::VectorXd(qr.solve(heights.head(count)))(0);
+    // Of a largest size that is known, so that no pixel allocates.
+    const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kQuadratic, 1> coefficients = qr.solve(heights.head(count));
+    return coefficients(0);
   };
   const double quadratic = count >= kQuadratic ? solve(kQuadratic) : std::nan("");
   return std::isnan(quadratic) && count >= kPlane ? solve(kPlane) : quadratic;
@@ -103,9 +106,7 @@ double local_spacing(const PointBins& bins) {
     std::nth_element(squares.begin(), at, squares.end());
     spacings.push_back(std::sqrt(*at * std::numbers::pi / kNeighbour));
   }
-  const auto middle = spacings.begin() + std::ssize(spacings) / 2;
-  std::nth_element(spacings.begin(), middle, spacings.end());
-  return *middle;
+  return upper_median(std::move(spacings));
 }
 
 double height_at(const PointBins& bins, Point place, const ScatterSummary& summary) {
@@ -146,7 +147,8 @@ HeightMap scattered_surface(std::vector<HeightPoint> points, const Grid& grid, c
   return map;
 }
 
-Grid grid_over(const std::vector<HeightPoint>& points, double pitch, std::optional<Point> origin) {
+Grid grid_over(const std::vector<HeightPoint>& points, double pitch, std::optional<Point> origin,
+               const PixelLimit& limit) {
   constexpr double kRounding = 1e-9;  // pixels
   Point low = points.front().position, high = low;
   for (const HeightPoint& point : points) {
@@ -155,7 +157,8 @@ Grid grid_over(const std::vector<HeightPoint>& points, double pitch, std::option
   }
   if (origin) low = *origin;
   const auto count = [&](double from, double to) { return std::floor((to - from) / pitch + kRounding) + 1.0; };
-  return limited_grid(count(low.y, high.y), count(low.x, high.x), {pitch, pitch}, low, "gridding scattered points");
+  return limited_grid(count(low.y, high.y), count(low.x, high.x), {pitch, pitch}, low, "gridding scattered points",
+                      limit);
 }
 
 }  // namespace dwell

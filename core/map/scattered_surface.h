@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/base/grid_limit.h"
 #include "core/base/progress.h"
 #include "core/map/height_map.h"
 #include "core/map/point_bins.h"
@@ -33,7 +34,8 @@ HeightMap scattered_surface(std::vector<HeightPoint> points, const Grid& grid, c
                             ScatterSummary& summary, int threads, const Progress& progress = {});
 
 /// The grid of this pitch from the smallest x and y of the points, or from `origin`, over all of them. Throws
-/// InputError beyond the largest map (core/base/grid_limit.h).
-Grid grid_over(const std::vector<HeightPoint>& points, double pitch, std::optional<Point> origin);
+/// InputError beyond the limit.
+Grid grid_over(const std::vector<HeightPoint>& points, double pitch, std::optional<Point> origin,
+               const PixelLimit& limit = {});
 
 }  // namespace dwell

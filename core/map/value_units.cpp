@@ -124,6 +124,11 @@ std::optional<double> known_rate_unit(std::string_view text) {
   return length && time ? std::optional(*length / *time) : std::nullopt;
 }
 
+std::optional<double> known_value_unit(std::string_view text) {
+  const std::optional<double> length = known_length_unit(text);
+  return length ? length : known_rate_unit(text);
+}
+
 double height_unit_nm(const std::string& unit) {
   if (const auto factor = known_length_unit(unit)) return *factor;
   throw InputError(fmt::format("'{}'{}; accepted: {}", unit, known_rate_unit(unit) ? " is a rate, not a height" : "",

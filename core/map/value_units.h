@@ -17,6 +17,10 @@ std::optional<double> known_length_unit(std::string_view text);
 /// "microns per minute", "nm s-1" or "nm*s^-1". Nothing if it names none.
 std::optional<double> known_rate_unit(std::string_view text);
 
+/// The factor of a unit of length or, if it is none, of rate; for places that may name either. Nothing if it is
+/// neither.
+std::optional<double> known_value_unit(std::string_view text);
+
 /// Factor from a unit of height (known_length_unit) to nm. Throws InputError naming accepted ones, and saying so of a
 /// rate.
 double height_unit_nm(const std::string& unit);

@@ -112,7 +112,7 @@ TEST(TemporaryName, LeavesWhatOnlyLooksLikeOne) {
   const TemporaryFolder folder;
   const TemporaryName mine = make_temporary_file(folder.path() / "plan");
   const std::string name = mine.path.filename().string();
-  const std::string stem = name.substr(0, name.find('-', 6) + 1);
+  const std::string stem = name.substr(0, name.rfind('-', name.rfind('-') - 1) + 1);
   std::set<std::string> kept{name};
   for (const std::string& other : {stem + "1-2.tmp.old", stem + "x-2.tmp", stem + "1.tmp", std::string(".plan.tmp"),
                                    std::string(".plan.otherhost-99999-0.tmp"), std::string("plan")}) {

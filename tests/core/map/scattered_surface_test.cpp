@@ -158,6 +158,7 @@ TEST(ScatteredSurface, StandsStillWhereItIsAsked) {
   std::vector<HeightPoint> points{{{1.0, 2.0}, 1.0}, {{4.3, 2.0}, 1.0}, {{1.0, 7.9}, 1.0}};
   EXPECT_EQ(grid_over(points, 0.5, {}), (Grid{12, 7, 0.5, 0.5, {1.0, 2.0}}));
   EXPECT_EQ(grid_over(points, 0.5, Point{0.5, 1.5}), (Grid{13, 8, 0.5, 0.5, {0.5, 1.5}}));
+  test::expect_input_error([&] { grid_over(points, 0.5, {}, {50.0}); }, {"12 x 7 pixels"});
 }
 
 TEST(ScatteredSurface, RefusesWhatDeterminesNoSurfaceAndStops) {

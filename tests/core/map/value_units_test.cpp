@@ -37,6 +37,12 @@ TEST(ValueUnits, KnowRatesAsQuotients) {
   }
 }
 
+TEST(ValueUnits, OfEitherQuantityAreKnownTogether) {
+  EXPECT_EQ(known_value_unit("um"), 1e3);
+  EXPECT_EQ(known_value_unit("um/s"), 1e3);
+  EXPECT_FALSE(known_value_unit("waves"));
+}
+
 TEST(ValueUnits, RefuseTheOtherQuantityByName) {
   expect_input_error([] { height_unit_nm("nm/s"); }, {"'nm/s' is a rate, not a height", "nm, um, mm, m"});
   expect_input_error([] { rate_unit_nm_per_s("nm"); }, {"'nm' is a height, not a rate", "nm/s, um/s, um/min, m/s"});

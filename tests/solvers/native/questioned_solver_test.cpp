@@ -57,6 +57,16 @@ TEST(QuestionedSolver, BelievesItWhereLittleIsLeft) {
   EXPECT_GT(summary.operator_applications, 0);  // the question is work, and is counted
 }
 
+TEST(QuestionedSolver, SaysThatTimeIsUpWhereNoneIsLeftToAsk) {
+  const SmallProblem small = random_problem({.points = 40}, 3);
+  SolverOptions options;
+  options.max_seconds = 1e-12;
+  Vector t;
+  const SolverSummary summary = question_at(small, t, options);
+  EXPECT_EQ(summary.status, SolverStatus::TimeLimit) << summary.message;
+  EXPECT_NE(summary.message.find("settled; questioned: "), std::string::npos) << summary.message;
+}
+
 TEST(QuestionedSolver, StopsWhenItIsInterrupted) {
   const SmallProblem small = random_problem({.points = 40}, 3);
   SolverOptions options;
