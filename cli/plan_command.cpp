@@ -11,6 +11,7 @@
 #include "cli/terminal.h"
 #include "core/base/units.h"
 #include "runs/job/job_file.h"
+#include "runs/reports/exact_lines.h"
 #include "runs/reports/plan_files.h"
 #include "runs/reports/plan_output.h"
 #include "solvers/solver_catalogue.h"
@@ -51,9 +52,13 @@ std::string plan_text(const PlannedJob& plan, const WrittenPlan& written) {
   text += fmt::format("feed      {:.4g} to {:.4g} mm/min, {} of {} segments at a limit\n",
                       units::mm_per_min(plan.program.feed.min_speed), units::mm_per_min(plan.program.feed.max_speed),
                       plan.program.feed.segments_limited, plan.laid.path.size());
-  text += fmt::format("predicted {} by the solver\n", in_words(plan.dwell.residual));
-  text += fmt::format("program   {} by simulating program.nc as read back, {:.2f} s\n", in_words(written.simulated),
-                      written.program_seconds);
+  text += fmt::format(
+      "predicted {} by the solver, on a lattice of {} x {} cells a pixel{}\n", in_words(plan.dwell.residual),
+      plan.dwell.lattice.kernel.division.x, plan.dwell.lattice.kernel.division.y,
+      plan.dwell.lattices > 1 ? fmt::format(" (solved {} times, each finer)", plan.dwell.lattices) : "");
+  text += fmt::format("program   {} by simulating program.nc as read back, {:.2f} s\n",
+                      in_words(written.exact.statistics), written.program_seconds);
+  text += exact_lines(written.exact);
   return text;
 }
 

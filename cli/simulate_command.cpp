@@ -11,6 +11,7 @@
 #include "core/formats/map_formats.h"
 #include "runs/drawing/picture.h"
 #include "runs/programs/program_formats.h"
+#include "runs/reports/exact_lines.h"
 #include "runs/reports/simulation.h"
 
 namespace dwell::cli {
@@ -32,12 +33,6 @@ void check_outputs(const SimulateArguments& a, const JobOptions& options) {
 }
 
 std::string simulation_text(const Simulation& s) {
-  const std::string exact = s.spline_error
-                                ? fmt::format(
-                                      "exact     the spline on the map's pixels would differ by RMS {:.3g} nm, at most "
-                                      "{:.3g} nm\n",
-                                      s.spline_error->rms, s.spline_error->largest)
-                                : "";
   std::string notes;
   for (const std::string& note : s.program.notes) notes += fmt::format("          {}\n", note);
   return fmt::format("program   {}: {} steps, {:.6g} mm with removal, {:.2f} s\n", s.program.file,
@@ -45,7 +40,8 @@ std::string simulation_text(const Simulation& s) {
          notes +
          fmt::format("before    {} ({} removed, {} pixels)\n", in_words(s.before), to_string(s.terms),
                      s.before.valid_pixels) +
-         fmt::format("after     {} ({} removed)\n", in_words(s.after), to_string(s.terms)) + exact;
+         fmt::format("after     {} ({} removed)\n", in_words(s.after.statistics), to_string(s.terms)) +
+         exact_lines(s.after);
 }
 
 int run_simulate(const SimulateArguments& arguments) {
@@ -58,11 +54,11 @@ int run_simulate(const SimulateArguments& arguments) {
   const Simulation s = simulate_file(arguments.program, reading, options, progress, arguments.exact);
   progress.step("writing");
   PendingFiles files;
-  files.add_map(arguments.residual, s.residual);
+  files.add_map(arguments.residual, s.after.surface);
   files.add(arguments.png, [&] {
     const std::string title =
-        fmt::format("After {}: {} ({} removed)", s.program.file, in_words(s.after), to_string(s.terms));
-    return map_picture(s.residual, {title, "nm", true, {}, {}}, figure_format_of_file(arguments.png));
+        fmt::format("After {}: {} ({} removed)", s.program.file, in_words(s.after.statistics), to_string(s.terms));
+    return map_picture(s.after.surface, {title, "nm", true, {}, {}}, figure_format_of_file(arguments.png));
   });
   files.write();
   finish_progress();
@@ -103,8 +99,8 @@ void add_simulate_command(CLI::App& program, int& exit_code) {
       ->type_name("FILE");
   command->add_option("--png", arguments->png, "draw the residual map: .png, .svg or .pdf")->type_name("FILE");
   command->add_flag("--exact", arguments->exact,
-                    "integrate the removal function itself, not its spline on the map's pixels: slow; says how far the "
-                    "two are apart");
+                    "integrate the removal function itself at every pixel, not only at as many as the stated figure "
+                    "needs: the residual map is then exact everywhere; takes longer");
   arguments->json.add_to(*command);
   command->footer(
       "Example:\n  dwell simulate --program plan/program.nc --map mirror.csv --map-pixel 0.0938 --tif spot.csv "

@@ -1,10 +1,19 @@
 #include "core/removal/removal_geometry.h"
 
+#include <utility>
+
+#include "core/removal/inner_lattice.h"
 #include "core/removal/lattice_removal.h"
 #include "core/removal/scattered_removal.h"
 #include "core/removal/stacked_removal.h"
 
 namespace dwell {
+
+RemovalGeometry removal_geometry(const Grid& map, const std::vector<Index>& pixels, RemovalKernel kernel,
+                                 std::vector<Stroke> strokes, int threads) {
+  InnerLattice lattice = divide_pixels(map, pixels, kernel.division);
+  return {lattice.grid, std::move(lattice.pixels), std::move(kernel), std::move(strokes), threads};
+}
 
 std::unique_ptr<RemovalOperator> make_removal_operator(const RemovalGeometry& g) {
   if (LatticeRemoval::commensurate(g.map, g.strokes))

@@ -12,12 +12,16 @@ namespace dwell {
 /// What a removal operator is made of, as a value: which pixels are counted, what the tool removes, where it goes. From
 /// it, a solver can build the same operator on coarser pixels.
 struct RemovalGeometry {
-  Grid map;
-  std::vector<Index> pixels;  // linear indices of the valid pixels, ascending
-  RemovalKernel kernel;       // on the map's pitch
+  Grid map;                   // or the inner lattice that divides its pixels (core/removal/inner_lattice.h)
+  std::vector<Index> pixels;  // linear indices of the valid pixels in it, ascending
+  RemovalKernel kernel;       // on its pitch
   std::vector<Stroke> strokes;
   int threads = 1;
 };
+
+/// The geometry of a map's valid pixels on the lattice that the kernel asks for.
+RemovalGeometry removal_geometry(const Grid& map, const std::vector<Index>& pixels, RemovalKernel kernel,
+                                 std::vector<Stroke> strokes, int threads);
 
 /// The cheapest exact operator: LatticeRemoval if the strokes are translates of one by whole pixels, else
 /// ScatteredRemoval. The operator copies what it needs of the geometry.

@@ -1,10 +1,8 @@
 #pragma once
 
-#include "core/base/progress.h"
 #include "core/map/height_map.h"
 #include "core/motion/program.h"
 #include "core/motion/tool_path.h"
-#include "core/tif/removal_function.h"
 #include "core/tif/removal_kernel.h"
 
 namespace dwell {
@@ -19,12 +17,6 @@ RemovingSteps removing_steps(const Program& program);
 /// The removal [nm] that a program makes on the finite pixels of a map (NaN elsewhere). The tool moves continuously as
 /// the program says; steps that do not remove count nothing. Cost: that of removal_once.
 HeightMap simulate(const Program& program, const HeightMap& map, const RemovalKernel& kernel, int threads);
-
-/// The same with the removal function as it was given in place of the spline through its samples on the map's pitch:
-/// the reference for the error of simulate (exact_removal_once). `progress` shows the share done. Throws Interrupted.
-/// Cost: 0.2 us and more for every pixel under every removing step.
-HeightMap simulate_exactly(const Program& program, const HeightMap& map, const RemovalFunction& tif, int threads,
-                           const Progress& progress = {});
 
 /// The surface left: map - removal on the map's finite pixels [nm].
 HeightMap surface_after(const HeightMap& map, const HeightMap& removal);

@@ -96,9 +96,19 @@ nlohmann::ordered_json dwell_block(const DwellFigures& dwell) {
   return {{"total_s", dwell.total}, {"min_s", dwell.min}, {"max_s", dwell.max}, {"step_rms_s", dwell.step_rms}};
 }
 
-ProgramFigures program_figures(const Program& program, const MapStatistics& residual, const std::string& removed) {
-  return {program.file, program.steps.size(), program.removing_length(), program.total_seconds(), residual,
-          removed,      program.notes};
+ProgramFigures program_figures(const Program& program, const ExactResidual& residual, const std::string& removed) {
+  return {program.file,
+          program.steps.size(),
+          program.removing_length(),
+          program.total_seconds(),
+          residual.statistics,
+          residual.standard_error,
+          residual.ripple,
+          residual.total(),
+          residual.checked,
+          residual.lattice_error,
+          removed,
+          program.notes};
 }
 
 nlohmann::ordered_json program_block(const ProgramFigures& program) {
@@ -110,6 +120,11 @@ nlohmann::ordered_json program_block(const ProgramFigures& program) {
           {"residual_rms_nm", program.residual.rms},
           {"residual_pv_nm", program.residual.pv},
           {"residual_mean_nm", program.residual.mean},
+          {"residual_rms_standard_error_nm", program.standard_error},
+          {"ripple_within_pixels_rms_nm", program.ripple},
+          {"total_rms_nm", program.total},
+          {"pixels_checked", program.checked},
+          {"lattice_error_rms_nm", program.lattice_error},
           {"notes", program.notes}};
 }
 

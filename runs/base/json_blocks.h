@@ -9,6 +9,7 @@
 #include "core/base/grid.h"
 #include "core/form/map_statistics.h"
 #include "core/motion/program.h"
+#include "core/removal/exact_residual.h"
 #include "core/tif/removal_function.h"
 #include "paths/metrics/path_metrics.h"
 #include "solvers/problem/dwell_solver.h"
@@ -77,10 +78,15 @@ struct ProgramFigures {
   double removing_length = 0.0;  // [mm]
   double seconds = 0.0;          // [s]
   MapStatistics residual;        // by simulation, form terms removed
-  std::string removed;           // which
+  double standard_error = 0.0;   // of its RMS [nm]
+  double ripple = 0.0;           // within pixels, RMS [nm]
+  double total = 0.0;            // both [nm]
+  Index checked = 0;             // pixels at which the removal function itself was integrated
+  double lattice_error = 0.0;    // RMS of the lattice's removal less the exact one [nm]
+  std::string removed;           // which form terms
   std::vector<std::string> notes;
 };
-ProgramFigures program_figures(const Program& program, const MapStatistics& residual, const std::string& removed);
+ProgramFigures program_figures(const Program& program, const ExactResidual& residual, const std::string& removed);
 nlohmann::ordered_json program_block(const ProgramFigures& program);
 
 /// A solve with given weights and its result: a trial of a search, or a point of a sweep.

@@ -10,6 +10,7 @@
 #include "core/base/errors.h"
 #include "core/base/number_text.h"
 #include "core/base/value_range.h"
+#include "runs/plan/lattice_choice.h"
 #include "runs/plan/plan_problem.h"
 
 namespace dwell {
@@ -107,7 +108,8 @@ ParetoSweep sweep_weights(const JobOptions& options, const ParetoRanges& ranges,
   sweep.laid = lay_job_path(sweep.job, progress);
   if (auto file = path_input(options)) sweep.job.inputs.push_back(std::move(*file));
   progress.step("setting up the removal operator");
-  PlanProblem problem(*sweep.job.part, sweep.laid, dwell_options(options), progress);
+  const LatticeChoice lattice = choose_lattice(*sweep.job.part, sweep.laid.strokes, progress.of_part("lattice"));
+  PlanProblem problem(*sweep.job.part, sweep.laid, lattice.kernel, dwell_options(options), progress);
   sweep.ranges = complete_ranges(ranges, problem.highest_price());
   const std::size_t rows = sweep.ranges.smoothnesses.size(), columns = sweep.ranges.time_prices.size();
   sweep.points.resize(rows * columns);

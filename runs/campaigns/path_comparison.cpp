@@ -81,10 +81,10 @@ void plan_one(Job job, double pitch, ComparedPath& path, const OutputFolder& fol
   const WrittenPlan written = write_plan(plan, own, progress);
   own.commit();
   path.limits = written.limits;
-  path.residual_rms = written.simulated.rms;
-  path.residual_pv = written.simulated.pv;
-  path.spectrum = radial_spectrum(written.residual, plan.part().threads);
-  path.residual_ripple = waves_of(written.residual, plan.part().threads);
+  path.residual_rms = written.exact.statistics.rms;
+  path.residual_pv = written.exact.statistics.pv;
+  path.spectrum = radial_spectrum(written.exact.surface, plan.part().threads);
+  path.residual_ripple = waves_of(written.exact.surface, plan.part().threads);
   path.dwell_total = plan.dwell.seconds.sum();
   path.dwell_min = plan.dwell.seconds.minCoeff();
   path.dwell_max = plan.dwell.seconds.maxCoeff();

@@ -5,8 +5,10 @@
 #include <vector>
 
 #include "core/form/map_statistics.h"
+#include "core/removal/exact_residual.h"
 #include "runs/plan/dwell_options.h"
 #include "runs/plan/laid_path.h"
+#include "runs/plan/lattice_choice.h"
 #include "runs/plan/part.h"
 #include "runs/plan/weight_trials.h"
 #include "solvers/problem/certificate.h"
@@ -23,13 +25,17 @@ struct DwellPlan {
   double step_rms = 0.0;               // |D t| / sqrt(number of links) [s]
   SolverSummary solver;
   Certificate certificate;
-  MapStatistics residual;           // as the solver predicts, form terms removed
+  LatticeChoice lattice;            // of the removal operator
+  int lattices = 1;                 // that were solved on, each finer than the one before
+  MapStatistics residual;           // as the solver predicts on its lattice, form terms removed
+  ExactResidual exact;              // from the removal function itself
   std::vector<std::string> limits;  // that were reached, one sentence each
 };
 
-/// Solves the dwell problem of a part and a path laid on it. Throws OutOfMemory before the work if the machine has less
-/// memory than it takes for certain, InputError for options that contradict each other
-/// (weights_are_searched), Interrupted, std::runtime_error if the solver fails. Cost: the solver's operator
+/// Solves the dwell problem of a part and a path laid on it, on a lattice that holds the removal function; where the
+/// lattice's own error comes to more than 5 % of what is left, once or twice more on a finer one. Throws OutOfMemory
+/// before the work if the machine has less memory than it takes for certain, InputError for options that contradict
+/// each other (weights_are_searched), Interrupted, std::runtime_error if the solver fails. Cost: the solver's operator
 /// applications dominate (docs/math.md).
 DwellPlan find_dwell(const Part& part, const LaidPath& laid, const DwellOptions& options,
                      const Progress& progress = {});

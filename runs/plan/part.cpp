@@ -22,7 +22,7 @@ Part make_part(HeightMap map, RemovalFunction tif, const FormTerms& form, int th
   progress.step(fmt::format("map: {} x {} pixels of {:.4g} mm, {} in the aperture, RMS {:.4g} nm", grid.rows, grid.cols,
                             grid.pitch_x, part.before.valid_pixels, part.before.rms));
   part.tif = std::move(tif);
-  part.kernel = removal_kernel(part.tif, grid.pitch_x, grid.pitch_y);
+  part.kernel = pixel_kernel(part.tif, grid.pitch_x, grid.pitch_y);
   progress.check();
   return part;
 }

@@ -15,11 +15,6 @@
 namespace dwell {
 namespace {
 
-std::shared_ptr<const RemovalGeometry> geometry_of(const Part& part, const LaidPath& laid) {
-  return std::make_shared<const RemovalGeometry>(
-      RemovalGeometry{part.map.grid, finite_pixels(part.map), part.kernel, laid.strokes, part.threads});
-}
-
 /// What any solver holds at least: of auto, 14 vectors of the dwell points, of others four; and three of the pixels.
 void require_memory_to_solve(const Part& part, const LaidPath& laid, SolverKind solver) {
   const double points = static_cast<double>(laid.strokes.size()), pixels = static_cast<double>(part.map.valid_pixels());
@@ -29,11 +24,12 @@ void require_memory_to_solve(const Part& part, const LaidPath& laid, SolverKind 
 }
 
 /// What the dwell has to remove: the map, less what the moves between halts remove on their way.
-Vector target_of(const Part& part, const LaidPath& laid, const std::vector<Index>& pixels, double max_feed) {
+Vector target_of(const Part& part, const LaidPath& laid, const std::vector<Index>& pixels, const RemovalKernel& kernel,
+                 double max_feed) {
   HeightMap target = part.map;
   if (laid.motion == Motion::Stop) {
     const Program moves = program_of(laid.path, std::vector<double>(laid.path.size(), 0.0), Motion::Stop, max_feed);
-    target = surface_after(part.map, simulate(moves, part.map, part.kernel, part.threads));
+    target = surface_after(part.map, simulate(moves, part.map, kernel, part.threads));
   }
   Vector z(static_cast<Index>(pixels.size()));
   for (std::size_t i = 0; i < pixels.size(); ++i)
@@ -43,19 +39,22 @@ Vector target_of(const Part& part, const LaidPath& laid, const std::vector<Index
 
 }  // namespace
 
-PlanProblem::PlanProblem(const Part& part, const LaidPath& laid, const DwellOptions& options, const Progress& progress)
+PlanProblem::PlanProblem(const Part& part, const LaidPath& laid, const RemovalKernel& kernel,
+                         const DwellOptions& options, const Progress& progress)
     : grid_(part.map.grid),
+      pixels_(finite_pixels(part.map)),
       energy_(part.kernel.energy),
       kind_(options.solver),
-      geometry_(geometry_of(part, laid)),
+      geometry_(std::make_shared<const RemovalGeometry>(
+          removal_geometry(grid_, pixels_, kernel, laid.strokes, part.threads))),
       removal_(make_removal_operator(*geometry_)) {
   require_memory_to_solve(part, laid, kind_);
   const FeedLimits limits = options.machine.feed_limits();
   progress.step("setting up the target");
   problem_.removal = removal_.get();
-  problem_.target = target_of(part, laid, geometry_->pixels, limits.max_feed);
+  problem_.target = target_of(part, laid, pixels_, kernel, limits.max_feed);
   progress.step("setting up the form terms");
-  problem_.form = form_basis(grid_, geometry_->pixels, part.form, {}, part.threads);
+  problem_.form = form_basis(grid_, pixels_, part.form, {}, part.threads);
   progress.step("setting up the smoothness along the path");
   problem_.parts = {{geometry_, path_smoothness(laid.path, laid.strokes, part.threads)}};
   problem_.lower = minimum_dwell(laid.strokes, limits);
@@ -100,9 +99,9 @@ HeightMap PlanProblem::left_by(const Vector& dwell) const {
   Vector removed;
   removal_->apply(dwell, removed);
   HeightMap left(grid_);
-  for (std::size_t i = 0; i < geometry_->pixels.size(); ++i) {
+  for (std::size_t i = 0; i < pixels_.size(); ++i) {
     const auto k = static_cast<Index>(i);
-    left.values[static_cast<std::size_t>(geometry_->pixels[i])] = problem_.target[k] - removed[k];
+    left.values[static_cast<std::size_t>(pixels_[i])] = problem_.target[k] - removed[k];
   }
   return left;
 }

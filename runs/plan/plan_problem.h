@@ -25,8 +25,10 @@ struct WeightedDwell {
 /// The dwell problem of a part and a path laid on it, with the weights left open.
 class PlanProblem {
  public:
-  /// Cost: the removal operator's setup, and with halting motion one simulation.
-  PlanProblem(const Part& part, const LaidPath& laid, const DwellOptions& options, const Progress& progress = {});
+  /// kernel: of the part's removal function, on the lattice of the removal operator. Cost: the removal operator's
+  /// setup, and with halting motion one simulation.
+  PlanProblem(const Part& part, const LaidPath& laid, const RemovalKernel& kernel, const DwellOptions& options,
+              const Progress& progress = {});
 
   /// Solves from `start` (empty = lower bound; `auto` always starts there) for at most `max_seconds`; `stage` begins
   /// the lines of progress. Throws Interrupted if `progress` says stop, std::runtime_error if the solver fails. Cost:
@@ -50,8 +52,9 @@ class PlanProblem {
   HeightMap left_by(const Vector& dwell) const;
 
  private:
-  Grid grid_;
-  double energy_;  // |b|^2 [nm^2/s^2]
+  Grid grid_;                  // of the map
+  std::vector<Index> pixels_;  // of the map, linear indices
+  double energy_;              // |b|^2 [nm^2/s^2]
   SolverKind kind_;
   std::shared_ptr<const RemovalGeometry> geometry_;
   std::unique_ptr<RemovalOperator> removal_;

@@ -2,15 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/units.h"
 #include "core/base/version.h"
 #include "core/formats/map_io.h"
 #include "core/formats/npy.h"
-#include "core/removal/simulate.h"
 #include "runs/drawing/path_picture.h"
 #include "runs/drawing/picture.h"
+#include "runs/plan/program_prediction.h"
 #include "runs/programs/program_formats.h"
 #include "runs/programs/program_reader.h"
 #include "runs/reports/figure_output.h"
@@ -50,8 +51,8 @@ void write_pictures(const PlannedJob& plan, const WrittenPlan& written, const Ou
   });
   write("after", [&](FigureFormat format) {
     const std::string title =
-        fmt::format("After (simulated program): {} ({} removed)", in_words(written.simulated), removed);
-    return after_picture(part.figure, written.residual, options.figure_range, title, format, progress);
+        fmt::format("After (simulated program): {} ({} removed)", in_words(written.exact.statistics), removed);
+    return after_picture(part.figure, written.exact.surface, options.figure_range, title, format, progress);
   });
   write("dwell", [&](FigureFormat format) {
     const std::string title = fmt::format("Dwell: {} points, total {:.4g} s", path.size(), plan.dwell.seconds.sum());
@@ -72,31 +73,30 @@ bool differs(double a, double b, double tolerance) {
 }
 
 /// feed.csv and program.nc are two forms of one program and must remove the same. Where their steps differ by more than
-/// rounding, what the table removes is simulated as well, and a difference is a limit.
-void compare_with_table(const PlannedJob& plan, const Program& program, const Program& table, WrittenPlan& written) {
-  const Part& part = plan.part();
+/// rounding, what the table removes is predicted as well, and a difference is a limit.
+void compare_with_table(const PlannedJob& plan, const Program& program, const Program& table, WrittenPlan& written,
+                        const Progress& progress) {
   written.table_has_same_steps =
       same_removing_steps(program, table, units::mm_per_s(plan.job.options.max_feed_mm_per_min));
   if (written.table_has_same_steps) return;
-  const MapStatistics from_table = map_statistics(
-      surface_after(part.map, simulate(table, part.map, part.kernel, part.threads)), part.form, part.threads);
-  const double left = written.simulated.rms_about_zero(), by_table = from_table.rms_about_zero();
-  if (differs(left, by_table, 1e-3)) {
+  const ExactResidual from_table = predict_program(plan.part(), table, plan.dwell.lattice.kernel, progress);
+  const double left = written.exact.statistics.rms_about_zero(), by_table = from_table.statistics.rms_about_zero();
+  if (differs(left, by_table, std::max(1e-3, 3.0 * written.exact.standard_error / left))) {
     written.limits.push_back(fmt::format("program.nc leaves {:.6g} nm RMS but feed.csv {:.6g} nm", left, by_table));
   }
 }
 
 /// About zero, since a piston counts where it is not removed.
 void compare_with_solver(const PlannedJob& plan, WrittenPlan& written) {
-  const double left = written.simulated.rms_about_zero(), expected = plan.dwell.residual.rms_about_zero(),
+  const double left = written.exact.lattice_rms, expected = plan.dwell.residual.rms_about_zero(),
                before = plan.part().before.rms_about_zero();
   if (differs(left, expected, kSimulationTolerance)) {
     written.limits.push_back(
         fmt::format("the simulated program leaves {:.4g} nm RMS, the solver expected {:.4g} nm", left, expected));
   }
-  if (!(left <= before)) {
+  if (const double exact = written.exact.statistics.rms_about_zero(); !(exact <= before)) {
     written.limits.push_back(
-        fmt::format("the program leaves more than there was: {:.4g} nm RMS, before {:.4g} nm", left, before));
+        fmt::format("the program leaves more than there was: {:.4g} nm RMS, before {:.4g} nm", exact, before));
   }
 }
 
@@ -111,20 +111,17 @@ WrittenPlan write_plan(const PlannedJob& plan, const OutputFolder& folder, const
   const Program program = read_program(folder.path("program.nc"), {}, progress);
   WrittenPlan written;
   written.limits = plan.limits();
-  written.residual = without_form(
-      surface_after(plan.part().map, simulate(program, plan.part().map, plan.part().kernel, plan.part().threads)),
-      plan.part().form, plan.part().threads);
-  written.simulated = map_statistics(written.residual, {}, plan.part().threads);
+  written.exact = predict_program(plan.part(), program, plan.dwell.lattice.kernel, progress);
   written.program_seconds = program.total_seconds();
-  written.program = program_figures(program, written.simulated, to_string(plan.part().form));
+  written.program = program_figures(program, written.exact, to_string(plan.part().form));
   written.program.file = "program.nc";  // not the path of the temporary folder that it was read from
   compare_with_solver(plan, written);
-  compare_with_table(plan, program, program_of(read_feed_table(folder.path("feed.csv"), progress)), written);
+  compare_with_table(plan, program, program_of(read_feed_table(folder.path("feed.csv"), progress)), written, progress);
   progress.check();
 
   progress.report("write: pictures and arrays");
   write_pictures(plan, written, folder, progress);
-  write_map(folder.path("residual.npy"), written.residual);
+  write_map(folder.path("residual.npy"), written.exact.surface);
   folder.write("dwell.npy", npy_bytes(std::span<const double>(plan.program.table.dwell_s)));
   if (plan.dwell.search) folder.write("search.csv", write_trials(*plan.dwell.search));
   written.summary = plan_summary_text(plan, written);

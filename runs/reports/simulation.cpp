@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "core/base/whole_file.h"
@@ -12,22 +10,11 @@
 #include "core/removal/simulate.h"
 #include "runs/base/inputs_json.h"
 #include "runs/job/job.h"
+#include "runs/plan/program_prediction.h"
 #include "runs/programs/program_reader.h"
 
 namespace dwell {
 namespace {
-
-SplineError spline_error(const HeightMap& spline, const HeightMap& exact) {
-  SplineError error;
-  const std::vector<Index> pixels = finite_pixels(exact);
-  for (const Index i : pixels) {
-    const double d = spline.values[static_cast<std::size_t>(i)] - exact.values[static_cast<std::size_t>(i)];
-    error.rms += d * d / static_cast<double>(pixels.size());
-    error.largest = std::max(error.largest, std::abs(d));
-  }
-  error.rms = std::sqrt(error.rms);
-  return error;
-}
 
 /// Refuses a tool at work far from the part. Lifted moves may come from anywhere.
 void check_steps(const Program& program, const Part& part) {
@@ -46,7 +33,7 @@ void check_steps(const Program& program, const Part& part) {
 }  // namespace
 
 Simulation simulate_file(const std::filesystem::path& program, const GcodeReading& reading, const JobOptions& options,
-                         const Progress& progress, bool exact) {
+                         const Progress& progress, bool every_pixel) {
   Simulation s;
   progress.report("read: program, map and removal function");
   s.program = read_program(program, reading, progress);
@@ -61,17 +48,14 @@ Simulation simulate_file(const std::filesystem::path& program, const GcodeReadin
   s.tif = part.tif;
   s.volume_factor = part.kernel.volume_factor;
   check_steps(s.program, part);
-  progress.step(fmt::format("simulate: {} steps", s.program.steps.size()));
-  s.removal = simulate(s.program, part.map, part.kernel, part.threads);
-  if (exact) {
-    HeightMap removal =
-        simulate_exactly(s.program, part.map, part.tif, part.threads, progress.of_part("simulate exactly"));
-    s.spline_error = spline_error(s.removal, removal);
-    s.removal = std::move(removal);
+  const Progress simulating = progress.of_part(fmt::format("simulate {} steps", s.program.steps.size()));
+  LatticeChoice lattice = choose_lattice(part, removing_steps(s.program).strokes, simulating);
+  s.after = predict_program(part, s.program, lattice.kernel, simulating, every_pixel);
+  while (!s.after.all && lattice_too_coarse(s.after, part.before) && !lattice.finest) {
+    lattice = finer_lattice(part, lattice);
+    s.after = predict_program(part, s.program, lattice.kernel, simulating);
   }
-  progress.check();
-  s.residual = without_form(surface_after(part.map, s.removal), s.terms, part.threads);
-  s.after = map_statistics(s.residual, {}, part.threads);
+  s.lattice = lattice.kernel.division;
   return s;
 }
 
@@ -80,9 +64,6 @@ std::string simulation_json(const Simulation& s) {
   json["map"] = map_block(s.map);
   json["tif"] = tif_block(s.tif, kind_of(s.tif), s.tif.samples.history, s.volume_factor);
   json["program"] = program_block(program_figures(s.program, s.after, to_string(s.terms)));
-  if (s.spline_error) {
-    json["spline_error"] = {{"rms_nm", s.spline_error->rms}, {"largest_nm", s.spline_error->largest}};
-  }
   json["inputs"] = inputs_json(s.inputs);
   return json_text(std::move(json));
 }

@@ -1,26 +1,20 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/base/progress.h"
 #include "core/form/map_statistics.h"
 #include "core/motion/program.h"
+#include "core/removal/exact_residual.h"
+#include "core/tif/removal_kernel.h"
 #include "runs/base/input_file.h"
 #include "runs/base/json_blocks.h"
 #include "runs/job/job_options.h"
 #include "runs/programs/gcode_reading.h"
 
 namespace dwell {
-
-/// How far the removal by the spline on the map's pixels is from that by the removal function as given, over the
-/// aperture [nm].
-struct SplineError {
-  double rms = 0.0;
-  double largest = 0.0;
-};
 
 /// The effect of a program on disk on a map.
 struct Simulation {
@@ -30,19 +24,17 @@ struct Simulation {
   MapFigures map;  // as it was before the run, for the summary
   RemovalFunction tif;
   double volume_factor = 1.0;  // of its kernel
+  PixelDivision lattice;       // on which the removal was a spline where it was not integrated exactly
   MapStatistics before;
-  MapStatistics after;
-  HeightMap removal;                        // [nm], within the aperture
-  HeightMap residual;                       // [nm], form terms removed
-  std::optional<SplineError> spline_error;  // of an exact simulation; without form terms removed
+  ExactResidual after;
 };
 
 /// Simulates a program file (feed.csv or G-code) on the job's map with the job's removal function; the tool moves
-/// continuously. `exact`: with the removal function as given (simulate_exactly), which is slow. `reading`: for
+/// continuously. `every_pixel`: the exact figure from every pixel (exact_residual), which takes longer. `reading`: for
 /// G-code that leaves something to its controller. Of the job it uses map, tif, remove, aperture and threads. Throws
 /// InputError, Interrupted.
 Simulation simulate_file(const std::filesystem::path& program, const GcodeReading& reading, const JobOptions& options,
-                         const Progress& progress, bool exact = false);
+                         const Progress& progress, bool every_pixel = false);
 
 /// The simulation as JSON text (docs/json.md), units in the keys.
 std::string simulation_json(const Simulation& simulation);

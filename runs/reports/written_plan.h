@@ -3,16 +3,14 @@
 #include <string>
 #include <vector>
 
-#include "core/form/map_statistics.h"
-#include "core/map/height_map.h"
+#include "core/removal/exact_residual.h"
 #include "runs/base/json_blocks.h"
 
 namespace dwell {
 
 /// What was written, and the surface that the program on disk leaves.
 struct WrittenPlan {
-  HeightMap residual;            // that the simulated program leaves, form terms removed [nm]
-  MapStatistics simulated;       // residual of it
+  ExactResidual exact;           // what the program leaves, as read back
   double program_seconds = 0.0;  // of program.nc, as read back
   ProgramFigures program;        // of it, for the summary
   /// Whether feed.csv, read back, removes with the steps of program.nc; if not, it is simulated too.

@@ -24,10 +24,21 @@ def window(centres, place, reach):
     return slice(*numpy.searchsorted(centres, (place - reach, place + reach)))
 
 
-def removal(program, function, height_map):
-    """What a program takes off at every pixel's centre [nm], also where the map has no data."""
-    x, y = height_map.x(), height_map.y()
-    removed = numpy.zeros(height_map.heights.shape)
+def within_pixels(centres, pitch, count):
+    """Gauss points within every pixel along an axis, ascending, and the weights of one pixel's."""
+    nodes, weights = numpy.polynomial.legendre.leggauss(count)
+    return (centres[:, None] + nodes * pitch / 2).ravel(), weights / 2
+
+
+def removal(program, function, height_map, points=2):
+    """What a program takes off on average over every pixel's area [nm], also where the map has no data.
+
+    The mean is that of points x points Gauss points.
+    """
+    x, x_weights = within_pixels(height_map.x(), height_map.pitch[0], points)
+    y, y_weights = within_pixels(height_map.y(), height_map.pitch[1], points)
+    rows_of_map, columns_of_map = height_map.heights.shape
+    removed = numpy.zeros((len(y), len(x)))
     parts = [quadrature(step, function.width / PANELS_A_WIDTH) for step in program.steps if step.removes]
     places, seconds = (numpy.concatenate(arrays) for arrays in zip(*parts))
     for (place_x, place_y), time in zip(places, seconds):
@@ -35,7 +46,8 @@ def removal(program, function, height_map):
         dx, dy = numpy.meshgrid(x[columns] - place_x, y[rows] - place_y)
         if dx.size and time:
             removed[rows, columns] += time * function.rate(dx, dy)
-    return removed
+    cells = removed.reshape(rows_of_map, points, columns_of_map, points)
+    return numpy.einsum("ipjq,p,q->ij", cells, y_weights, x_weights)
 
 
 def without_form(heights, terms, height_map):

@@ -49,7 +49,13 @@ TEST(JsonBlocks, TellTheCorrectionOfTheKernelOnlyWhereThereIsOne) {
 
 TEST(JsonBlocks, TellAProgramByItsSteps) {
   Program program{"a.nc", {{{0.0, 0.0}, {3.0, 4.0}, 2.0, true}, {{3.0, 4.0}, {0.0, 0.0}, 1.0, false}}};
-  const json block = program_block(program_figures(program, {10, 5.0, 1.5, -3.0}, "tilt"));
+  ExactResidual residual;
+  residual.statistics = {10, 5.0, 1.5, -3.0};
+  residual.standard_error = 0.25;
+  residual.ripple = 4.0;
+  residual.lattice_error = 0.125;
+  residual.checked = 7;
+  const json block = program_block(program_figures(program, residual, "tilt"));
   EXPECT_EQ(block["file"], "a.nc");
   EXPECT_EQ(block["steps"], 2);
   EXPECT_EQ(block["removing_length_mm"], 5.0);
@@ -57,6 +63,11 @@ TEST(JsonBlocks, TellAProgramByItsSteps) {
   EXPECT_EQ(block["residual_rms_nm"], 1.5);
   EXPECT_EQ(block["residual_pv_nm"], 5.0);
   EXPECT_EQ(block["residual_mean_nm"], -3.0);
+  EXPECT_EQ(block["residual_rms_standard_error_nm"], 0.25);
+  EXPECT_EQ(block["ripple_within_pixels_rms_nm"], 4.0);
+  EXPECT_DOUBLE_EQ(block["total_rms_nm"], std::sqrt(1.5 * 1.5 + 3.0 * 3.0 + 4.0 * 4.0));
+  EXPECT_EQ(block["pixels_checked"], 7);
+  EXPECT_EQ(block["lattice_error_rms_nm"], 0.125);
   EXPECT_EQ(block["removed"], "tilt");
   EXPECT_TRUE(block["notes"].empty());
 }

@@ -103,7 +103,7 @@ TEST(PlanSearch, StartsOtherSolversFromADwellFoundBefore) {
   job.options.solver = SolverKind::ProjectedCg;
   const Job prepared = load_job(job.options);
   const LaidPath laid = lay_job_path(prepared);
-  PlanProblem problem(*prepared.part, laid, dwell_options(job.options));
+  PlanProblem problem(*prepared.part, laid, prepared.part->kernel, dwell_options(job.options));
   const WeightedDwell cold = problem.solve({0.01, 0.0}, {}, 60.0, "solve", {});
   const WeightedDwell warm = problem.solve({0.01, 0.0}, cold.dwell, 60.0, "solve", {});
   EXPECT_LT(warm.solver.operator_applications, cold.solver.operator_applications);

@@ -212,7 +212,7 @@ TEST(WritePlan, ProgramOnDiskLeavesWhatTheSolverPredicts) {
     PlannedJob plan = plan_job(job.options, {});
     const OutputFolder folder(job.options.out, plan_files());
     const WrittenPlan written = write_plan(plan, folder, {});
-    EXPECT_NEAR(written.simulated.rms, plan.dwell.residual.rms, 1e-3 * plan.dwell.residual.rms) << motion;
+    EXPECT_NEAR(written.exact.statistics.rms, plan.dwell.residual.rms, 1e-3 * plan.dwell.residual.rms) << motion;
     EXPECT_TRUE(plan.limits().empty()) << motion;
   }
 }

@@ -107,51 +107,6 @@ TEST(Simulate, ProgramThatOnlyTravelsRemovesNothing) {
   for (const Index i : finite_pixels(part.map)) EXPECT_EQ(removal.values[static_cast<std::size_t>(i)], 0.0);
 }
 
-TEST(SimulateExactly, IntegratesTheFormulaOfTheDisc) {
-  const RemovalFunction disc = spinning_disc_removal(0.8, 1.3);
-  HeightMap map(Grid{17, 26, 0.31, 0.43, {-3.0, 6.0}});
-  for (Index i = 9; i < map.grid.size(); ++i) map.values[static_cast<std::size_t>(i)] = 1.0;
-  Program program;  // 700 that remove, more than one report: a line along y, and lifted moves between
-  for (int k = 0; k < 700; ++k) {
-    const Point a{0.11, 2.0 + 0.02 * k}, b{0.11, 2.0 + 0.02 * (k + 1)};
-    program.steps.push_back({a, b, 0.02 / 2.5, true});
-    program.steps.push_back({b, b + Point{3.0, 0.0}, 1.0, false});
-  }
-  std::vector<std::string> lines;
-  const Progress listener{[&](const std::string& line) { lines.push_back(line); }, {}};
-  const HeightMap removal = simulate_exactly(program, map, disc, 2, listener);
-  EXPECT_EQ(lines, (std::vector<std::string>{"0 %", "71 %"}));
-  EXPECT_EQ(removal.valid_pixels(), map.valid_pixels());
-  double largest = 0.0;
-  for (const Index i : finite_pixels(map)) {
-    const double x = std::abs(map.grid.centre(i).x - 0.11);  // Lin et al. 2014, equation 5
-    const double s = x < 1.3 ? std::sqrt(1.3 * 1.3 - x * x) : 0.0;
-    const double expected = x < 1.3 ? 0.8 / 2.5 * (1.3 * s + x * x * (std::log(1.3 + s) - std::log(x))) : 0.0;
-    largest = std::max(largest, expected);
-    EXPECT_NEAR(removal.values[static_cast<std::size_t>(i)], expected, 1e-10) << x;
-  }
-  EXPECT_GT(largest, 0.5);
-  EXPECT_THROW(simulate_exactly(program, map, disc, 1, Progress{{}, [] { return true; }}), Interrupted);
-}
-
-// Samples on the map's own pitch: the spline through them is the function as given, but for the ring of zeros that
-// either spline keeps around its samples.
-TEST(SimulateExactly, IsTheSplineWhereThePitchIsTheMaps) {
-  HeightMap rates(Grid{21, 17, 0.5, 0.4, {-4.0, -4.0}});
-  for (Index i = 0; i < rates.grid.size(); ++i) {
-    const Point p = rates.grid.centre(i) - Point{0.2, -0.3};
-    rates.values[static_cast<std::size_t>(i)] = 3.0 * std::exp(-1.1 * p.x * p.x - 0.9 * p.y * p.y);
-  }
-  const RemovalFunction tif = measured_removal(rates, {TifCentre::Kind::Given, {}});
-  const Part part;
-  const Program program = winding_program();
-  const HeightMap spline = simulate(program, part.map, removal_kernel(tif, 0.5, 0.4), 1);
-  const HeightMap exact = simulate_exactly(program, part.map, tif, 1);
-  for (const Index i : finite_pixels(part.map)) {
-    EXPECT_NEAR(exact.values[static_cast<std::size_t>(i)], spline.values[static_cast<std::size_t>(i)], 1e-5);
-  }
-}
-
 TEST(SurfaceAfter, SubtractsTheRemovalAndKeepsWhatIsMissing) {
   const Grid grid{1, 3, 1.0, 1.0, {}};
   const double none = std::nan("");

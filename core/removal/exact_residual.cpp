@@ -1,0 +1,238 @@
+#include "core/removal/exact_residual.h"
+
+#include <Eigen/Cholesky>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <random>
+#include <vector>
+
+#include "core/form/form.h"
+
+namespace dwell {
+namespace {
+
+constexpr double kCheap = 6e7;  // Gauss points of a check of every pixel: half a second
+constexpr double kEnough = 0.01;
+constexpr Index kFirstBatch = 192, kFewestLargest = 64, kMostLargest = 512;
+
+/// The pixels in the order in which they are looked at: the largest residuals, then the others at random.
+struct LookOrder {
+  std::vector<Index> pixels;  // places in the list of valid pixels
+  Index largest = 0;          // so many of them
+};
+
+LookOrder order_of(const Vector& residual) {
+  LookOrder order;
+  const Index count = residual.size();
+  order.pixels.resize(static_cast<std::size_t>(count));
+  std::iota(order.pixels.begin(), order.pixels.end(), Index{0});
+  order.largest = std::min(count, std::clamp(count / 200, kFewestLargest, kMostLargest));
+  const auto middle = order.pixels.begin() + order.largest;
+  const double mean = count > 0 ? residual.mean() : 0.0;
+  const auto larger = [&](Index a, Index b) {
+    const double at_a = std::abs(residual[a] - mean), at_b = std::abs(residual[b] - mean);
+    return at_a != at_b ? at_a > at_b : a < b;
+  };
+  std::nth_element(order.pixels.begin(), order.largest == count ? order.pixels.end() - 1 : middle, order.pixels.end(),
+                   larger);
+  std::sort(order.pixels.begin(), middle);
+  std::sort(middle, order.pixels.end());
+  // Fisher and Yates' shuffle with this generator gives the same order everywhere, which std::shuffle does not promise.
+  std::mt19937_64 random(1);
+  for (Index k = count - order.largest; k > 1; --k)
+    std::swap(middle[k - 1], middle[static_cast<Index>(random() % static_cast<std::uint64_t>(k))]);
+  return order;
+}
+
+/// What is known of the pixels looked at so far.
+class ResidualCheck {
+ public:
+  ResidualCheck(const RemovalProbe& probe, const HeightMap& map, const HeightMap& left, const FormTerms& form,
+                int threads)
+      : probe_(probe),
+        map_(map),
+        left_(left),
+        threads_(threads),
+        pixels_(finite_pixels(map)),
+        basis_(form_basis(map.grid, pixels_, form, {}, threads)),
+        residual_(static_cast<Index>(pixels_.size())) {
+    for (std::size_t i = 0; i < pixels_.size(); ++i)
+      residual_[static_cast<Index>(i)] = left.values[static_cast<std::size_t>(pixels_[i])];
+    remove_form(basis_, residual_);
+    order_ = order_of(residual_);
+  }
+
+  ExactResidual run(const Progress& progress, bool every_pixel) {
+    const Index count = residual_.size();
+    const bool cheap = static_cast<double>(count) * probe_.points_under_tool() <= kCheap;
+    Index next = cheap || every_pixel ? count : std::min(count, order_.largest + kFirstBatch);
+    look_at(next, progress);
+    ExactResidual result = estimate();
+    while (looked() < count && !(result.standard_error <= kEnough * result.statistics.rms)) {
+      next = std::min(count, order_.largest + 2 * (looked() - order_.largest));
+      look_at(next, progress);
+      result = estimate();
+    }
+    result.surface = surface();
+    result.ripple = ripple();
+    return result;
+  }
+
+ private:
+  Index looked() const { return static_cast<Index>(difference_.size()); }
+
+  /// Looks at pixels in order until there are so many.
+  void look_at(Index count, const Progress& progress) {
+    std::vector<Index> next;
+    for (Index k = looked(); k < count; ++k) next.push_back(pixel_at(k));
+    const Vector removal = mean_removal(probe_, map_.grid, next, threads_, progress);
+    for (std::size_t k = 0; k < next.size(); ++k) {
+      const auto i = static_cast<std::size_t>(next[k]);
+      difference_.push_back(map_.values[i] - removal[static_cast<Index>(k)] - left_.values[i]);
+    }
+  }
+
+  /// How many pixels one of those looked at stands for.
+  double weight(Index k) const {
+    if (k < order_.largest) return 1.0;
+    return static_cast<double>(residual_.size() - order_.largest) / static_cast<double>(looked() - order_.largest);
+  }
+
+  Index place(Index k) const { return order_.pixels[static_cast<std::size_t>(k)]; }
+  Index pixel_at(Index k) const { return pixels_[static_cast<std::size_t>(place(k))]; }
+
+  /// The differences without the form terms that they hold, by weighted least squares over the pixels looked at.
+  Vector differences_without_form() const {
+    Vector d = Vector::Map(difference_.data(), looked());
+    const Index terms = basis_.cols();
+    if (terms == 0) return d;
+    Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(terms, terms);
+    Vector moments = Vector::Zero(terms);
+    for (Index k = 0; k < looked(); ++k) {
+      gram += weight(k) * basis_.row(place(k)).transpose() * basis_.row(place(k));
+      moments += weight(k) * d[k] * basis_.row(place(k)).transpose();
+    }
+    const Vector coefficients = gram.ldlt().solve(moments);
+    for (Index k = 0; k < looked(); ++k) d[k] -= basis_.row(place(k)).dot(coefficients);
+    return d;
+  }
+
+  ExactResidual estimate() const {
+    const Vector d = differences_without_form();
+    const auto count = static_cast<double>(residual_.size());
+    double squares = residual_.squaredNorm(), sum = residual_.sum(), errors = 0.0;
+    double mean = 0.0, scatter = 0.0, low = std::numeric_limits<double>::infinity(), high = -low;
+    for (Index k = 0; k < looked(); ++k) {
+      const double before = residual_[place(k)], after = before + d[k];
+      const double change = after * after - before * before;
+      squares += weight(k) * change;
+      sum += weight(k) * d[k];
+      errors += weight(k) * d[k] * d[k];
+      low = std::min(low, after);
+      high = std::max(high, after);
+      if (k < order_.largest) continue;
+      const double n = static_cast<double>(k - order_.largest + 1), step = change - mean;  // Welford
+      mean += step / n;
+      scatter += step * (change - mean);
+    }
+    ExactResidual result;
+    result.checked = looked();
+    result.all = looked() == residual_.size();
+    const double about_zero = std::sqrt(std::max(0.0, squares / count));
+    result.statistics.valid_pixels = residual_.size();
+    result.statistics.mean = sum / count;
+    result.statistics.rms =
+        std::sqrt(std::max(0.0, about_zero * about_zero - result.statistics.mean * result.statistics.mean));
+    result.statistics.pv = high - low;
+    result.lattice_rms = std::sqrt(residual_.squaredNorm() / count);
+    result.lattice_error = std::sqrt(errors / count);
+    if (!result.all) {
+      const double others = count - static_cast<double>(order_.largest),
+                   n = static_cast<double>(looked() - order_.largest);
+      const double deviation = std::sqrt(scatter / (n - 1.0) / n * (1.0 - n / others)) * others / count;
+      result.standard_error = about_zero > 0.0 ? 0.5 * deviation / about_zero : deviation;
+    }
+    return result;
+  }
+
+  HeightMap surface() const {
+    const Vector d = differences_without_form();
+    HeightMap map(map_.grid);
+    for (Index i = 0; i < residual_.size(); ++i)
+      map.values[static_cast<std::size_t>(pixels_[static_cast<std::size_t>(i)])] = residual_[i];
+    for (Index k = 0; k < looked(); ++k) map.values[static_cast<std::size_t>(pixel_at(k))] += d[k];
+    return map;
+  }
+
+  /// RMS within pixels of the removal less the parabolic surface that has the means of the pixels around, over a few
+  /// pixels at random.
+  double ripple() const {
+    constexpr Index kPixels = 48;
+    const Index last = std::min(looked(), order_.largest + kPixels);
+    const Index first = last > order_.largest ? order_.largest : 0;
+    std::vector<double> squares(static_cast<std::size_t>(last - first));
+#pragma omp parallel for num_threads(threads_) schedule(dynamic, 1)
+    for (Index k = first; k < last; ++k)
+      squares[static_cast<std::size_t>(k - first)] = ripple_in(map_.grid.centre(pixel_at(k)), k);
+    return std::sqrt(std::accumulate(squares.begin(), squares.end(), 0.0) / static_cast<double>(squares.size()));
+  }
+
+  /// Mean square of the ripple in a pixel, at one random place in each of 4 x 4 parts of it.
+  double ripple_in(Point centre, Index seed) const {
+    constexpr int kParts = 4;
+    const Grid& g = map_.grid;
+    std::array<std::array<double, 3>, 3> means{};
+    for (int r = -1; r <= 1; ++r) {
+      for (int c = -1; c <= 1; ++c) {
+        means[static_cast<std::size_t>(r + 1)][static_cast<std::size_t>(c + 1)] =
+            probe_.mean_over_pixel(centre + Point{c * g.pitch_x, r * g.pitch_y});
+      }
+    }
+    std::mt19937_64 random(static_cast<std::uint64_t>(seed));
+    const auto uniform = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
+    double sum = 0.0;
+    for (int i = 0; i < kParts; ++i) {
+      for (int j = 0; j < kParts; ++j) {
+        const double u = (j + uniform()) / kParts - 0.5, v = (i + uniform()) / kParts - 0.5;
+        const auto wx = parabola_weights(u), wy = parabola_weights(v);
+        double smooth = 0.0;
+        for (std::size_t r = 0; r < 3; ++r)
+          smooth += wy[r] * (wx[0] * means[r][0] + wx[1] * means[r][1] + wx[2] * means[r][2]);
+        const double d = probe_.at(centre + Point{u * g.pitch_x, v * g.pitch_y}) - smooth;
+        sum += d * d;
+      }
+    }
+    return sum / (kParts * kParts);
+  }
+
+  /// The value, at u pixels from the middle, of the parabola whose means over three pixels these weights multiply.
+  static std::array<double, 3> parabola_weights(double u) {
+    const double q = u * u - 1.0 / 12.0;
+    return {0.5 * (q - u), 1.0 - q, 0.5 * (q + u)};
+  }
+
+  const RemovalProbe& probe_;
+  const HeightMap& map_;
+  const HeightMap& left_;
+  int threads_;
+  std::vector<Index> pixels_;
+  Eigen::MatrixXd basis_;
+  Vector residual_;  // by the lattice, form terms removed
+  LookOrder order_;
+  std::vector<double> difference_;  // exact less lattice, of the pixels looked at
+};
+
+}  // namespace
+
+double ExactResidual::total() const { return std::hypot(statistics.rms_about_zero(), ripple); }
+
+ExactResidual exact_residual(const RemovalProbe& probe, const HeightMap& map, const HeightMap& left,
+                             const FormTerms& form, int threads, const Progress& progress, bool every_pixel) {
+  return ResidualCheck(probe, map, left, form, threads).run(progress, every_pixel);
+}
+
+}  // namespace dwell

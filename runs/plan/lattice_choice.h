@@ -1,0 +1,27 @@
+#pragma once
+
+#include "core/base/progress.h"
+#include "core/removal/removal_probe.h"
+#include "core/tif/removal_kernel.h"
+#include "runs/plan/part.h"
+
+namespace dwell {
+
+/// The lattice on which a plan's removal is a spline, and how well it holds the removal function on a path.
+struct LatticeChoice {
+  RemovalKernel kernel;
+  double error = 0.0;   // RMS of the removal of random dwell by it, less the exact one, relative to the latter's RMS
+  bool finest = false;  // no finer one is tried: it would take too many nodes
+};
+
+/// Largest error with which a solve is begun.
+inline constexpr double kLatticeError = 0.002;
+
+/// The coarsest lattice, from the map's own pixels on, on which the error is at most kLatticeError; or the finest.
+/// Cost: for each lattice tried, one removal_once; and a RemovalProbe at 96 pixels.
+LatticeChoice choose_lattice(const Part& part, const std::vector<Stroke>& strokes, const Progress& progress);
+
+/// The next finer one of about half the pitch. error is not set. Nothing finer: the same, with `finest`.
+LatticeChoice finer_lattice(const Part& part, const LatticeChoice& lattice);
+
+}  // namespace dwell

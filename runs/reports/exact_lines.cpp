@@ -1,0 +1,18 @@
+#include "runs/reports/exact_lines.h"
+
+#include <fmt/format.h>
+
+namespace dwell {
+
+std::string exact_lines(const ExactResidual& e) {
+  const std::string pixels = e.all ? fmt::format("all {} pixels", e.checked)
+                                   : fmt::format("{} of {} pixels (standard error {:.2g} nm)", e.checked,
+                                                 e.statistics.valid_pixels, e.standard_error);
+  return fmt::format(
+             "exact     from the removal function itself at {}; its spline on the lattice is {:.2g} nm RMS off\n",
+             pixels, e.lattice_error) +
+         fmt::format("ripple    RMS {:.3g} nm within pixels, finer than the map shows; with it RMS {:.4g} nm in all\n",
+                     e.ripple, e.total());
+}
+
+}  // namespace dwell
