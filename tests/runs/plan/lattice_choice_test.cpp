@@ -66,7 +66,8 @@ TEST(FindDwell, StatesWhatASharpToolLeaves) {
   expect_stated(make_part(bowl(2.0, 1.0), spinning_disc_removal(1.0, 4.2), {true, true}, 2));
 }
 
-// Three and a half pixels a FWHM: right to 0.2 % of the removal on the map's own pixels, but so little is left that it matters.
+// Three and a half pixels a FWHM: right to 0.2 % of the removal on the map's own pixels, but so little is left that it
+// matters.
 TEST(FindDwell, SolvesAgainWhereTheLatticesErrorIsMuchOfWhatIsLeft) {
   const Part part = make_part(bowl(1.0, 1.0), gaussian_removal(10.0, 3.5, 10.0), {true, true}, 2);
   EXPECT_EQ(choose_lattice(part, raster(part).strokes, {}).kernel.division, PixelDivision{});

@@ -169,8 +169,7 @@ TEST(TurnedTool, ActsAtTheRightPlaceInASimulation) {
       for (const double u : {-1.0, 1.0}) {
         for (const double v : {-1.0, 1.0}) mean += 0.25 * tool_rate(q + (0.125 / std::sqrt(3.0)) * Point{u, v});
       }
-      EXPECT_NEAR(-left.values[static_cast<std::size_t>(i)], 10.0 * mean, 0.6)
-          << angle << flip << d.x << "," << d.y;
+      EXPECT_NEAR(-left.values[static_cast<std::size_t>(i)], 10.0 * mean, 0.6) << angle << flip << d.x << "," << d.y;
     }
   }
 }
