@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kCheap = 6e7;  // Gauss points of a check of every pixel: half a second
 constexpr double kEnough = 0.01;
-constexpr Index kFirstBatch = 192, kFewestLargest = 64, kMostLargest = 512;
+constexpr Index kFirstBatch = 128, kFewestLargest = 64, kMostLargest = 256;
 
 /// The pixels in the order in which they are looked at: the largest residuals, then the others at random.
 struct LookOrder {
@@ -30,7 +30,7 @@ LookOrder order_of(const Vector& residual) {
   const Index count = residual.size();
   order.pixels.resize(static_cast<std::size_t>(count));
   std::iota(order.pixels.begin(), order.pixels.end(), Index{0});
-  order.largest = std::min(count, std::clamp(count / 200, kFewestLargest, kMostLargest));
+  order.largest = std::min(count, std::clamp(count / 500, kFewestLargest, kMostLargest));
   const auto middle = order.pixels.begin() + order.largest;
   const double mean = count > 0 ? residual.mean() : 0.0;
   const auto larger = [&](Index a, Index b) {
@@ -171,7 +171,7 @@ class ResidualCheck {
   /// RMS within pixels of the removal less the parabolic surface that has the means of the pixels around, over a few
   /// pixels at random.
   double ripple() const {
-    constexpr Index kPixels = 48;
+    constexpr Index kPixels = 24;
     const Index last = std::min(looked(), order_.largest + kPixels);
     const Index first = last > order_.largest ? order_.largest : 0;
     std::vector<double> squares(static_cast<std::size_t>(last - first));

@@ -46,35 +46,31 @@ double spline_value(const double* coefficients, Index cols, double u, double v) 
 
 }  // namespace
 
-/// The table of the mean over a pixel, and the panel on which two Gauss points are as good.
-struct RemovalProbe::Table {
-  RemovalKernel kernel;
-  double panel = 0.0;
-};
-
-RemovalProbe::Table RemovalProbe::make_table(const RemovalFunction& tif, double hx, double hy) {
-  constexpr double kMostNodes = 3e5, kPanelError = 3e-4, kShortestPanel = 0.1;  // of a pixel
+PixelMeanTable tabulate_pixel_mean(const RemovalFunction& tif, const Grid& map) {
+  constexpr double kPanelError = 3e-4, kShortestPanel = 0.1;  // of a pixel
+  const double hx = map.pitch_x, hy = map.pitch_y;
   const auto mean = mean_rate_over_pixel(tif, hx, hy);
-  Table table;
+  PixelMeanTable table;
+  table.point = rate_at_point(tif);
   for (Index division = 1;; division *= 2) {
-    table.kernel = pixel_kernel(tif, hx, hy, {division, division});
-    const double error = table_error(table.kernel, mean);
-    const double pitch = std::min(hx, hy) / static_cast<double>(division);
-    if (table.panel == 0.0 && error <= kPanelError) table.panel = 2.0 * pitch;
-    if (error <= kTableError || 4.0 * static_cast<double>(table.kernel.surface.grid().size()) > kMostNodes) break;
+    const RemovalKernel kernel = pixel_kernel(tif, hx, hy, {division, division});
+    const double error = table_error(kernel, mean);
+    if (table.panel == 0.0 && error <= kPanelError)
+      table.panel = 2.0 * std::min(hx, hy) / static_cast<double>(division);
+    const bool largest = 4.0 * static_cast<double>(kernel.surface.grid().size()) > PixelMeanTable::kMostNodes;
+    if (error > PixelMeanTable::kError && !largest) continue;
+    table.mean = kernel.surface;
+    break;
   }
   if (table.panel == 0.0) table.panel = kShortestPanel * std::min(hx, hy);
   return table;
 }
 
-RemovalProbe::RemovalProbe(const Grid& map, const RemovalFunction& tif, const std::vector<Stroke>& strokes,
+RemovalProbe::RemovalProbe(const Grid& map, const PixelMeanTable& table, const std::vector<Stroke>& strokes,
                            std::span<const double> seconds)
-    : map_(map), rate_(rate_at_point(tif)) {
+    : map_(map), table_(table) {
   if (seconds.size() != strokes.size()) throw std::invalid_argument("RemovalProbe: one time a stroke is required");
-  Table table = make_table(tif, map.pitch_x, map.pitch_y);
-  mean_ = std::move(table.kernel.surface);
-  panel_ = table.panel;
-  const Grid& g = mean_.grid();
+  const Grid& g = table.mean.grid();
   low_ = g.centre(1, 1);
   high_ = g.centre(g.rows - 2, g.cols - 2);
   std::vector<Visit> visits;
@@ -109,7 +105,7 @@ void RemovalProbe::add_visit(Point p, double seconds, std::vector<Visit>& visits
 void RemovalProbe::add_leg(Point from, Point to, double seconds, std::vector<Visit>& visits) const {
   // What lies far beyond the map is one panel, however long.
   const double total = distance(from, to);
-  const double panels = std::max(1.0, std::ceil(total / panel_));
+  const double panels = std::max(1.0, std::ceil(total / table_.panel));
   const Point half = (0.5 / panels) * (to - from);
   for (double k = 0.0; k < panels; k += 1.0) {
     const Point middle = from + (2.0 * k + 1.0) * half;
@@ -170,8 +166,8 @@ void RemovalProbe::for_visits(Point centre, const Take& take) const {
 }
 
 double RemovalProbe::mean_over_pixel(Point centre) const {
-  const Grid& g = mean_.grid();
-  const double* coefficients = mean_.coefficients().data();
+  const Grid& g = table_.mean.grid();
+  const double* coefficients = table_.mean.coefficients().data();
   double sum = 0.0;
   for_visits(centre, [&](Point d, double seconds) {
     sum += seconds * spline_value(coefficients, g.cols, (d.x - g.origin.x) / g.pitch_x, (d.y - g.origin.y) / g.pitch_y);
@@ -181,7 +177,7 @@ double RemovalProbe::mean_over_pixel(Point centre) const {
 
 double RemovalProbe::at(Point point) const {
   double sum = 0.0;
-  for_visits(point, [&](Point d, double seconds) { sum += seconds * rate_(d); });
+  for_visits(point, [&](Point d, double seconds) { sum += seconds * table_.point(d); });
   return sum;
 }
 

@@ -12,18 +12,28 @@
 
 namespace dwell {
 
+/// The mean of a removal function over a map's pixels as a function of the displacement, tabulated as a spline so fine
+/// that it is right to kError of its RMS, or that it has kMostNodes nodes. Made once for a part, used by every probe.
+struct PixelMeanTable {
+  static constexpr double kError = 1e-4, kMostNodes = 3e5;
+
+  SplineSurface mean;                  // [nm/s], by displacement from the tool axis
+  std::function<double(Point)> point;  // the rate at a point
+  double panel = 0.0;                  // longest stretch of a stroke for which two Gauss points do as well [mm]
+};
+
+/// Cost: the means over a pixel at all nodes, under a second.
+PixelMeanTable tabulate_pixel_mean(const RemovalFunction& tif, const Grid& map);
+
 /// What a program removes at single places, from the removal function itself: the reference by which the lattice of the
-/// removal operators is judged (docs/math.md, "The exact figure"). It shares no lattice with them. The mean of the
-/// removal function over a pixel is tabulated as a spline so fine that it is right to kTableError of its RMS, and every
-/// stroke is replaced by Gauss points a table pitch apart.
+/// removal operators is judged (docs/math.md, "The exact figure"). It shares no lattice with them: every stroke is
+/// replaced by Gauss points, and at each of these the table gives what the tool removes.
 class RemovalProbe {
  public:
-  static constexpr double kTableError = 2e-5;
-
-  /// strokes and the seconds that the tool takes for each. Throws std::invalid_argument if their numbers differ.
-  /// Cost and memory: the table, and 24 bytes for two to four Gauss points a stroke, more where strokes are longer than
-  /// a table pitch. Strokes out of reach of the map cost nothing.
-  RemovalProbe(const Grid& map, const RemovalFunction& tif, const std::vector<Stroke>& strokes,
+  /// strokes and the seconds that the tool takes for each. The table must outlive the probe. Throws
+  /// std::invalid_argument if their numbers differ. Cost and memory: 24 bytes for two to four Gauss points a stroke,
+  /// more where strokes are longer than a panel of the table. Strokes out of reach of the map cost nothing.
+  RemovalProbe(const Grid& map, const PixelMeanTable& table, const std::vector<Stroke>& strokes,
                std::span<const double> seconds);
 
   /// The mean removal [nm] over the area of a pixel about `centre` [mm]. Cost: 10 ns for every Gauss point under the
@@ -41,9 +51,6 @@ class RemovalProbe {
     Point position;
     double seconds;
   };
-  struct Table;
-
-  static Table make_table(const RemovalFunction& tif, double hx, double hy);
   void add_visit(Point p, double seconds, std::vector<Visit>& visits) const;
   void add_leg(Point from, Point to, double seconds, std::vector<Visit>& visits) const;
   void sort_into_cells(const std::vector<Visit>& visits);
@@ -51,13 +58,11 @@ class RemovalProbe {
   void for_visits(Point centre, const Take& take) const;
 
   Grid map_;
-  SplineSurface mean_;                 // over a pixel, by displacement
-  std::function<double(Point)> rate_;  // at a point
-  double panel_ = 0.0;                 // longest stretch of a stroke on two Gauss points [mm]
-  Point low_, high_;                   // displacements within which there is removal [mm]
-  Grid cells_;                         // origin: the corner of the first cell
-  std::vector<std::size_t> begin_;     // of each cell's visits, and the end
-  std::vector<Visit> visits_;          // cell by cell
+  const PixelMeanTable& table_;
+  Point low_, high_;                // displacements within which there is removal [mm]
+  Grid cells_;                      // origin: the corner of the first cell
+  std::vector<std::size_t> begin_;  // of each cell's visits, and the end
+  std::vector<Visit> visits_;       // cell by cell
 };
 
 /// The mean removal [nm] over each of these pixels of the map (linear indices), by a probe. `progress` shows the share

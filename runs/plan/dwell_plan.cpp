@@ -33,10 +33,10 @@ ExactResidual exact_residual_of(const Part& part, const LaidPath& laid, const Ve
         removing_steps(program_of(laid.path, std::vector<double>(seconds.size(), 0.0), laid.motion, max_feed));
     steps.strokes.insert(steps.strokes.end(), laid.strokes.begin(), laid.strokes.end());
     steps.seconds.insert(steps.seconds.end(), seconds.begin(), seconds.end());
-    return exact_residual(RemovalProbe(part.map.grid, part.tif, steps.strokes, steps.seconds), part.map, left,
+    return exact_residual(RemovalProbe(part.map.grid, part.exact, steps.strokes, steps.seconds), part.map, left,
                           part.form, part.threads, progress);
   }
-  return exact_residual(RemovalProbe(part.map.grid, part.tif, laid.strokes, seconds), part.map, left, part.form,
+  return exact_residual(RemovalProbe(part.map.grid, part.exact, laid.strokes, seconds), part.map, left, part.form,
                         part.threads, progress);
 }
 

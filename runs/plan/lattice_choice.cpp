@@ -75,7 +75,7 @@ std::vector<double> random_dwell(const std::vector<Stroke>& strokes) {
 LatticeChoice choose_lattice(const Part& part, const std::vector<Stroke>& strokes, const Progress& progress) {
   const std::vector<Index> pixels = some_pixels(part.map);
   const std::vector<double> seconds = random_dwell(strokes);
-  const RemovalProbe probe(part.map.grid, part.tif, strokes, seconds);
+  const RemovalProbe probe(part.map.grid, part.exact, strokes, seconds);
   const Vector exact = mean_removal(probe, part.map.grid, pixels, part.threads, progress);
   const Vector dwell = Vector::Map(seconds.data(), static_cast<Index>(seconds.size()));
   for (Index parts = 1;;) {

@@ -24,6 +24,8 @@ Part make_part(HeightMap map, RemovalFunction tif, const FormTerms& form, int th
   part.tif = std::move(tif);
   part.kernel = pixel_kernel(part.tif, grid.pitch_x, grid.pitch_y);
   progress.check();
+  part.exact = tabulate_pixel_mean(part.tif, grid);
+  progress.check();
   return part;
 }
 

@@ -4,6 +4,7 @@
 #include "core/form/form_terms.h"
 #include "core/form/map_statistics.h"
 #include "core/map/height_map.h"
+#include "core/removal/removal_probe.h"
 #include "core/tif/removal_function.h"
 #include "core/tif/removal_kernel.h"
 
@@ -18,6 +19,7 @@ struct Part {
   MapStatistics before;  // of the figure
   RemovalFunction tif;
   RemovalKernel kernel;  // the removal function on the map's pixels
+  PixelMeanTable exact;  // the same so fine that it serves to judge others
   int threads = 1;       // on which everything made from the part runs
 };
 

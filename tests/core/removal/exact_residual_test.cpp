@@ -15,6 +15,7 @@ struct WorkedPart {
   RemovalFunction tif = gaussian_removal(5.0, 3.0, 6.0);
   std::vector<Stroke> strokes;
   std::vector<double> seconds;
+  PixelMeanTable table;
 
   WorkedPart(Index rows, Index cols) : map(Grid{rows, cols, 0.25, 0.35, {3.0, -8.0}}) {
     for (Index i = 0; i < map.grid.size(); ++i) {
@@ -22,6 +23,7 @@ struct WorkedPart {
       const Point p = map.grid.centre(i) - map.grid.origin;
       map.values[static_cast<std::size_t>(i)] = 200.0 + 30.0 * std::sin(0.4 * p.x) * std::cos(0.3 * p.y) + 2.0 * p.x;
     }
+    table = tabulate_pixel_mean(tif, map.grid);
     const double width = map.grid.width(), height = map.grid.height();
     for (double y = -2.0; y < height + 2.0; y += 0.9) {
       for (double x = -2.0; x < width + 2.0; x += 0.5) {
@@ -32,7 +34,7 @@ struct WorkedPart {
     }
   }
 
-  RemovalProbe probe() const { return RemovalProbe(map.grid, tif, strokes, seconds); }
+  RemovalProbe probe() const { return {map.grid, table, strokes, seconds}; }
   /// What is left exactly.
   HeightMap left() const {
     const std::vector<Index> pixels = finite_pixels(map);
@@ -113,7 +115,8 @@ TEST(ExactResidual, StatesTheRippleWithinPixels) {
   std::vector<Stroke> strokes;
   for (int c = -12; c < 24; ++c) strokes.push_back({{c * pitch, -20.0}, {c * pitch, 1.0}, {c * pitch, 22.0}});
   const std::vector<double> seconds(strokes.size(), 10.0);
-  const ExactResidual smooth = exact_residual(RemovalProbe(map.grid, tif, strokes, seconds), map, map, {}, 1);
+  const PixelMeanTable wide = tabulate_pixel_mean(tif, map.grid);
+  const ExactResidual smooth = exact_residual(RemovalProbe(map.grid, wide, strokes, seconds), map, map, {}, 1);
   const double removed = -smooth.statistics.mean;
   EXPECT_LT(smooth.ripple, 2e-3 * removed);
 
@@ -123,8 +126,8 @@ TEST(ExactResidual, StatesTheRippleWithinPixels) {
   for (int c = -40; c < 60; ++c)
     strokes.push_back({{4.0 * c * spacing, -20.0}, {4.0 * c * spacing, 1.0}, {4.0 * c * spacing, 22.0}});
   const std::vector<double> more(strokes.size(), 10.0);
-  const ExactResidual rough =
-      exact_residual(RemovalProbe(map.grid, gaussian_removal(1.0, fwhm, 3.0 * fwhm), strokes, more), map, map, {}, 1);
+  const PixelMeanTable narrow = tabulate_pixel_mean(gaussian_removal(1.0, fwhm, 3.0 * fwhm), map.grid);
+  const ExactResidual rough = exact_residual(RemovalProbe(map.grid, narrow, strokes, more), map, map, {}, 1);
   EXPECT_GT(rough.ripple, 0.01 * -rough.statistics.mean);
   EXPECT_DOUBLE_EQ(rough.total(), std::hypot(rough.statistics.rms_about_zero(), rough.ripple));
 }

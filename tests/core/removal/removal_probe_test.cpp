@@ -48,7 +48,8 @@ double mean_by_strokes(const RemovalFunction& tif, Point centre, int n) {
 }
 
 void expect_probe(const RemovalFunction& tif, double tolerance) {
-  const RemovalProbe probe(kMap, tif, some_strokes(), kSeconds);
+  const PixelMeanTable table = tabulate_pixel_mean(tif, kMap);
+  const RemovalProbe probe(kMap, table, some_strokes(), kSeconds);
   double largest = 0.0;
   for (Index i = 0; i < kMap.size(); i += 5) {
     const Point centre = kMap.centre(i);
@@ -67,7 +68,8 @@ TEST(RemovalProbe, IntegratesTheRemovalFunctionItself) {
 }
 
 TEST(RemovalProbe, GivesPixelsInOrderForAnyNumberOfThreads) {
-  const RemovalProbe probe(kMap, measured_lobe(), some_strokes(), kSeconds);
+  const PixelMeanTable table = tabulate_pixel_mean(measured_lobe(), kMap);
+  const RemovalProbe probe(kMap, table, some_strokes(), kSeconds);
   const std::vector<Index> pixels{3, 90, 41};
   const Vector one = mean_removal(probe, kMap, pixels, 1), two = mean_removal(probe, kMap, pixels, 2);
   EXPECT_EQ(one, two);
@@ -76,7 +78,8 @@ TEST(RemovalProbe, GivesPixelsInOrderForAnyNumberOfThreads) {
 }
 
 TEST(RemovalProbe, OfNothingRemovesNothing) {
-  const RemovalProbe probe(kMap, measured_lobe(), {}, {});
+  const PixelMeanTable table = tabulate_pixel_mean(measured_lobe(), kMap);
+  const RemovalProbe probe(kMap, table, {}, {});
   EXPECT_EQ(probe.mean_over_pixel(kMap.centre(4)), 0.0);
   EXPECT_EQ(probe.at(kMap.centre(4)), 0.0);
   EXPECT_EQ(mean_removal(probe, kMap, {}, 2).size(), 0);
@@ -84,8 +87,9 @@ TEST(RemovalProbe, OfNothingRemovesNothing) {
 
 TEST(RemovalProbe, WantsATimeAStrokeAndStops) {
   const std::vector<double> one{1.0};
-  EXPECT_THROW(RemovalProbe(kMap, measured_lobe(), some_strokes(), one), std::invalid_argument);
-  const RemovalProbe probe(kMap, measured_lobe(), some_strokes(), kSeconds);
+  const PixelMeanTable table = tabulate_pixel_mean(measured_lobe(), kMap);
+  EXPECT_THROW(RemovalProbe(kMap, table, some_strokes(), one), std::invalid_argument);
+  const RemovalProbe probe(kMap, table, some_strokes(), kSeconds);
   EXPECT_THROW(mean_removal(probe, kMap, {1}, 1, Progress{{}, [] { return true; }}), Interrupted);
 }
 
