@@ -80,7 +80,7 @@ std::vector<MapField> fields_of_group(const Hdf5File& file, const std::string& g
 void add_what_is_new(SaidOfMap& said, SaidOfMap more) {
   std::move(more.header.unclear.begin(), more.header.unclear.end(), std::back_inserter(said.header.unclear));
   if (!said.header.unit) said.header.unit = std::move(more.header.unit);
-  if (said.no_data.empty()) said.no_data = std::move(more.no_data);
+  if (said.header.no_data.empty()) said.header.no_data = std::move(more.header.no_data);
   if (!said.header.pitch) {
     said.header.pitch = more.header.pitch;
     said.pitch_field = std::move(more.pitch_field);

@@ -213,10 +213,10 @@ class MapFieldsReader {
     for (const std::string& text : field.texts) {
       const auto number = height_number(text);
       if (!number) refuse(field, "a number that stands for no data is");
-      if (!std::isnan(*number)) said_.no_data.push_back(*number);
+      if (!std::isnan(*number)) said_.header.no_data.push_back(*number);
     }
     for (const double number : field.numbers) {
-      if (!std::isnan(number)) said_.no_data.push_back(number);
+      if (!std::isnan(number)) said_.header.no_data.push_back(number);
     }
   }
 
@@ -224,10 +224,11 @@ class MapFieldsReader {
   void guard(const MapField& field) {
     for (const std::string& text : field.texts) {
       if (text.size() > kLongestRemark) continue;  // a program, a log
-      std::vector<UnclearStatement> unclear =
-          unclear_remarks(text, fmt::format("{}: {}", where_, field.shown));
+      const std::string place = fmt::format("{}: {}", where_, field.shown);
+      std::vector<UnclearStatement> unclear = unclear_remarks(text, place, RemarkPlace::Field);
+      // "detector = 'm'": a unit alone is said of the name.
       if (unclear.empty() && known_value_unit(text) && lower_case(trim(text)) != "in") {
-        unclear = unclear_remarks(fmt::format("{} = {}", field.name, text), fmt::format("{}: {}", where_, field.shown));
+        unclear = unclear_remarks(fmt::format("{} = {}", field.name, text), place, RemarkPlace::Field);
       }
       said_.header.unclear.insert(said_.header.unclear.end(), unclear.begin(), unclear.end());
     }

@@ -20,11 +20,10 @@ struct MapField {
 
 /// What fields say of a map.
 struct SaidOfMap {
-  MapHeader header;             // pitch, origin and unit where they are said without doubt
-  std::vector<double> no_data;  // values as stored that stand for no data
-  std::string pitch_field;      // the field of the pitch with its value, for messages
-  std::string unclear_pitch;    // fields that seem to be of pitch or size, but leave open what; empty if none
-  std::string unclear_origin;   // the same of the origin
+  MapHeader header;            // pitch, origin, unit and markers of no data where they are said without doubt
+  std::string pitch_field;     // the field of the pitch with its value, for messages
+  std::string unclear_pitch;   // fields that seem to be of pitch or size, but leave open what; empty if none
+  std::string unclear_origin;  // the same of the origin
 };
 
 /// Reads all fields together, for one may hold the unit of another. What looks like a unit of the values, a factor or a

@@ -15,8 +15,10 @@ namespace {
 
 constexpr double kExactSteps = 1e-9;    // of the largest number: equal steps, but for the rounding of doubles
 constexpr double kRoundedSteps = 0.05;  // of the step: as kLatticeTolerance, for coordinates printed with few digits
-constexpr double kPrintedSteps = 0.12;  // of the step: the most that one of the last digit may be
-constexpr Index kLeastPrinted = 4;      // three numbers are soon in equal steps to their rounding
+// Of the step: the most that one of the last digit may be, for four numbers and for eight. Fewer are soon in equal steps
+// to their rounding.
+constexpr double kPrintedSteps = 0.12, kPrintedStepsOfMany = 0.34;
+constexpr Index kLeastPrinted = 4, kManyPrinted = 8;
 constexpr Index kLeastAlone = 5;  // numbers in equal steps beside a corner that is a number: four may be an accident
 constexpr Index kTelling = 3;     // two numbers are always in equal steps
 constexpr Index kLeastPoints = 9;
@@ -68,7 +70,8 @@ std::optional<Steps> steps_of(const MatrixLine& line, Index least, double exact,
   if (!std::isfinite(step) || step == 0.0) return std::nullopt;
   const double printed = line.count >= kLeastPrinted ? printed_unit(line) : 0.0;
   double tolerance = std::max(exact * std::max(std::abs(first), std::abs(last)), rounded * std::abs(step));
-  if (printed <= kPrintedSteps * std::abs(step)) tolerance = std::max(tolerance, printed);
+  const double most = line.count >= kManyPrinted ? kPrintedStepsOfMany : kPrintedSteps;
+  if (printed <= most * std::abs(step)) tolerance = std::max(tolerance, printed);
   for (Index i = 0; i < line.count; ++i) {
     if (!(std::abs(line[i] - first - step * static_cast<double>(i)) <= tolerance)) return std::nullopt;
   }
@@ -106,6 +109,11 @@ Headings suspected(const MapSource& m) {
     return steps && steps->count >= kTelling && !another_is_even(m, rows);
   };
   if (both.x && both.y && (tells(both.x, true) || tells(both.y, false))) return both;
+  // Beside an empty corner one of the two says that both are there.
+  const auto headed = [&](const std::optional<Steps>& steps, bool rows) {
+    return blank && steps && steps->count >= kLeastAlone && tells(steps, rows);
+  };
+  if (headed(both.x, true) || headed(both.y, false)) return both;
   Headings one;
   if (m.rows > 1) one.x = steps_of(row, kLeastAlone, kExactSteps, 0.0);
   if (tells(one.x, true)) return one.row = true, one;
@@ -132,6 +140,8 @@ Headings stated(const MapSource& m, bool named_columns) {
     found = {{}, whole_y, false, true};
   else
     found.row = named_columns || found.x.has_value(), found.column = found.y.has_value();
+  // An empty corner stands above a column, and beside a row, of headings.
+  if (std::isnan(m.values[0]) && !named_columns && (found.row || found.column)) found.row = found.column = true;
   return found;
 }
 
@@ -208,10 +218,10 @@ void refuse_suspicious(const MapSource& m, const std::string& where, const std::
   const Headings found = suspected(m);
   if (!found.row && !found.column) return;
   throw InputError(fmt::format(
-      "{}: {} look like an index or coordinates, not like heights; give `{} table` index to leave them out, `{} table` "
+      "{}: {} {} like an index or coordinates, not like heights; give `{} table` index to leave them out, `{} table` "
       "mm (or another unit of length) to take pitch and origin from them, or `{} table` heights to take them as "
       "heights",
-      where, in_words(found), name, name, name));
+      where, in_words(found), found.row && found.column ? "look" : "looks", name, name, name));
 }
 
 void leave_out(MapSource& m, const Headings& h) {

@@ -12,7 +12,6 @@
 #include "core/base/number_text.h"
 #include "core/base/whole_file.h"
 #include "core/formats/npy.h"
-#include "core/formats/packed_values.h"
 #include "core/map/value_units.h"
 
 namespace dwell {
@@ -187,10 +186,6 @@ void add_npy_sidecar(const std::filesystem::path& npy_file, std::string_view byt
         "first: {}",
         sidecar, said.unclear_pitch);
   }
-  PackedValues packing;
-  for (const double value : said.no_data) packing.no_data.push_back({"no data", value});
-  const std::string done = unpack_values(packing, source.values);
-  if (!done.empty()) source.header.history.push_back(fmt::format("read {}: {}", sidecar, done));
 }
 
 void stage_npy_with_sidecar(const std::filesystem::path& npy_file, const HeightMap& map, StagedFiles& files) {

@@ -279,43 +279,47 @@ bool speaks_of_no_data(const Remark& words) {
 /// What a statement may speak of, and how it would be clear.
 struct Suspicion {
   About about;
-  const char* what;
+  const char *what, *clear_comment;
 };
 
 std::vector<Suspicion> suspicions_of(const Remark& words) {
   std::vector<Suspicion> found;
-  const auto add = [&](bool is, About about, const char* what) {
+  const auto add = [&](bool is, About about, const char* what, const char* clear_comment) {
     const bool before =
         std::any_of(found.begin(), found.end(), [&](const Suspicion& other) { return other.about == about; });
-    if (is && !before) found.push_back({about, what});
+    if (is && !before) found.push_back({about, what, clear_comment});
   };
   for (std::size_t i = 0; i < words.size(); ++i) {
     const bool places = speaks_of_places(words, i), unit = speaks_of_a_unit(words, i);
     add(places, About::Places,
-        "places in another unit than mm; write the pitch as '# pitch_mm: 0.1', or coordinates in mm");
+        "places in another unit than mm", "write the pitch as '# pitch_mm: 0.1', or coordinates in mm");
     add(unit && speaks_of_all(words, i), About::Places,
-        "a unit of all lengths; write the pitch as '# pitch_mm: 0.1', or coordinates in mm");
-    add(!places && unit, About::Unit, "the unit of the values; write '# unit: um', or the comment without a unit");
+        "a unit of all lengths", "write the pitch as '# pitch_mm: 0.1', or coordinates in mm");
+    add(!places && unit, About::Unit, "the unit of the values", "write '# unit: um', or the comment without a unit");
     add(speaks_of_waves(words, i), About::Unit,
-        "a unit of the values that is no length; write the values in a length and '# unit: nm'");
+        "a unit of the values that is no length", "write the values in a length and '# unit: nm'");
     add(is_per_count(words, i) || is_a_factor(words, i), About::Factor,
-        "a factor of the values; write the values without it and their unit, '# unit: nm'");
+        "a factor of the values", "write the values without it and their unit, '# unit: nm'");
     add(speaks_of_an_origin(words, i), About::Origin,
-        "a place of the map; write '# origin_mm: x,y', the centre of the first pixel");
+        "a place of the map", "write '# origin_mm: x,y', the centre of the first pixel");
   }
   add(speaks_of_rows(words), About::Rows,
-      "an orientation; the first row is that of the smallest y and the first column that of the smallest x");
-  add(speaks_of_no_data(words), About::NoData, "a value for no data; write '# nodata: -9999'");
+      "an orientation; the first row is taken for that of the smallest y, the first column for that of the smallest x",
+      "turn the map so and leave the comment out");
+  add(speaks_of_no_data(words), About::NoData, "a value for no data", "write '# nodata: -9999'");
   return found;
 }
 
 }  // namespace
 
-std::vector<UnclearStatement> unclear_remarks(std::string_view remark, const std::string& place) {
+std::vector<UnclearStatement> unclear_remarks(std::string_view remark, const std::string& place, RemarkPlace kind) {
   std::vector<UnclearStatement> unclear;
   for (const Suspicion& suspicion : suspicions_of(remark_words(remark))) {
-    unclear.push_back(
-        {suspicion.about, fmt::format("{}: {} looks like {}", place, in_quotes(trim(remark)), suspicion.what)});
+    const char* const way_out = kind == RemarkPlace::Comment
+                                    ? suspicion.clear_comment
+                                    : "say it under a name of its own, as unit, pitch_mm or origin_mm";
+    unclear.push_back({suspicion.about, fmt::format("{}: {} looks like {}; {}", place, in_quotes(trim(remark)),
+                                                    suspicion.what, way_out)});
   }
   return unclear;
 }

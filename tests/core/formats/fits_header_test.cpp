@@ -91,7 +91,7 @@ TEST(FitsHeader, TakesMarkersOfNoData) {
     EXPECT_EQ(source.header.history.front(), said);
   };
   expect({"BLANK   = 5"}, "read FITS: pixels without data: 1 of BLANK 5");
-  expect({"NODATA  = 5.0"}, "read FITS: pixels without data: 1 of no data 5");
+  EXPECT_EQ(read_with({"NODATA  = 5.0"}).header.no_data, std::vector<double>{5.0});
   refused({"NODATA  = 'grey'"}, {"NODATA = 'grey'", "a number"});
   refused({"ZSCALE  = 2.0"}, {"ZSCALE = 2", "1 (heights as they are)"});
 }

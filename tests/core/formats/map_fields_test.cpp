@@ -85,11 +85,11 @@ TEST(MapFields, TakeAnOriginOrSayThatItIsUnclear) {
 }
 
 TEST(MapFields, TakeMarkersOfNoDataAndRefuseFactors) {
-  EXPECT_EQ(said({number("no_data", {-9999}), text("missing", "nan")}).no_data, (std::vector<double>{-9999}));
+  EXPECT_EQ(said({number("no_data", {-9999}), text("missing", "nan")}).header.no_data, (std::vector<double>{-9999}));
   refused({text("no_data", "grey")}, {"no_data = 'grey'", "a number"});
   refused({number("z_scale", {1e-3})}, {"z_scale = 0.001", "1 (heights as they are)"});
   refused({number("offset", {5})}, {"offset = 5", "0 (heights"});
-  EXPECT_TRUE(said({number("scale", {1}), number("offset", {0})}).no_data.empty());
+  EXPECT_TRUE(said({number("scale", {1}), number("offset", {0})}).header.no_data.empty());
 }
 
 TEST(MapFields, KnowALengthAsText) {
