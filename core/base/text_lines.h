@@ -11,8 +11,8 @@ inline std::string_view without_byte_order_mark(std::string_view text) {
   return text;
 }
 
-/// Walks the lines of a text. A line ends with LF or CR LF, or with CR where the text has no LF at all; the first one is
-/// number 1, and a UTF-8 byte-order mark is skipped.
+/// Walks the lines of a text. A line ends with LF or CR LF, or with CR where the text has no LF at all; the first one
+/// is number 1, and a UTF-8 byte-order mark is skipped.
 class TextLines {
  public:
   explicit TextLines(std::string_view text)

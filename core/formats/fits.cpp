@@ -153,8 +153,8 @@ double scaling(fitsfile* file, const char* name, double otherwise) {
 /// BLANK beside floating-point numbers; markers under other names are of heights, and in the header.
 void take_markers(fitsfile* file, const Image& found, const FitsHeader& header, MapSource& source) {
   if (!header.blank || found.bitpix > 0) return;
-  const std::string done = take_blank(*header.blank, scaling(file, "BSCALE", 1.0), scaling(file, "BZERO", 0.0),
-                                      source.values);
+  const std::string done =
+      take_blank(*header.blank, scaling(file, "BSCALE", 1.0), scaling(file, "BZERO", 0.0), source.values);
   if (!done.empty()) source.header.history.push_back("read FITS: " + done);
 }
 

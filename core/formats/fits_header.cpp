@@ -181,8 +181,8 @@ void guard_remarks(const std::vector<Card>& cards, const std::string& where, Map
   for (const Card& card : cards) {
     const bool history = card.name == "HISTORY";
     if (card.name != "COMMENT" && !history) continue;
-    for (UnclearStatement& unclear : unclear_remarks(card.comment, fmt::format("{}: FITS {}", where, card.name),
-                                                     RemarkPlace::Field)) {
+    for (UnclearStatement& unclear :
+         unclear_remarks(card.comment, fmt::format("{}: FITS {}", where, card.name), RemarkPlace::Field)) {
       if (!history || unclear.about == UnclearStatement::About::Unit) header.unclear.push_back(std::move(unclear));
     }
   }

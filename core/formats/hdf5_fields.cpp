@@ -34,8 +34,8 @@ MapField hdf5_field(const std::string& name, const std::optional<Hdf5Value>& val
 void add_neighbours(const Hdf5File& file, const std::string& path, std::vector<MapField>& fields) {
   for (const std::string& other : file.data_sets_in(group_of(path))) {
     const MapTopic topic = parse_field_name(last_name(other)).topic;
-    const bool speaks = topic == MapTopic::ValueUnit || topic == MapTopic::LateralUnit ||
-                        topic == MapTopic::Pitch || topic == MapTopic::Origin || topic == MapTopic::NoData;
+    const bool speaks = topic == MapTopic::ValueUnit || topic == MapTopic::LateralUnit || topic == MapTopic::Pitch ||
+                        topic == MapTopic::Origin || topic == MapTopic::NoData;
     if (!speaks || other == path) continue;
     const auto value = file.table(other);
     if (!value || value->numbers.size() + value->texts.size() > 2) continue;  // an array of its own
@@ -61,16 +61,15 @@ std::vector<MapField> fields_of_group(const Hdf5File& file, const std::string& g
     const std::string lower = lower_case(name);
     const bool of_heights =
         lower.starts_with('z') || lower.find("height") != std::string::npos || lower.find("value") != std::string::npos;
-    const bool speaks = known.topic == MapTopic::ValueUnit || known.topic == MapTopic::LateralUnit ||
-                        known.topic == MapTopic::Pitch || known.topic == MapTopic::NoData ||
-                        (known.topic == MapTopic::Origin && known.clear) ||
-                        (known.topic == MapTopic::ValueScale && (of_heights || !known.clear)) || known.topic == MapTopic::Orientation ||
-                        known.topic == MapTopic::Label || known.topic == MapTopic::Other;
+    const bool speaks =
+        known.topic == MapTopic::ValueUnit || known.topic == MapTopic::LateralUnit || known.topic == MapTopic::Pitch ||
+        known.topic == MapTopic::NoData || (known.topic == MapTopic::Origin && known.clear) ||
+        (known.topic == MapTopic::ValueScale && (of_heights || !known.clear)) || known.topic == MapTopic::Orientation ||
+        known.topic == MapTopic::Label || known.topic == MapTopic::Other;
     if (!speaks) continue;
     const auto value = file.attribute(group, name);
     // Of what has no topic, a text may still say something.
-    const bool elsewhere =
-        std::find(kReadElsewhere.begin(), kReadElsewhere.end(), name) != kReadElsewhere.end();
+    const bool elsewhere = std::find(kReadElsewhere.begin(), kReadElsewhere.end(), name) != kReadElsewhere.end();
     if (known.topic == MapTopic::Other && (elsewhere || !value || value->texts.empty())) continue;
     fields.push_back(hdf5_field(name, value, fmt::format("attribute {} of HDF5 group '{}'", name, group)));
   }

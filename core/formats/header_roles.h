@@ -12,8 +12,8 @@ struct HeaderMeaning {
   bool moves = false;  // an offset: of the map, or of its heights
 };
 
-/// Looks the key up in the table of names (core/formats/map_terms.h), and knows the phrases that no table holds ("unit of
-/// heights", "missing value"). Corrects the axis of the key where it is part of a word ("dx", "xpitch").
+/// Looks the key up in the table of names (core/formats/map_terms.h), and knows the phrases that no table holds ("unit
+/// of heights", "missing value"). Corrects the axis of the key where it is part of a word ("dx", "xpitch").
 HeaderMeaning meaning_of(HeaderKey& key);
 
 }  // namespace dwell

@@ -70,10 +70,9 @@ std::vector<HeaderKey> header_captions(std::string_view text) {
 }
 
 bool speaks_of_coordinates(const HeaderKey& key) {
-  constexpr std::array<std::string_view, 8> kWords{"coordinates", "coords", "coordinate", "positions",
-                                                   "koordinaten", "coordonnees", "laterals", "lateral"};
-  return key.words.size() == 1 && key.axis != 'z' &&
-         std::find(kWords.begin(), kWords.end(), key.stem) != kWords.end();
+  constexpr std::array<std::string_view, 8> kWords{"coordinates", "coords",      "coordinate", "positions",
+                                                   "koordinaten", "coordonnees", "laterals",   "lateral"};
+  return key.words.size() == 1 && key.axis != 'z' && std::find(kWords.begin(), kWords.end(), key.stem) != kWords.end();
 }
 
 bool speaks_of_everything(const HeaderKey& key) {

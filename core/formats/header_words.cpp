@@ -20,8 +20,9 @@ bool is_one_of(std::string_view word, const std::array<std::string_view, n>& wor
 }
 
 constexpr std::array<std::string_view, 33> kWordsThatSayNothing{
-    "in",  "is",  "are", "the", "of",  "all", "a",   "given", "map", "and", "per",  "for", "as", "both", "this", "der", "die",
-    "das", "des", "den", "alle", "aller", "sind", "ist", "und", "von", "en", "est", "les", "la", "toutes", "tous", "sont"};
+    "in",   "is",  "are",  "the",  "of",  "all", "a",   "given", "map",    "and",  "per",
+    "for",  "as",  "both", "this", "der", "die", "das", "des",   "den",    "alle", "aller",
+    "sind", "ist", "und",  "von",  "en",  "est", "les", "la",    "toutes", "tous", "sont"};
 
 constexpr std::array<std::string_view, 4> kPixelWords{"px", "pix", "pixel", "pixels"};
 

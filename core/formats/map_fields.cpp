@@ -15,7 +15,7 @@
 namespace dwell {
 namespace {
 
-constexpr double kSameLength = 1e-6;  // relative: single precision
+constexpr double kSameLength = 1e-6;          // relative: single precision
 constexpr std::size_t kLongestRemark = 4000;  // characters
 
 bool agree(double a, double b) { return std::abs(a - b) <= kSameLength * std::max(std::abs(a), std::abs(b)); }
@@ -83,8 +83,7 @@ class MapFieldsReader {
       take_unit(field, unit_text(field));
     }
     if (name.topic == MapTopic::UnknownUnit && !unknown_unit_ && !is_of_something_else(field)) unknown_unit_ = &field;
-    if (name.topic == MapTopic::Label && field.texts.size() == 1)
-      take_unit(field, unit_of_label(field.texts.front()));
+    if (name.topic == MapTopic::Label && field.texts.size() == 1) take_unit(field, unit_of_label(field.texts.front()));
     if (name.topic != MapTopic::LateralUnit || field.texts.size() != 1) return;
     const auto nm = known_length_unit(field.texts.front());
     if (!nm) return;  // pixels, degrees on the sky: what it is of has no length then
@@ -239,11 +238,12 @@ class MapFieldsReader {
   }
 
   void take_orientation(const MapField& field) {
-    const bool none = std::all_of(field.numbers.begin(), field.numbers.end(), [](double v) { return v == 0.0; }) &&
-                      std::all_of(field.texts.begin(), field.texts.end(), [](const std::string& text) {
-                        const std::string lower = lower_case(trim(text));
-                        return lower.empty() || lower == "none" || lower == "no" || lower == "false" || lower == "normal";
-                      });
+    const bool none =
+        std::all_of(field.numbers.begin(), field.numbers.end(), [](double v) { return v == 0.0; }) &&
+        std::all_of(field.texts.begin(), field.texts.end(), [](const std::string& text) {
+          const std::string lower = lower_case(trim(text));
+          return lower.empty() || lower == "none" || lower == "no" || lower == "false" || lower == "normal";
+        });
     if (!none) {
       add_statement(UnclearStatement::About::Rows, field,
                     "an orientation; the first row is that of the smallest y, the first column that of the smallest x");

@@ -30,11 +30,11 @@ struct MapHeader {
   std::optional<Point> pitch;   // in x and y [mm], both > 0
   std::optional<Point> origin;  // centre of pixel (0, 0) [mm]
   std::optional<std::string> unit;
-  std::vector<double> no_data;            // values, as the file holds them, that stand for no data
+  std::vector<double> no_data;  // values, as the file holds them, that stand for no data
   std::vector<UnclearStatement> unclear;
-  bool places_known = false;              // of points: their unit is said
-  std::vector<std::string> history;       // how the map was made, a step each, oldest first
-  double pitch_rounding = 1e-9;           // relative: how well a pitch that the user gives can agree with the file's
+  bool places_known = false;         // of points: their unit is said
+  std::vector<std::string> history;  // how the map was made, a step each, oldest first
+  double pitch_rounding = 1e-9;      // relative: how well a pitch that the user gives can agree with the file's
 };
 
 /// pitch_rounding of formats that hold the pitch in single precision.

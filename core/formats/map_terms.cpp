@@ -98,34 +98,53 @@ bool is_among(std::string_view word, const std::array<std::string_view, n>& word
 }
 
 constexpr std::array<std::string_view, 49> kValueWords{
-    "height",     "heights",  "value",      "values",     "surface",   "data",       "rate",     "rates",
-    "removal",    "sag",      "opd",        "figure",     "error",     "errors",     "z",        "deviation",
-    "deviations", "phase",    "topography", "depth",      "form",      "shape",      "profile",  "amplitude",
-    "amplitudes", "residual", "residuals",  "hoehe",      "hoehen",    "hoehenwert", "hoehenwerte", "wert",
-    "werte",      "daten",    "oberflaeche", "abweichung", "abweichungen", "fehler",  "tiefe",    "amplituden",
-    "hauteur",    "hauteurs", "valeur",     "valeurs",    "donnees",   "ecart",      "ecarts",   "erreur",
-    "profondeur"};
+    "height",     "heights",      "value",       "values",     "surface",    "data",      "rate",
+    "rates",      "removal",      "sag",         "opd",        "figure",     "error",     "errors",
+    "z",          "deviation",    "deviations",  "phase",      "topography", "depth",     "form",
+    "shape",      "profile",      "amplitude",   "amplitudes", "residual",   "residuals", "hoehe",
+    "hoehen",     "hoehenwert",   "hoehenwerte", "wert",       "werte",      "daten",     "oberflaeche",
+    "abweichung", "abweichungen", "fehler",      "tiefe",      "amplituden", "hauteur",   "hauteurs",
+    "valeur",     "valeurs",      "donnees",     "ecart",      "ecarts",     "erreur",    "profondeur"};
 
-constexpr std::array<std::string_view, 22> kValuesBeforeUnit{
-    "",    "b",   "val",   "h",     "map",         "vertical", "wavefront", "w",          "sfe",    "wfe",     "dz",
-    "array", "image", "pixelvalue", "opdmap", "removalrate", "heightvalue", "surfaceheight", "surfaceerror",
-    "sm",  "zaxis", "ordinate"};
+constexpr std::array<std::string_view, 22> kValuesBeforeUnit{"",
+                                                             "b",
+                                                             "val",
+                                                             "h",
+                                                             "map",
+                                                             "vertical",
+                                                             "wavefront",
+                                                             "w",
+                                                             "sfe",
+                                                             "wfe",
+                                                             "dz",
+                                                             "array",
+                                                             "image",
+                                                             "pixelvalue",
+                                                             "opdmap",
+                                                             "removalrate",
+                                                             "heightvalue",
+                                                             "surfaceheight",
+                                                             "surfaceerror",
+                                                             "sm",
+                                                             "zaxis",
+                                                             "ordinate"};
 
 constexpr std::array<std::string_view, 30> kLateralsBeforeUnit{
-    "x",      "y",     "xy",   "lateral",  "pitch", "pixel",      "pixelsize",    "spacing",  "spatial", "horizontal",
-    "coordinate", "coordinates", "grid", "origin", "pixelscale", "step", "axis", "axes", "position", "pix",
-    "length", "xyz", "pixelpitch", "pixelspacing", "size", "sampling", "distance", "koordinaten", "coordonnees",
-    "positions"};
+    "x",       "y",          "xy",         "lateral",     "pitch",       "pixel",    "pixelsize",  "spacing",
+    "spatial", "horizontal", "coordinate", "coordinates", "grid",        "origin",   "pixelscale", "step",
+    "axis",    "axes",       "position",   "pix",         "length",      "xyz",      "pixelpitch", "pixelspacing",
+    "size",    "sampling",   "distance",   "koordinaten", "coordonnees", "positions"};
 
 /// What ASCII writes for a letter of Latin-1 (its code is that of Unicode too); empty: the letter stays.
 std::string_view ascii_of(unsigned char code) {
-  constexpr unsigned char kSharpS = 0xdf, kFirstSmall = 0xe0, kLastCapital = 0xde, kFirstCapital = 0xc0, kToSmall = 0x20;
+  constexpr unsigned char kSharpS = 0xdf, kFirstSmall = 0xe0, kLastCapital = 0xde, kFirstCapital = 0xc0,
+                          kToSmall = 0x20;
   if (code == kSharpS) return "ss";
   if (code >= kFirstCapital && code <= kLastCapital) code = static_cast<unsigned char>(code + kToSmall);
   if (code < kFirstSmall) return "";
-  constexpr std::array<std::string_view, 32> kLetters{
-      "a", "a", "a", "a", "ae", "", "ae", "c", "e", "e", "e", "e", "i", "i", "i",  "i",
-      "",  "n", "o", "o", "o",  "o", "oe", "",  "",  "u", "u", "u", "ue", "y", "", "y"};
+  constexpr std::array<std::string_view, 32> kLetters{"a",  "a", "a", "a", "ae", "",  "ae", "c", "e", "e", "e",
+                                                      "e",  "i", "i", "i", "i",  "",  "n",  "o", "o", "o", "o",
+                                                      "oe", "",  "",  "u", "u",  "u", "ue", "y", "",  "y"};
   return kLetters.at(code - kFirstSmall);
 }
 
@@ -177,7 +196,7 @@ bool is_value_of_unit(std::string_view word) { return is_value_word(word) || is_
 bool is_lateral_of_unit(std::string_view word) { return is_among(word, kLateralsBeforeUnit); }
 
 bool is_unit_name(std::string_view word) {
-  constexpr std::array<std::string_view, 8> kUnits{"unit",  "units",  "uom",      "einheit",
+  constexpr std::array<std::string_view, 8> kUnits{"unit",      "units", "uom",    "einheit",
                                                    "einheiten", "unite", "unites", "masseinheit"};
   return is_among(word, kUnits);
 }

@@ -15,8 +15,8 @@ namespace {
 
 constexpr double kExactSteps = 1e-9;    // of the largest number: equal steps, but for the rounding of doubles
 constexpr double kRoundedSteps = 0.05;  // of the step: as kLatticeTolerance, for coordinates printed with few digits
-// Of the step: the most that one of the last digit may be, for four numbers and for eight. Fewer are soon in equal steps
-// to their rounding.
+// Of the step: the most that one of the last digit may be, for four numbers and for eight. Fewer are soon in equal
+// steps to their rounding.
 constexpr double kPrintedSteps = 0.12, kPrintedStepsOfMany = 0.34;
 constexpr Index kLeastPrinted = 4, kManyPrinted = 8;
 constexpr Index kLeastAlone = 5;  // numbers in equal steps beside a corner that is a number: four may be an accident
@@ -306,10 +306,11 @@ void apply_matrix_table(MapSource& matrix, const std::optional<MatrixTable>& tab
   const bool coordinates = table->kind == MatrixTable::Kind::Coordinates;
   Headings found = stated(matrix, named_columns);
   if (coordinates ? !(found.x && found.y) : !(found.row || found.column)) {
-    throw InputError(fmt::format(
-        "{}: `{} table` {}, but its {} in equal steps{}; leave the option out", where, name, to_string(*table),
-        missing_in_words(found),
-        coordinates && (found.x || found.y) ? ", and coordinates are needed of both (or give index, and the pitch)" : ""));
+    throw InputError(fmt::format("{}: `{} table` {}, but its {} in equal steps{}; leave the option out", where, name,
+                                 to_string(*table), missing_in_words(found),
+                                 coordinates && (found.x || found.y)
+                                     ? ", and coordinates are needed of both (or give index, and the pitch)"
+                                     : ""));
   }
   if (matrix.rows <= (found.row ? 1 : 0) || matrix.cols <= (found.column ? 1 : 0)) {
     throw InputError(fmt::format("{}: nothing is left without {}", where, in_words(found)));

@@ -25,24 +25,81 @@ bool is_known(std::string_view word, const std::array<std::string_view, n>& word
 }
 
 /// Quantities of a measurement that are no heights, and figures of a whole map: their unit is not that of the values.
-constexpr std::array<std::string_view, 65> kOtherQuantities{
-    "aperture", "diameter",  "radius",     "tool",      "wheel",  "pad",       "stop",      "focal",    "thickness",
-    "distance", "wavelength", "wavelengths", "laser",   "light",  "spot",      "beam",      "filter",   "lens",
-    "stroke",   "speed",     "objective",  "cutoff",    "band",   "period",    "lines",     "gap",      "slurry",
-    "rms",      "pv",        "p-v",        "ptv",       "ra",     "rq",        "rz",        "sa",       "sq",
-    "sz",       "pvr",       "pvq",        "std",       "sigma",  "peak",      "peak-to-valley", "valley", "noise",
-    "uncertainty", "accuracy", "precision", "repeatability", "roughness", "temperature", "exposure", "time", "wavelengt",
-    "wellenlaenge", "durchmesser", "blende", "rauheit", "longueur", "diametre", "ouverture", "stitching", "overlap",
-    "step", "steps"};
-constexpr std::array<std::string_view, 18> kNumberWords{"a",   "few",  "several", "some",     "sub",      "one",
-                                                        "two", "three", "half",   "hundreds", "tens",     "per",
-                                                        "hundred", "thousand", "ten", "many", "couple",   "below"};
+constexpr std::array<std::string_view, 65> kOtherQuantities{"aperture",
+                                                            "diameter",
+                                                            "radius",
+                                                            "tool",
+                                                            "wheel",
+                                                            "pad",
+                                                            "stop",
+                                                            "focal",
+                                                            "thickness",
+                                                            "distance",
+                                                            "wavelength",
+                                                            "wavelengths",
+                                                            "laser",
+                                                            "light",
+                                                            "spot",
+                                                            "beam",
+                                                            "filter",
+                                                            "lens",
+                                                            "stroke",
+                                                            "speed",
+                                                            "objective",
+                                                            "cutoff",
+                                                            "band",
+                                                            "period",
+                                                            "lines",
+                                                            "gap",
+                                                            "slurry",
+                                                            "rms",
+                                                            "pv",
+                                                            "p-v",
+                                                            "ptv",
+                                                            "ra",
+                                                            "rq",
+                                                            "rz",
+                                                            "sa",
+                                                            "sq",
+                                                            "sz",
+                                                            "pvr",
+                                                            "pvq",
+                                                            "std",
+                                                            "sigma",
+                                                            "peak",
+                                                            "peak-to-valley",
+                                                            "valley",
+                                                            "noise",
+                                                            "uncertainty",
+                                                            "accuracy",
+                                                            "precision",
+                                                            "repeatability",
+                                                            "roughness",
+                                                            "temperature",
+                                                            "exposure",
+                                                            "time",
+                                                            "wavelengt",
+                                                            "wellenlaenge",
+                                                            "durchmesser",
+                                                            "blende",
+                                                            "rauheit",
+                                                            "longueur",
+                                                            "diametre",
+                                                            "ouverture",
+                                                            "stitching",
+                                                            "overlap",
+                                                            "step",
+                                                            "steps"};
+constexpr std::array<std::string_view, 18> kNumberWords{
+    "a",        "few",  "several", "some",    "sub",      "one", "two",  "three",  "half",
+    "hundreds", "tens", "per",     "hundred", "thousand", "ten", "many", "couple", "below"};
 constexpr std::array<std::string_view, 7> kPixelNames{"pixel", "pixels", "px", "pix", "punkt", "bildpunkt", "point"};
 constexpr std::array<std::string_view, 24> kCounts{
-    "count", "counts", "lsb",  "digit", "digits", "level", "levels", "adu",    "bit",     "bits",    "grey", "gray",
-    "greylevel", "graylevel", "dn", "fringe", "fringes", "wave", "waves", "lambda", "radian", "rad", "volt", "v"};
-constexpr std::array<std::string_view, 14> kWaves{"waves",   "wave", "wv",     "fringe", "fringes", "lambda", "rad",
-                                                  "radian", "radians", "mrad", "urad",   "counts", "\xce\xbb", "count"};
+    "count",     "counts",    "lsb", "digit",  "digits",  "level", "levels", "adu",    "bit",    "bits", "grey", "gray",
+    "greylevel", "graylevel", "dn",  "fringe", "fringes", "wave",  "waves",  "lambda", "radian", "rad",  "volt", "v"};
+constexpr std::array<std::string_view, 14> kWaves{"waves",  "wave",   "wv",       "fringe",  "fringes",
+                                                  "lambda", "rad",    "radian",   "radians", "mrad",
+                                                  "urad",   "counts", "\xce\xbb", "count"};
 
 bool holds_value_word(const Remark& words, std::size_t from, std::size_t to) {
   return std::any_of(words.begin() + static_cast<std::ptrdiff_t>(from), words.begin() + static_cast<std::ptrdiff_t>(to),
@@ -59,14 +116,15 @@ std::size_t clause_of(const Remark& words, std::size_t at) {
 bool is_of_another_quantity(const Remark& words, std::size_t at) {
   const std::size_t begin = clause_of(words, at);
   if (holds_value_word(words, begin, at)) return false;
-  return std::any_of(words.begin() + static_cast<std::ptrdiff_t>(begin), words.begin() + static_cast<std::ptrdiff_t>(at),
+  return std::any_of(words.begin() + static_cast<std::ptrdiff_t>(begin),
+                     words.begin() + static_cast<std::ptrdiff_t>(at),
                      [](const RemarkWord& word) { return is_known(word.folded, kOtherQuantities); });
 }
 
 /// Whether a number with nothing else but the word's name stands behind ':' or '=': "exposure (um): 5".
 bool names_a_number(const Remark& words, std::size_t at) {
-  const bool valued = at + 1 < words.size() && words[at + 1].number &&
-                      (words[at + 1].before == ':' || words[at + 1].before == '=');
+  const bool valued =
+      at + 1 < words.size() && words[at + 1].number && (words[at + 1].before == ':' || words[at + 1].before == '=');
   return valued || (at + 1 < words.size() && words[at].closed && words[at + 1].number);
 }
 
@@ -102,7 +160,8 @@ bool speaks_of_a_unit(const Remark& words, std::size_t at) {
 
 /// "OPD in waves at 633 nm", but not "0.1 waves" or "fringe projection".
 bool speaks_of_waves(const Remark& words, std::size_t at) {
-  if (!is_known(words[at].folded, kWaves) || follows_a_number(words, at) || is_of_another_quantity(words, at)) return false;
+  if (!is_known(words[at].folded, kWaves) || follows_a_number(words, at) || is_of_another_quantity(words, at))
+    return false;
   if (names_a_number(words, at)) return false;
   constexpr std::array<std::string_view, 5> kAlsoProse{"wave", "fringe", "count", "counts", "fringes"};
   if (is_known(words[at].folded, kAlsoProse)) return is_announced(words, at) && words[at].before != ',';
@@ -136,19 +195,21 @@ bool is_per_count(const Remark& words, std::size_t at) {
   const std::size_t slash = word.find('/');
   if (slash != std::string::npos) {
     const std::string above = word.substr(0, slash), below = word.substr(slash + 1);
-    return (known_length_unit(above) && is_known(below, kCounts)) || (is_known(above, kCounts) && known_length_unit(below));
+    return (known_length_unit(above) && is_known(below, kCounts)) ||
+           (is_known(above, kCounts) && known_length_unit(below));
   }
   if (word != "per" || at == 0 || at + 1 == words.size()) return false;
   const std::string &above = words[at - 1].folded, &below = words[at + 1].folded;
-  return (known_length_unit(above) && is_known(below, kCounts)) || (is_known(above, kCounts) && known_length_unit(below));
+  return (known_length_unit(above) && is_known(below, kCounts)) ||
+         (is_known(above, kCounts) && known_length_unit(below));
 }
 
 /// "gain of 2.5", "scaled by 1000", "x 1e-3", "[10 nm]", "in 1e-9 m" beside a word for the values.
 bool is_a_factor(const Remark& words, std::size_t at) {
   constexpr std::array<std::string_view, 22> kVerbs{
-      "gain",    "scale",   "factor", "multiplier", "conversion", "sensitivity", "scaled",  "multiplied",
-      "multiply", "divided", "divide", "amplified",  "faktor",     "skaliert",    "facteur", "multiplie",
-      "divise",  "multipliziert", "dividiert", "geteilt", "scalefactor", "lsb"};
+      "gain",     "scale",         "factor",    "multiplier", "conversion",  "sensitivity", "scaled",  "multiplied",
+      "multiply", "divided",       "divide",    "amplified",  "faktor",      "skaliert",    "facteur", "multiplie",
+      "divise",   "multipliziert", "dividiert", "geteilt",    "scalefactor", "lsb"};
   constexpr std::array<std::string_view, 8> kBetween{"by", "of", "is", "mit", "durch", "par", "with", "von"};
   if (is_known(words[at].folded, kVerbs)) {
     std::size_t next = at + 1;
@@ -173,11 +234,11 @@ bool is_a_factor(const Remark& words, std::size_t at) {
 
 /// "pixel indices", "coordinates in pixels", "0.1 mm per pixel", "x and y in inches".
 bool speaks_of_places(const Remark& words, std::size_t at) {
-  constexpr std::array<std::string_view, 10> kOfPixels{"indices", "index", "indexes", "coordinates", "coords",
+  constexpr std::array<std::string_view, 10> kOfPixels{"indices", "index", "indexes",   "coordinates", "coords",
                                                        "numbers", "units", "positions", "koordinaten", "indizes"};
-  constexpr std::array<std::string_view, 14> kPlaces{"coordinates", "coords",  "coordinate", "positions", "position",
-                                                     "lateral",     "laterals", "xy",        "x",         "y",
-                                                     "koordinaten", "coordonnees", "x,y",    "abszissen"};
+  constexpr std::array<std::string_view, 14> kPlaces{
+      "coordinates", "coords", "coordinate", "positions",   "position",    "lateral", "laterals",
+      "xy",          "x",      "y",          "koordinaten", "coordonnees", "x,y",     "abszissen"};
   const std::string& word = words[at].folded;
   const std::size_t slash = word.find('/');
   if (slash != std::string::npos && known_length_unit(word.substr(0, slash)) &&
@@ -191,14 +252,15 @@ bool speaks_of_places(const Remark& words, std::size_t at) {
                     (unit_of_word(words, at) && known_length_unit(word) != std::optional(units::kNmPerMm));
   if (!unit || follows_a_number(words, at) || !is_announced(words, at)) return false;
   const std::size_t begin = clause_of(words, at);
-  return std::any_of(words.begin() + static_cast<std::ptrdiff_t>(begin), words.begin() + static_cast<std::ptrdiff_t>(at),
+  return std::any_of(words.begin() + static_cast<std::ptrdiff_t>(begin),
+                     words.begin() + static_cast<std::ptrdiff_t>(at),
                      [&](const RemarkWord& before) { return is_known(before.folded, kPlaces); });
 }
 
 /// "all lengths in m": the coordinates too.
 bool speaks_of_all(const Remark& words, std::size_t at) {
-  constexpr std::array<std::string_view, 10> kAll{"all",      "lengths", "dimensions", "everything", "length",
-                                                  "distances", "alle",   "laengen",    "longueurs",  "toutes"};
+  constexpr std::array<std::string_view, 10> kAll{"all",       "lengths", "dimensions", "everything", "length",
+                                                  "distances", "alle",    "laengen",    "longueurs",  "toutes"};
   const std::size_t begin = clause_of(words, at);
   return known_length_unit(words[at].text) != std::optional(units::kNmPerMm) && !holds_value_word(words, begin, at) &&
          std::any_of(words.begin() + static_cast<std::ptrdiff_t>(begin),
@@ -212,20 +274,20 @@ bool any_among(const Remark& words, const std::array<std::string_view, n>& known
 }
 
 bool speaks_of_rows(const Remark& words) {
-  constexpr std::array<std::string_view, 20> kTurned{
-      "flipped",   "mirrored", "transposed", "rotated", "upside", "upside-down", "inverted", "gespiegelt", "gedreht",
-      "retourne",  "retournee", "flipud",    "fliplr",  "reversed", "top-down",  "y-down",   "turned",     "transponiert",
-      "transpose", "inverse"};
-  constexpr std::array<std::string_view, 22> kRowWords{"row",     "rows",  "line",   "lines", "zeile",  "zeilen",
-                                                   "ligne",   "lignes", "y",      "y-axis", "yaxis", "image",
-                                                   "origin",  "index", "row0",   "pixel", "first",  "column",
-                                                   "columns", "ursprung", "origine", "upper-left"};
+  constexpr std::array<std::string_view, 20> kTurned{"flipped",     "mirrored", "transposed",   "rotated",   "upside",
+                                                     "upside-down", "inverted", "gespiegelt",   "gedreht",   "retourne",
+                                                     "retournee",   "flipud",   "fliplr",       "reversed",  "top-down",
+                                                     "y-down",      "turned",   "transponiert", "transpose", "inverse"};
+  constexpr std::array<std::string_view, 22> kRowWords{
+      "row",   "rows",   "line",  "lines", "zeile", "zeilen", "ligne",  "lignes",  "y",        "y-axis",  "yaxis",
+      "image", "origin", "index", "row0",  "pixel", "first",  "column", "columns", "ursprung", "origine", "upper-left"};
   constexpr std::array<std::string_view, 23> kTop{
-      "top",     "upper",    "oben",    "haut",    "down",    "downward", "downwards", "topmost", "largest",
-      "greatest", "highest", "top-left", "topleft", "ymax",   "upper-left", "upperleft", "unten",  "bas",
-      "right-to-left", "groesstes", "max", "decreasing", "descending"};
+      "top",     "upper",    "oben",          "haut",      "down",    "downward",   "downwards",  "topmost",
+      "largest", "greatest", "highest",       "top-left",  "topleft", "ymax",       "upper-left", "upperleft",
+      "unten",   "bas",      "right-to-left", "groesstes", "max",     "decreasing", "descending"};
   for (std::size_t i = 0; i < words.size(); ++i) {
-    const bool by_nothing = i + 1 < words.size() && finite_number(words[i + 1].text) == std::optional(0.0);
+    const std::size_t next = i + 1 < words.size() && words[i + 1].folded == "by" ? i + 2 : i + 1;
+    const bool by_nothing = next < words.size() && finite_number(words[next].text) == std::optional(0.0);
     if (is_known(words[i].folded, kTurned) && !by_nothing) return true;
   }
   return any_among(words, kRowWords) && any_among(words, kTop);
@@ -233,13 +295,13 @@ bool speaks_of_rows(const Remark& words) {
 
 /// "centre at 50, 50", "origin: centre", "extent 0 100 0 80".
 bool speaks_of_an_origin(const Remark& words, std::size_t at) {
-  constexpr std::array<std::string_view, 20> kPlaces{
-      "center",  "centre",   "centered", "centred",    "mitte",  "offset",   "shifted", "translated", "decentered",
-      "decentred", "corner", "extent",   "origin",     "zentrum", "mittelpunkt", "ursprung", "origine", "verschoben",
-      "ecke",    "coin"};
+  constexpr std::array<std::string_view, 20> kPlaces{"center",   "centre",  "centered",   "centred",    "mitte",
+                                                     "offset",   "shifted", "translated", "decentered", "decentred",
+                                                     "corner",   "extent",  "origin",     "zentrum",    "mittelpunkt",
+                                                     "ursprung", "origine", "verschoben", "ecke",       "coin"};
   constexpr std::array<std::string_view, 9> kBetween{"at", "of", "is", "by", "bei", "um", "a", "en", "von"};
-  constexpr std::array<std::string_view, 12> kSpots{"center", "centre", "middle", "mitte",  "corner", "left",
-                                                    "right",  "bottom", "lower",  "ecke", "centered", "milieu"};
+  constexpr std::array<std::string_view, 12> kSpots{"center", "centre", "middle", "mitte", "corner",   "left",
+                                                    "right",  "bottom", "lower",  "ecke",  "centered", "milieu"};
   if (!is_known(words[at].folded, kPlaces)) return false;
   std::size_t next = at + 1;
   while (next < words.size() && is_known(words[next].folded, kBetween)) ++next;
@@ -257,13 +319,15 @@ bool speaks_of_an_origin(const Remark& words, std::size_t at) {
 
 /// "missing pixels set to -9999", "-1 = no data"; not "12 bad pixels".
 bool speaks_of_no_data(const Remark& words) {
-  constexpr std::array<std::string_view, 12> kMissing{"nodata",  "missing",   "invalid", "undefined", "masked", "bad",
-                                                      "dropout", "dropouts", "ungueltig", "fehlend", "manquant", "void"};
-  constexpr std::array<std::string_view, 14> kSet{"to", "are",   "is",     "as",     "marked", "by",     "value",
+  constexpr std::array<std::string_view, 12> kMissing{"nodata",    "missing", "invalid",  "undefined",
+                                                      "masked",    "bad",     "dropout",  "dropouts",
+                                                      "ungueltig", "fehlend", "manquant", "void"};
+  constexpr std::array<std::string_view, 14> kSet{"to",  "are",  "is",    "as",     "marked", "by",      "value",
                                                   "set", "mean", "means", "stands", "coded",  "denoted", "="};
   bool missing = any_among(words, kMissing);
   for (std::size_t i = 1; i < words.size(); ++i) {
-    missing = missing || (words[i].folded == "data" && (words[i - 1].folded == "no" || words[i - 1].folded == "without"));
+    missing =
+        missing || (words[i].folded == "data" && (words[i - 1].folded == "no" || words[i - 1].folded == "without"));
   }
   if (!missing) return false;
   for (std::size_t i = 0; i < words.size(); ++i) {
@@ -291,17 +355,17 @@ std::vector<Suspicion> suspicions_of(const Remark& words) {
   };
   for (std::size_t i = 0; i < words.size(); ++i) {
     const bool places = speaks_of_places(words, i), unit = speaks_of_a_unit(words, i);
-    add(places, About::Places,
-        "places in another unit than mm", "write the pitch as '# pitch_mm: 0.1', or coordinates in mm");
-    add(unit && speaks_of_all(words, i), About::Places,
-        "a unit of all lengths", "write the pitch as '# pitch_mm: 0.1', or coordinates in mm");
+    add(places, About::Places, "places in another unit than mm",
+        "write the pitch as '# pitch_mm: 0.1', or coordinates in mm");
+    add(unit && speaks_of_all(words, i), About::Places, "a unit of all lengths",
+        "write the pitch as '# pitch_mm: 0.1', or coordinates in mm");
     add(!places && unit, About::Unit, "the unit of the values", "write '# unit: um', or the comment without a unit");
-    add(speaks_of_waves(words, i), About::Unit,
-        "a unit of the values that is no length", "write the values in a length and '# unit: nm'");
-    add(is_per_count(words, i) || is_a_factor(words, i), About::Factor,
-        "a factor of the values", "write the values without it and their unit, '# unit: nm'");
-    add(speaks_of_an_origin(words, i), About::Origin,
-        "a place of the map", "write '# origin_mm: x,y', the centre of the first pixel");
+    add(speaks_of_waves(words, i), About::Unit, "a unit of the values that is no length",
+        "write the values in a length and '# unit: nm'");
+    add(is_per_count(words, i) || is_a_factor(words, i), About::Factor, "a factor of the values",
+        "write the values without it and their unit, '# unit: nm'");
+    add(speaks_of_an_origin(words, i), About::Origin, "a place of the map",
+        "write '# origin_mm: x,y', the centre of the first pixel");
   }
   add(speaks_of_rows(words), About::Rows,
       "an orientation; the first row is taken for that of the smallest y, the first column for that of the smallest x",

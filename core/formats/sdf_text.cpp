@@ -54,8 +54,8 @@ void take_other_fields(const std::vector<MapField>& fields, MapSource& source, c
                     in_quotes(*said.header.unit)));
   }
   if (!said.header.no_data.empty()) {
-    throw InputError(
-        fmt::format("{}: the SDF file says that {} is no data; BAD is required for it", where, said.header.no_data.front()));
+    throw InputError(fmt::format("{}: the SDF file says that {} is no data; BAD is required for it", where,
+                                 said.header.no_data.front()));
   }
   source.header.unclear.insert(source.header.unclear.end(), said.header.unclear.begin(), said.header.unclear.end());
   if (said.header.origin && !source.header.origin) source.header.origin = said.header.origin;

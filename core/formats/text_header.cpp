@@ -185,7 +185,8 @@ void TextHeader::take_unit(std::string_view unit, const std::string& key) {
   if (header_.unit) return;
   // Heights are seldom in m or inches by themselves: "unit: m" over points may be that of x and y too.
   if (!rate && *factor > units::kNmPerMm && !names_heights(key)) {
-    of_everything_ = fmt::format("{}: {} in '{}': of x and y too? Name the columns as 'x_mm y_mm z_m'", place(), key, unit);
+    of_everything_ =
+        fmt::format("{}: {} in '{}': of x and y too? Name the columns as 'x_mm y_mm z_m'", place(), key, unit);
   }
   header_.unit = std::string(unit);
   unit_factor_ = factor;
@@ -236,9 +237,9 @@ double TextHeader::unit_of_lengths(const HeaderKey& key, std::string_view value,
 bool TextHeader::take_pitch(const HeaderKey& key, std::string_view value, InText trust) {
   const char* const required = "one finite number > 0, or two (x,y) separated by a comma, in mm or with a unit,";
   if (!is_documented(key) && may_have_decimal_comma(value)) {
-    add_unclear(About::Pitch,
-                fmt::format("{} = '{}': a decimal comma, or x and y? Write '# pitch_mm: 0.5', with a point", key.shown,
-                            value));
+    add_unclear(
+        About::Pitch,
+        fmt::format("{} = '{}': a decimal comma, or x and y? Write '# pitch_mm: 0.5', with a point", key.shown, value));
     return true;
   }
   const bool sure = trust == InText::Sure;
@@ -324,8 +325,8 @@ bool TextHeader::take_origin(const HeaderKey& key, std::string_view value, bool 
   return true;
 }
 
-/// Of an offset, a corner, a centre or an extent nobody knows whether it is that of a pixel's centre, its edge, or of the
-/// heights.
+/// Of an offset, a corner, a centre or an extent nobody knows whether it is that of a pixel's centre, its edge, or of
+/// the heights.
 bool TextHeader::take_offset(const HeaderKey& key, std::string_view value, bool moves) {
   constexpr std::size_t kMostNumbers = 6;
   const auto lengths = parse_header_lengths(value, kMostNumbers);

@@ -16,8 +16,8 @@ namespace dwell {
 /// programs (docs/formats.md, "What a file may say of itself"): the unit of the values, pitch, size of the field,
 /// origin, the value that stands for no data, and how the map was made. What looks like one of these and cannot be
 /// understood is refused at once (InputError naming line, key, value and what is accepted), or kept as unclear for
-/// whoever knows the options. What no rule has understood is scanned by the last guard (core/formats/remark_guard.h); every
-/// other comment means nothing.
+/// whoever knows the options. What no rule has understood is scanned by the last guard (core/formats/remark_guard.h);
+/// every other comment means nothing.
 class TextHeader {
  public:
   /// `where` begins messages, as in "map a.csv".

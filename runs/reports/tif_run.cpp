@@ -50,7 +50,8 @@ void refuse_unused(const TifJob& job) {
        "--spot or --trench (for a file of rates: --tif-no-data, --tif-table, --tif-rows, --tif-grid)");
   only(o.tif_pixel_mm || !o.tif_unit.empty() || o.tif_centre, !measured, "--tif-pixel, --tif-unit or --tif-centre",
        "a file of rates (for --spot and --trench: --map-pixel, --map-unit, --centre)");
-  only(o.tif_no_data || o.tif_table || o.tif_rows || o.tif_grid, !measured, "--tif-no-data, --tif-table, --tif-rows or --tif-grid",
+  only(o.tif_no_data || o.tif_table || o.tif_rows || o.tif_grid, !measured,
+       "--tif-no-data, --tif-table, --tif-rows or --tif-grid",
        "a file of rates (for --spot and --trench: --map-no-data, --map-table, --map-rows, --map-grid)");
 }
 

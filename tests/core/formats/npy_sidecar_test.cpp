@@ -129,6 +129,17 @@ TEST(NpySidecar, ItsMarkersOfNoDataAndItsUnitHoldForTheArray) {
   EXPECT_EQ(read.history, (std::vector<std::string>{"no data: 1 pixels of -9999, as the file says"}));
 }
 
+TEST(NpySidecar, TakesOneNumberForBothPitchesAndNullForNothing) {
+  const std::string sha(64, 'a');
+  const auto header = [&](const std::string& fields) {
+    return parse_npy_sidecar("{\"sha256\": \"" + sha + "\", " + fields + "}", sha, "a.json").header;
+  };
+  EXPECT_EQ(header(R"("pitch_mm": 0.5)").pitch, (Point{0.5, 0.5}));
+  const MapHeader none = header(R"("unit": null, "origin_mm": null, "pitch_mm": null, "no_data": null)");
+  EXPECT_FALSE(none.unit || none.pitch || none.origin || !none.no_data.empty() || !none.unclear.empty());
+  EXPECT_EQ(header(R"("flipped": true)").unclear.size(), 1u);
+}
+
 TEST(NpySidecar, NamesWhatItRefuses) {
   const std::string sha(64, 'a');
   const auto refused = [&](const std::string& text, std::initializer_list<std::string> words) {
