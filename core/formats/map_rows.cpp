@@ -23,7 +23,7 @@ void apply_map_rows(MapSource& source, const std::optional<MapRows>& rows) {
     const auto begin = source.values.begin() + row * cols;
     std::swap_ranges(begin, begin + cols, source.values.begin() + (source.rows - 1 - row) * cols);
   }
-  source.header.history.push_back("rows: the first row of the file taken for the largest y");
+  source.header.history.emplace_back("rows: the first row of the file taken for the largest y");
 }
 
 }  // namespace dwell

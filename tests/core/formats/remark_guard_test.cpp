@@ -69,6 +69,8 @@ TEST(RemarkGuard, LetsProsePass) {
                              "pitch: Gugolz 64",
                              "lateral resolution (optical): 3 um",
                              "scale: 1",
+                             "removal of 20 nm planned",
+                             "phase shift 90 deg",
                              "rotated by 0 deg",
                              "FITS (Flexible Image Transport System) format is defined in 'Astronomy",
                              "and Astrophysics', volume 376, page 359; bibcode: 2001A&A...376..359H",
@@ -101,8 +103,8 @@ TEST(RemarkGuard, FindsAFactor) {
 
 TEST(RemarkGuard, FindsPlacesInAnotherUnit) {
   expect_all(About::Places,
-             {"pixel indices", "0.1 mm per pixel", "0.1 mm/pixel", "x and y in pixels", "coordinates are in inches",
-              "all lengths in m", "lateral positions in um, heights in nm"});
+             {"pixel indices", "1 px = 0.1 mm", "0.1 mm per pixel", "0.1 mm/pixel", "x and y in pixels",
+              "coordinates are in inches", "all lengths in m", "lateral positions in um, heights in nm"});
   EXPECT_FALSE(suspects("coordinates in mm", About::Places));
 }
 
