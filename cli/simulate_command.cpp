@@ -80,11 +80,11 @@ void add_simulate_command(CLI::App& program, int& exit_code) {
       program.add_subcommand("simulate", "predict the surface that a feed table or G-code program leaves");
   auto arguments = std::make_shared<SimulateArguments>();
   command->add_option("--program", arguments->program, program_files())->type_name("FILE")->required();
-  const std::vector<std::string> flags{"map",        "map-pixel",      "map-unit",    "map-origin", "map-no-data",
-                                       "map-max-pv", "map-table",      "map-grid",    "map-steps",  "max-pixels",
-                                       "tif",        "tif-pixel",      "tif-no-data", "tif-table",  "tif-grid",
-                                       "tif-unit",   "tif-dwell-time", "tif-centre",  "tif-angle",  "tif-flip",
-                                       "remove",     "aperture",       "threads"};
+  const std::vector<std::string> flags{"map",        "map-pixel", "map-unit",  "map-origin",     "map-no-data",
+                                       "map-max-pv", "map-table", "map-rows",  "map-grid",       "map-steps",
+                                       "max-pixels", "tif",       "tif-pixel", "tif-no-data",    "tif-table",
+                                       "tif-rows",   "tif-grid",  "tif-unit",  "tif-dwell-time", "tif-centre",
+                                       "tif-angle",  "tif-flip",  "remove",    "aperture",       "threads"};
   arguments->job = std::make_unique<JobArguments>(*command, flags, false);
   command
       ->add_option("--gcode", arguments->gcode,

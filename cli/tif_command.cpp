@@ -135,10 +135,10 @@ void add_tif_command(CLI::App& program, int& exit_code) {
   auto arguments = std::make_shared<TifArguments>();
   add_inputs(*command, *arguments);
   add_outputs(*command, *arguments);
-  const std::vector<std::string> flags{"map-pixel",   "map-unit",  "map-origin", "map-no-data", "map-max-pv",
-                                       "map-table",   "map-grid",  "map-steps",  "max-pixels",  "tif-pixel",
-                                       "tif-no-data", "tif-table", "tif-grid",   "tif-unit",    "tif-centre",
-                                       "tif-angle",   "tif-flip",  "threads"};
+  const std::vector<std::string> flags{"map-pixel", "map-unit",    "map-origin", "map-no-data", "map-max-pv",
+                                       "map-table", "map-rows",    "map-grid",   "map-steps",   "max-pixels",
+                                       "tif-pixel", "tif-no-data", "tif-table",  "tif-rows",    "tif-grid",
+                                       "tif-unit",  "tif-centre",  "tif-angle",  "tif-flip",    "threads"};
   arguments->options = std::make_unique<JobArguments>(*command, flags, false);
   command->footer(
       "Example:\n"

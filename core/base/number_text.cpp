@@ -91,12 +91,13 @@ bool starts_with_spreadsheet_error(std::string_view line) {
 
 namespace {
 
-/// What spreadsheets (English, German, French) and R write where a value is missing or has no number. #REF! and #NAME?
-/// are a broken formula.
+/// What spreadsheets (English, German, French), R, Python and its libraries, databases and the C library of Windows
+/// write where a value is missing or has no number. #REF! and #NAME? are a broken formula, and 1.#INF is infinite.
 bool means_no_value(std::string_view text) {
-  constexpr std::array<std::string_view, 14> kWords{"no data", "n/a",      "na",       "#n/a", "#div/0!",
-                                                    "#num!",   "#value!",  "#null!",   "#nv",  "#zahl!",
-                                                    "#wert!",  "#nombre!", "#valeur!", "#nul!"};
+  constexpr std::array<std::string_view, 29> kWords{
+      "no data", "n/a",      "na",       "#n/a",  "#div/0!", "#num!",    "#value!", "#null!",  "#nv",    "#zahl!",
+      "#wert!",  "#nombre!", "#valeur!", "#nul!", "nodata",  "no_data",  "none",    "null",    "masked", "--",
+      "bad",     "missing",  "invalid",  "<na>",  "1.#qnan", "-1.#qnan", "1.#ind",  "-1.#ind", "1.#snan"};
   return std::find(kWords.begin(), kWords.end(), lower_case(text)) != kWords.end();
 }
 

@@ -27,9 +27,9 @@ std::optional<double> finite_number(std::string_view text);
 /// no comment there.
 bool starts_with_spreadsheet_error(std::string_view line);
 
-/// A height as map files write it: a finite number, or NaN for "no data" (empty, nan, No Data, NA, N/A, and the #N/A,
-/// #DIV/0!, #NUM!, #VALUE!, #NULL! of spreadsheets; any case), in quotes or not. Nothing if it is neither: #REF! and
-/// #NAME? are a broken formula.
+/// A height as map files write it: a finite number, or NaN for "no data" (empty, nan, No Data, NA, N/A, None, NULL,
+/// masked, --, BAD, 1.#QNAN, -1.#IND, and the #N/A, #DIV/0!, #NUM!, #VALUE!, #NULL! of spreadsheets; any case), in
+/// quotes or not. Nothing if it is neither: #REF! and #NAME? are a broken formula.
 std::optional<double> height_number(std::string_view text);
 
 /// The text in quotes for an error message: its first 40 characters, a tab as \t, other control characters as

@@ -16,66 +16,6 @@ namespace {
 
 using Words = std::span<const std::string_view>;
 
-// All without separators and in lower case, without the x or y of an axis.
-constexpr std::string_view kClearPitches[] = {
-    "pitch",        "pixelpitch", "pixelsize",   "pixsize",       "pxsize",       "pixelspacing",     "spacing",
-    "pixelscale",   "pixscale",   "pixelscl",    "puplscal",      "gridspacing",  "gridpitch",        "gridstep",
-    "lateralpitch", "step",       "stepsize",    "sampling",      "samplingstep", "samplinginterval", "pointpitch",
-    "pointspacing", "pixelwidth", "pixelheight", "samplespacing", "delta",        "mappitch",         "pixelstep"};
-constexpr std::string_view kDoubtfulPitches[] = {"resolution",
-                                                 "lateralresolution",
-                                                 "lateralres",
-                                                 "lateralscale",
-                                                 "lateralsampling",
-                                                 "pix",
-                                                 "pixsz",
-                                                 "pixelsz",
-                                                 "diffelem",
-                                                 "elementsize",
-                                                 "voxelsize",
-                                                 "cellsize",
-                                                 "interval",
-                                                 "increment",
-                                                 "physicalsize",
-                                                 "samplinglength",
-                                                 "pixelsper",
-                                                 "pixelspermm",
-                                                 "ppmm",
-                                                 "dpi",
-                                                 "pltscale",
-                                                 "platescl",
-                                                 "platescale",
-                                                 "secpix",
-                                                 "calibration",
-                                                 "lateralcalibration"};
-constexpr std::string_view kSizes[] = {
-    "size",      "width",       "height",   "extent",      "length",       "real",      "diameter",
-    "diam",      "radius",      "fov",      "fieldofview", "mapsize",      "imagesize", "scansize",
-    "scanrange", "lateralsize", "realsize", "pupldiam",    "aperturesize", "range",     "span"};
-constexpr std::string_view kOrigins[] = {"origin", "corner",  "lowerleft", "upperleft", "firstpixel",  "orig",
-                                         "org",    "orgsubf", "mapcentre", "mapcenter", "translation", "position"};
-constexpr std::string_view kOriginsOfAnAxis[] = {"offset", "off",   "0",      "min",    "start",     "pos",
-                                                 "left",   "first", "centre", "center", "lowerbound"};
-constexpr std::string_view kNoData[] = {
-    "nodata",        "nodatavalue",  "nodataval",      "nodatava",     "fill",     "fillvalue", "fillval",
-    "missing",       "missingvalue", "invalid",        "invalidvalue", "bad",      "badvalue",  "badval",
-    "badpixelvalue", "nullvalue",    "nullval",        "null",         "nanvalue", "maskvalue", "maskedvalue",
-    "blank",         "undefined",    "undefinedvalue", "novalue",      "dummy",    "sentinel"};
-constexpr std::string_view kScales[] = {
-    "scale",      "scalefactor",  "addoffset",   "zscale",       "zfactor",     "zscalefactor", "zoffset",
-    "multiplier", "slope",        "intercept",   "offset",       "zmult",       "heightscale",  "valuescale",
-    "datascale",  "heightfactor", "valuefactor", "heightoffset", "valueoffset", "nmpercount",   "nmperlevel"};
-constexpr std::string_view kLabels[] = {"longname", "label", "zlabel", "datalabel", "quantity"};
-constexpr std::string_view kValues[] = {
-    "",    "z",       "b",      "value",    "values",     "val",   "data",    "height",      "heights",
-    "h",   "surface", "map",    "vertical", "amplitude",  "phase", "opd",     "wavefront",   "w",
-    "sfe", "wfe",     "figure", "error",    "rate",       "rates", "removal", "removalrate", "depth",
-    "dz",  "sag",     "array",  "image",    "pixelvalue", "opdmap"};
-constexpr std::string_view kLaterals[] = {
-    "x",          "y",          "xy",           "lateral",    "pitch",       "pixel",   "pixelsize",
-    "spacing",    "spatial",    "horizontal",   "coordinate", "coordinates", "grid",    "origin",
-    "pixelscale", "step",       "axis",         "axes",       "position",    "pix",     "length",
-    "xyz",        "pixelpitch", "pixelspacing", "size",       "sampling",    "distance"};
 constexpr std::string_view kOthers[] = {"time",  "exposure", "temperature", "wavelength", "force",
                                         "speed", "angle",    "frequency",   "pressure",   "power"};
 constexpr std::string_view kContexts[] = {"grid",     "map",  "image",  "data",    "meta",       "metadata",
@@ -141,10 +81,11 @@ std::string joined(const std::vector<std::string>& words) {
   return all;
 }
 
-/// Whether any list of topics that have axes knows the word.
+/// Whether the word says something along an axis.
 bool known_of_an_axis(std::string_view word) {
-  return among(word, kClearPitches) || among(word, kDoubtfulPitches) || among(word, kSizes) || among(word, kOrigins) ||
-         among(word, kOriginsOfAnAxis) || word == "scale";
+  const MapTerm* const term = find_map_term(word, true);
+  return term && (term->topic == MapTopic::Pitch || term->topic == MapTopic::Size || term->topic == MapTopic::Origin ||
+                  term->topic == MapTopic::Orientation);
 }
 
 /// xpix, pitchx, PIXSIZE1 -> the word without its axis.
@@ -162,28 +103,23 @@ FieldAxis take_grown_axis(std::string& word) {
   const FieldAxis last = axis_of(word.back());
   if (last == FieldAxis::Both) return last;
   const std::string rest = word.substr(0, word.size() - 1);
-  if (rest == "d") {
-    word = "delta";
-    return last;
-  }
   if (!known_of_an_axis(rest)) return FieldAxis::Both;
   word = rest;
   return last;
 }
 
-FieldTopic unit_topic(std::string_view of) {
-  if (among(of, kValues)) return FieldTopic::ValueUnit;
-  if (among(of, kLaterals)) return FieldTopic::LateralUnit;
+MapTopic unit_topic(std::string_view of) {
+  if (is_value_of_unit(of)) return MapTopic::ValueUnit;
+  if (is_lateral_of_unit(of)) return MapTopic::LateralUnit;
   const bool other = std::any_of(std::begin(kOthers), std::end(kOthers),
                                  [&](std::string_view word) { return of.find(word) != std::string_view::npos; });
-  return other ? FieldTopic::Other : FieldTopic::UnknownUnit;
+  return other ? MapTopic::Other : MapTopic::UnknownUnit;
 }
 
 /// The topic of a unit's name, if it is one.
-std::optional<FieldTopic> find_unit(const std::vector<std::string>& words) {
-  constexpr std::string_view kUnits[] = {"units", "unit", "uom"};
+std::optional<MapTopic> find_unit(const std::vector<std::string>& words) {
   const std::string all = joined(words);
-  for (const std::string_view unit : kUnits) {
+  for (const std::string_view unit : {"units", "unit", "uom", "einheiten", "einheit", "unites", "unite"}) {
     if (all.ends_with(unit)) return unit_topic(std::string_view(all).substr(0, all.size() - unit.size()));
     if (words.front() == unit) return unit_topic(words.back() == unit ? "" : all.substr(unit.size()));
   }
@@ -202,20 +138,16 @@ void take_context(std::vector<std::string>& words) {
   while (words.size() > 1 && among(words.front(), kContexts)) words.erase(words.begin());
 }
 
-FieldTopic topic_of(std::string_view word, FieldAxis axis) {
-  if (among(word, kClearPitches) || among(word, kDoubtfulPitches)) return FieldTopic::Pitch;
-  if (word == "scale" && axis != FieldAxis::Both) return FieldTopic::Pitch;
-  if (among(word, kSizes)) return FieldTopic::Size;
-  if (among(word, kOrigins) || (axis != FieldAxis::Both && among(word, kOriginsOfAnAxis))) return FieldTopic::Origin;
-  if (among(word, kNoData)) return FieldTopic::NoData;
-  if (among(word, kScales)) return FieldTopic::ValueScale;
-  return among(word, kLabels) ? FieldTopic::Label : FieldTopic::Other;
+bool is_clear_pitch(std::string_view word) {
+  const MapTerm* const term = find_map_term(word, false);
+  return term && term->topic == MapTopic::Pitch && term->field == InField::Clear;
 }
 
 }  // namespace
 
 FieldName parse_field_name(std::string_view name) {
   std::vector<std::string> words = name_words(name);
+  for (std::string& word : words) word = fold_letters(word);
   if (words.empty()) return {};
   FieldName field;
   if (const auto unit = find_unit(words)) {
@@ -230,17 +162,18 @@ FieldName parse_field_name(std::string_view name) {
   field.axis = take_axis(words);
   std::string word = joined(words);
   if (field.axis == FieldAxis::Both) field.axis = take_grown_axis(word);
-  if (word.ends_with("mm") && !field.mm && among(word.substr(0, word.size() - 2), kClearPitches)) {
+  if (word.ends_with("mm") && !field.mm && is_clear_pitch(word.substr(0, word.size() - 2))) {
     word.resize(word.size() - 2);  // PITCHMM
     field.mm = 1.0;
   }
-  if (word == "d" && field.axis != FieldAxis::Both) word = "delta";  // dX
   if (word == "pixelwidth") field.axis = FieldAxis::X;
   if (word == "pixelheight") field.axis = FieldAxis::Y;
-  field.topic = topic_of(word, field.axis);
-  if (per_pixel && field.topic != FieldTopic::ValueScale) field.topic = FieldTopic::Pitch;
-  const bool named = among(word, kClearPitches) || word == "origin" || per_pixel;
-  field.clear = named && !camera;
+  const MapTerm* const term = find_map_term(word, field.axis != FieldAxis::Both);
+  if (term) field.topic = term->topic;
+  if (per_pixel && field.topic != MapTopic::ValueScale) field.topic = MapTopic::Pitch;
+  field.middle = word.find("cent") != std::string::npos || word.starts_with("mi");
+  field.values = is_value_word(word);
+  field.clear = (per_pixel || (term && term->field == InField::Clear)) && !camera;
   return field;
 }
 

@@ -3,31 +3,20 @@
 #include <optional>
 #include <string_view>
 
-namespace dwell {
+#include "core/formats/map_terms.h"
 
-/// What a field of a map file (an attribute, a key, a keyword) speaks of, as far as its name tells.
-enum class FieldTopic {
-  Other,
-  ValueUnit,    // unit of the values: unit, units, z_unit, BUNIT
-  LateralUnit,  // unit of x, y and pitch: xy_unit, PIXUNIT
-  UnknownUnit,  // a unit of something: foo_unit
-  Pitch,        // pitch, pixel_size, dx
-  Size,         // of the whole map: width, x_real, diameter
-  Origin,       // origin, x_offset, xmin
-  NoData,       // no_data, fill_value
-  ValueScale,   // what the values are to be multiplied by, or what is added: z_scale, offset
-  Label,        // a text for people that may end with a unit: long_name = "height [um]"
-};
+namespace dwell {
 
 enum class FieldAxis { Both, X, Y };
 
 struct FieldName {
-  FieldTopic topic = FieldTopic::Other;
+  MapTopic topic = MapTopic::Other;
   FieldAxis axis = FieldAxis::Both;
   std::optional<double> mm;  // the unit of length that the name holds, in mm: pixel_size_um, mm_per_pixel
-  /// Whether the name says it without doubt: origin and pitch do; xmin may be the edge of a pixel or its centre,
-  /// resolution that of the optics, camera_pixel_size that of the detector.
+  /// Whether the name says it without doubt (core/formats/map_terms.h); camera_pixel_size is that of the detector.
   bool clear = false;
+  bool middle = false;  // of the map: 0 is no place of its first pixel
+  bool values = false;  // it is a word for the values: z, height, surface
 };
 
 /// Reads a name in any spelling: pixel_size_um, "Pixel size (um)", PixelSizeX, XPIXSZ. Cost O(length of the name).

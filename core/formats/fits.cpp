@@ -135,10 +135,9 @@ void check_data(fitsfile* file, const Image& image, std::size_t size, const std:
 
 /// Turns stored values of BLANK beside floating-point numbers, where the standard has no such keyword, into no data.
 /// Returns what was done, for the history.
-std::string take_blank(double blank, double scale, double zero, bool single, std::vector<double>& values) {
+std::string take_blank(double blank, double scale, double zero, std::vector<double>& values) {
   PackedValues packing;
   packing.no_data = {{"BLANK", blank * scale + zero}};
-  packing.single_precision = single;
   return unpack_values(packing, values);
 }
 
@@ -151,21 +150,12 @@ double scaling(fitsfile* file, const char* name, double otherwise) {
   return status == 0 ? value : otherwise;
 }
 
-/// Markers of no data: BLANK beside floating-point numbers, and those under other names, which are of heights.
+/// BLANK beside floating-point numbers; markers under other names are of heights, and in the header.
 void take_markers(fitsfile* file, const Image& found, const FitsHeader& header, MapSource& source) {
-  constexpr int kSingle = -32;
-  std::vector<std::string> done;
-  if (header.blank && found.bitpix < 0) {
-    done.push_back(take_blank(*header.blank, scaling(file, "BSCALE", 1.0), scaling(file, "BZERO", 0.0),
-                              found.bitpix == kSingle, source.values));
-  }
-  PackedValues others;
-  others.single_precision = found.bitpix == kSingle;
-  for (const double value : header.said.no_data) others.no_data.push_back({"no data", value});
-  done.push_back(unpack_values(others, source.values));
-  for (const std::string& text : done) {
-    if (!text.empty()) source.header.history.push_back("read FITS: " + text);
-  }
+  if (!header.blank || found.bitpix > 0) return;
+  const std::string done =
+      take_blank(*header.blank, scaling(file, "BSCALE", 1.0), scaling(file, "BZERO", 0.0), source.values);
+  if (!done.empty()) source.header.history.push_back("read FITS: " + done);
 }
 
 MapSource describe(const Image& found, FitsHeader& header) {

@@ -13,6 +13,7 @@
 #include "core/base/number_text.h"
 #include "core/base/units.h"
 #include "core/formats/field_name.h"
+#include "core/formats/remark_guard.h"
 #include "core/map/value_units.h"
 
 namespace dwell {
@@ -137,10 +138,10 @@ std::optional<double> unit_of_comment(const std::string& comment) {
   return nm ? std::optional(*nm / units::kNmPerMm) : std::nullopt;
 }
 
-/// The same card as a field; nothing if its name speaks of nothing.
+/// The same card as a field; nothing if neither its name nor its text can speak of a map.
 std::optional<MapField> field_of_card(const Card& card, const Keywords& keywords) {
   const FieldName name = parse_field_name(card.name);
-  if (is_read_elsewhere(card.name) || name.topic == FieldTopic::Other) return std::nullopt;
+  if (is_read_elsewhere(card.name) || (name.topic == MapTopic::Other && !card.is_text())) return std::nullopt;
   MapField field;
   field.name = card.name;
   field.shown = "FITS keyword " + card.name;
@@ -153,6 +154,8 @@ std::optional<MapField> field_of_card(const Card& card, const Keywords& keywords
     if (const auto text = keywords.text(card.name)) field.texts = {*text};
   } else if (const auto number = card.number()) {
     field.numbers = {*number};
+  } else if (card.value == "T" || card.value == "F") {
+    field.numbers = {card.value == "T" ? 1.0 : 0.0};
   }
   return field;
 }
@@ -171,6 +174,18 @@ std::vector<Card> cards_of(fitsfile* file) {
   }
   fits_clear_errmsg();
   return cards;
+}
+
+/// What COMMENT and HISTORY seem to say. HISTORY tells what was done: of that only a unit is still so.
+void guard_remarks(const std::vector<Card>& cards, const std::string& where, MapHeader& header) {
+  for (const Card& card : cards) {
+    const bool history = card.name == "HISTORY";
+    if (card.name != "COMMENT" && !history) continue;
+    for (UnclearStatement& unclear :
+         unclear_remarks(card.comment, fmt::format("{}: FITS {}", where, card.name), RemarkPlace::Field)) {
+      if (!history || unclear.about == UnclearStatement::About::Unit) header.unclear.push_back(std::move(unclear));
+    }
+  }
 }
 
 /// World coordinates without a unit, or in none of length, leave the origin open; unless they are of the sky, which no
@@ -224,11 +239,13 @@ FitsHeader read_fits_header(fitsfile* file, const std::string& where) {
   const Keywords keywords(file, where);
   keywords.number("PITCHMM");  // of this program: a text there is refused
   std::vector<MapField> fields;
-  for (const Card& card : cards_of(file)) {
+  const std::vector<Card> cards = cards_of(file);
+  for (const Card& card : cards) {
     if (auto field = field_of_card(card, keywords)) fields.push_back(std::move(*field));
   }
   FitsHeader header;
   header.said = read_map_fields(fields, where);
+  guard_remarks(cards, where, header.said.header);
   add_world(keywords, header.said, where);
   for (int step = 1; const auto made = keywords.text(fmt::format("MADE{}", step)); ++step) {
     header.said.header.history.push_back(*made);

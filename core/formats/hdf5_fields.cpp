@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <iterator>
 #include <string_view>
 
 #include "core/base/errors.h"
@@ -32,9 +33,9 @@ MapField hdf5_field(const std::string& name, const std::optional<Hdf5Value>& val
 /// Small data sets beside the map whose names speak of it, as pitch or unit.
 void add_neighbours(const Hdf5File& file, const std::string& path, std::vector<MapField>& fields) {
   for (const std::string& other : file.data_sets_in(group_of(path))) {
-    const FieldTopic topic = parse_field_name(last_name(other)).topic;
-    const bool speaks = topic == FieldTopic::ValueUnit || topic == FieldTopic::LateralUnit ||
-                        topic == FieldTopic::Pitch || topic == FieldTopic::Origin || topic == FieldTopic::NoData;
+    const MapTopic topic = parse_field_name(last_name(other)).topic;
+    const bool speaks = topic == MapTopic::ValueUnit || topic == MapTopic::LateralUnit || topic == MapTopic::Pitch ||
+                        topic == MapTopic::Origin || topic == MapTopic::NoData;
     if (!speaks || other == path) continue;
     const auto value = file.table(other);
     if (!value || value->numbers.size() + value->texts.size() > 2) continue;  // an array of its own
@@ -60,20 +61,25 @@ std::vector<MapField> fields_of_group(const Hdf5File& file, const std::string& g
     const std::string lower = lower_case(name);
     const bool of_heights =
         lower.starts_with('z') || lower.find("height") != std::string::npos || lower.find("value") != std::string::npos;
-    const bool speaks = known.topic == FieldTopic::ValueUnit || known.topic == FieldTopic::LateralUnit ||
-                        known.topic == FieldTopic::Pitch || known.topic == FieldTopic::NoData ||
-                        (known.topic == FieldTopic::Origin && known.clear) ||
-                        (known.topic == FieldTopic::ValueScale && of_heights);
+    const bool speaks =
+        known.topic == MapTopic::ValueUnit || known.topic == MapTopic::LateralUnit || known.topic == MapTopic::Pitch ||
+        known.topic == MapTopic::NoData || (known.topic == MapTopic::Origin && known.clear) ||
+        (known.topic == MapTopic::ValueScale && (of_heights || !known.clear)) || known.topic == MapTopic::Orientation ||
+        known.topic == MapTopic::Label || known.topic == MapTopic::Other;
     if (!speaks) continue;
-    fields.push_back(
-        hdf5_field(name, file.attribute(group, name), fmt::format("attribute {} of HDF5 group '{}'", name, group)));
+    const auto value = file.attribute(group, name);
+    // Of what has no topic, a text may still say something.
+    const bool elsewhere = std::find(kReadElsewhere.begin(), kReadElsewhere.end(), name) != kReadElsewhere.end();
+    if (known.topic == MapTopic::Other && (elsewhere || !value || value->texts.empty())) continue;
+    fields.push_back(hdf5_field(name, value, fmt::format("attribute {} of HDF5 group '{}'", name, group)));
   }
   return fields;
 }
 
 void add_what_is_new(SaidOfMap& said, SaidOfMap more) {
+  std::move(more.header.unclear.begin(), more.header.unclear.end(), std::back_inserter(said.header.unclear));
   if (!said.header.unit) said.header.unit = std::move(more.header.unit);
-  if (said.no_data.empty()) said.no_data = std::move(more.no_data);
+  if (said.header.no_data.empty()) said.header.no_data = std::move(more.header.no_data);
   if (!said.header.pitch) {
     said.header.pitch = more.header.pitch;
     said.pitch_field = std::move(more.pitch_field);

@@ -65,8 +65,10 @@ MapSource read_plain_matrix(const Hdf5File& file, const std::string& path, const
   SaidOfMap said = said_of_data_set(file, path, where);
   said.header.history = history_of(file, path, where);
   Hdf5Matrix matrix = file.matrix(path, limit);
+  // Markers are stored values here, so they go before scale and offset.
+  const std::vector<double> markers = std::exchange(said.header.no_data, {});
   const std::string unpacked =
-      unpack_values(packing_of_data_set(file, path, matrix.numbers, said.no_data, where), matrix.values);
+      unpack_values(packing_of_data_set(file, path, matrix.numbers, markers, where), matrix.values);
   if (!unpacked.empty()) said.header.history.push_back(fmt::format("read {}: {}", path, unpacked));
   apply_axes(axes_of_data_set(file, path, matrix, where), matrix, said, where);
   MapSource source;

@@ -21,7 +21,6 @@ class PackingReader {
       : file_(file), path_(path), numbers_(numbers), where_(where) {}
 
   PackedValues read(const std::vector<double>& no_data) {
-    packing_.single_precision = numbers_.floating && numbers_.bytes == kSingle;
     const auto scale = one_number("scale_factor"), offset = one_number("add_offset");
     if (scale) packing_.scale = scale->numbers.front();
     if (offset) packing_.offset = offset->numbers.front();

@@ -1,28 +1,19 @@
 #pragma once
 
 #include "core/formats/header_words.h"
+#include "core/formats/map_terms.h"
 
 namespace dwell {
 
-/// What the name of a statement in a comment speaks of.
-enum class HeaderRole {
-  None,         // nothing that a map is read by
-  Unit,         // the unit of the values
-  LateralUnit,  // the unit of x and y
-  Pitch,
-  Size,    // of the whole field
-  Origin,  // where the map lies
-  Offset,  // the same, or of the heights: not told apart
-  NoData,  // the value of pixels without data
-  Scale,   // a factor or offset of the values
-};
-
+/// What the name of a statement in a comment speaks of, and how far it can be trusted.
 struct HeaderMeaning {
-  HeaderRole role = HeaderRole::None;
-  bool sure = false;  // nothing else has this name; else the line is a comment like any other unless its value fits
+  MapTopic topic = MapTopic::Other;
+  InText trust = InText::Never;
+  bool moves = false;  // an offset: of the map, or of its heights
 };
 
-/// Corrects the axis of the key where it is part of a word ("dx", "xpitch").
+/// Looks the key up in the table of names (core/formats/map_terms.h), and knows the phrases that no table holds ("unit
+/// of heights", "missing value"). Corrects the axis of the key where it is part of a word ("dx", "xpitch").
 HeaderMeaning meaning_of(HeaderKey& key);
 
 }  // namespace dwell

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "core/base/number_text.h"
-#include "core/base/units.h"
+#include "core/formats/map_terms.h"
 #include "core/map/value_units.h"
 
 namespace dwell {
@@ -12,10 +12,11 @@ namespace {
 
 bool names_axes_alone(std::string_view text) { return text.find_first_not_of("xyzXYZ, \t") == std::string_view::npos; }
 
-/// "Height [um]", "heights in um", "x (mm)": a name that holds its unit.
+/// "Height [um]", "heights in um", "x (mm)", "coordinates in mm", "all in m": a name that holds its unit.
 bool is_caption(const HeaderKey& key) {
   const bool values = are_value_words(key.words) || (key.words.empty() && key.axis == 'z');
   if (key.words.empty() && (key.axis == 'x' || key.axis == 'y')) return key.length.has_value();
+  if (speaks_of_coordinates(key) || speaks_of_everything(key)) return key.length.has_value();
   return values && key.axis != 'x' && key.axis != 'y' && (!key.unit.empty() || is_optical_unit(key.remark));
 }
 
@@ -68,6 +69,18 @@ std::vector<HeaderKey> header_captions(std::string_view text) {
   return caption.empty() ? keys : std::vector<HeaderKey>();
 }
 
+bool speaks_of_coordinates(const HeaderKey& key) {
+  constexpr std::array<std::string_view, 8> kWords{"coordinates", "coords",      "coordinate", "positions",
+                                                   "koordinaten", "coordonnees", "laterals",   "lateral"};
+  return key.words.size() == 1 && key.axis != 'z' && std::find(kWords.begin(), kWords.end(), key.stem) != kWords.end();
+}
+
+bool speaks_of_everything(const HeaderKey& key) {
+  const std::string shown = fold_letters(key.shown);
+  return key.axis == 0 && (key.stem == "everything" || key.stem == "alles" || key.stem == "tout" ||
+                           (key.words.empty() && (shown.starts_with("all") || shown.starts_with("tous"))));
+}
+
 bool is_optical_unit(std::string_view text) {
   constexpr std::array<std::string_view, 16> kWords{"mrad",   "wave",    "waves",  "wv",      "fringe", "fringes",
                                                     "lambda", "rad",     "radian", "radians", "urad",   "counts",
@@ -85,33 +98,6 @@ bool holds_a_length(std::string_view text) {
     if (alone && i + 1 < words.size() && known_length_unit(words[i + 1])) return true;
   }
   return false;
-}
-
-bool mentions_value_unit(std::string_view text) {
-  const auto words = words_of(text);
-  bool values = false, unit = false;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    std::string_view word = words[i];
-    while (!word.empty() && std::string_view(".,:;=").find(word.back()) != std::string_view::npos) {
-      word.remove_suffix(1);
-    }
-    const std::size_t bracket = word.find_first_of("([");
-    values = values || is_value_word(lower_case(word.substr(0, bracket)));
-    const bool after_in = i > 0 && lower_case(words[i - 1]) == "in";
-    unit = unit || (bracket != std::string_view::npos ? known_value_unit(word.substr(bracket)).has_value()
-                                                      : after_in && known_value_unit(word));
-  }
-  return values && unit;
-}
-
-bool is_caption_with_unit(std::string_view text) {
-  constexpr std::size_t kMostWords = 4;
-  const std::size_t open = text.find_last_of("([");
-  if (open == std::string_view::npos || open == 0 || (text.back() != ')' && text.back() != ']')) return false;
-  const std::string_view unit = trim(text.substr(open + 1, text.size() - open - 2));
-  const bool lateral = known_length_unit(unit) == units::kNmPerMm;
-  if (words_of(text.substr(0, open)).size() > kMostWords || lateral) return false;
-  return known_value_unit(unit) || is_optical_unit(unit);
 }
 
 }  // namespace dwell

@@ -22,11 +22,10 @@ bool is_optical_unit(std::string_view text);
 /// Whether a number with a unit of length stands somewhere in the text.
 bool holds_a_length(std::string_view text);
 
-/// Whether the text names a unit beside a word for the values: "all heights of Tuesday in um", "surface error (um)".
-bool mentions_value_unit(std::string_view text);
+/// "coordinates in inches": the name alone, without its unit.
+bool speaks_of_coordinates(const HeaderKey& key);
 
-/// "dz [um]", "TIF [um/s]", "slope [urad]": a few words with a unit in brackets behind them, which may be that of the
-/// values whatever the words are. Millimetres are those of lengths along the part.
-bool is_caption_with_unit(std::string_view text);
+/// "all in metres": x, y and z.
+bool speaks_of_everything(const HeaderKey& key);
 
 }  // namespace dwell

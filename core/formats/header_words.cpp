@@ -8,6 +8,7 @@
 
 #include "core/base/number_text.h"
 #include "core/base/units.h"
+#include "core/formats/map_terms.h"
 #include "core/map/value_units.h"
 
 namespace dwell {
@@ -18,13 +19,15 @@ bool is_one_of(std::string_view word, const std::array<std::string_view, n>& wor
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-constexpr std::array<std::string_view, 15> kWordsThatSayNothing{
-    "in", "is", "are", "the", "of", "all", "a", "given", "map", "and", "per", "for", "as", "both", "this"};
+constexpr std::array<std::string_view, 33> kWordsThatSayNothing{
+    "in",   "is",  "are",  "the",  "of",  "all", "a",   "given", "map",    "and",  "per",
+    "for",  "as",  "both", "this", "der", "die", "das", "des",   "den",    "alle", "aller",
+    "sind", "ist", "und",  "von",  "en",  "est", "les", "la",    "toutes", "tous", "sont"};
 
 constexpr std::array<std::string_view, 4> kPixelWords{"px", "pix", "pixel", "pixels"};
 
 /// Whether a word in a name is a unit there. "in" is not: it says where the unit stands.
-bool is_unit_in_name(std::string_view word) { return word != "in" && known_value_unit(word); }
+bool is_unit_in_name(std::string_view word) { return lower_case(word) != "in" && known_value_unit(word); }
 
 /// Cuts "/pixel", " per px" and their like off the end.
 bool cut_per_pixel(std::string_view& text) {
@@ -77,11 +80,11 @@ void take_unit(HeaderKey& key, const std::string& word) {
 /// The unit of a name is its last word ("pitch_um"), or stands in brackets wherever it is.
 void take_words(HeaderKey& key, const std::vector<std::string>& parts, std::string_view text) {
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    const std::string word = lower_case(parts[i]);
+    const std::string word = fold_letters(parts[i]);
     const bool bracketed =
         text.find('(' + parts[i]) != std::string_view::npos || text.find('[' + parts[i]) != std::string_view::npos;
     const bool may_be_unit = bracketed || (i + 1 == parts.size() && (i > 0 || key.per_pixel));
-    if (key.unit.empty() && may_be_unit && is_unit_in_name(word)) {
+    if (key.unit.empty() && may_be_unit && is_unit_in_name(parts[i])) {
       take_unit(key, parts[i]);
     } else if (is_axis(word) || word == "xy" || word == "xyz") {
       key.every_axis = key.every_axis || word == "xyz" || (word == "z" && key.axis != 0 && key.axis != 'z');
@@ -205,6 +208,14 @@ std::optional<HeaderLengths> parse_header_lengths(std::string_view text, std::si
   return lengths.numbers.empty() ? std::nullopt : std::optional(lengths);
 }
 
+bool may_have_decimal_comma(std::string_view text) {
+  const std::size_t comma = text.find(',');
+  const auto digit = [](char c) { return c >= '0' && c <= '9'; };
+  return comma != std::string_view::npos && comma > 0 && comma + 1 < text.size() && digit(text[comma - 1]) &&
+         digit(text[comma + 1]) && text.find('.') == std::string_view::npos &&
+         text.find(',', comma + 1) == std::string_view::npos;
+}
+
 std::vector<std::string_view> words_of(std::string_view text) {
   std::vector<std::string_view> words;
   for (text = trim(text); !text.empty(); text = trim(text)) {
@@ -213,15 +224,6 @@ std::vector<std::string_view> words_of(std::string_view text) {
     text.remove_prefix(end);
   }
   return words;
-}
-
-/// Not the wavefront: what surface makes one depends on the test.
-bool is_value_word(std::string_view word) {
-  constexpr std::array<std::string_view, 23> kValueWords{
-      "height",     "heights",    "value", "values", "surface", "data",   "rate",   "rates",
-      "removal",    "sag",        "opd",   "figure", "error",   "errors", "z",      "deviation",
-      "deviations", "topography", "phase", "depth",  "form",    "shape",  "profile"};
-  return is_one_of(word, kValueWords);
 }
 
 bool are_value_words(const std::vector<std::string>& words) {

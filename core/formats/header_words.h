@@ -11,7 +11,7 @@ namespace dwell {
 /// in um. Case, blanks, '_', '-' and words that say nothing ("in", "the", "is") do not count.
 struct HeaderKey {
   std::string shown;               // as in the file, for messages
-  std::vector<std::string> words;  // in lower case, without axis and unit
+  std::vector<std::string> words;  // folded (core/formats/map_terms.h), without axis and unit
   std::string stem;                // the words, joined
   char axis = 0;                   // 'x', 'y', 'z', or 0 where none is named
   bool every_axis = false;         // z beside x or y ("x, y, z units"); axis is then 'z'
@@ -40,11 +40,13 @@ struct HeaderLengths {
 /// Nothing if the text is anything else, or has more than `most` numbers, or units that differ.
 std::optional<HeaderLengths> parse_header_lengths(std::string_view text, std::size_t most = 2);
 
+/// Whether a comma may be a decimal comma or part two numbers: "0,5 mm", but not "0.5,0.5" or "1, 2".
+bool may_have_decimal_comma(std::string_view text);
+
 /// The words between blanks.
 std::vector<std::string_view> words_of(std::string_view text);
 
 /// Whether all of the words speak of the values of a map: "height", "surface error". False of none.
 bool are_value_words(const std::vector<std::string>& words);
-bool is_value_word(std::string_view word);
 
 }  // namespace dwell

@@ -72,12 +72,11 @@ class Reader {
 template <class Source, class Each>
 void each_field(Source& source, Each each) {
   auto& [rows, cols, values, raw_factor, header, pitch_hint, pitch_field, unclear_origin, camera_pixel] = source;
-  auto& [pitch, origin, unit, no_data, unclear, history, pitch_rounding] = header;
-  static_cast<void>(values);   // come last, and fill the rest
-  static_cast<void>(unclear);  // of text, which is read in this process
+  auto& [pitch, origin, unit, no_data, unclear, places_known, history, pitch_rounding] = header;
+  static_cast<void>(values);  // come last, and fill the rest
   each(rows), each(cols), each(raw_factor), each(no_data), each(pitch_hint), each(pitch_field), each(unclear_origin),
       each(camera_pixel);
-  each(pitch), each(origin), each(unit), each(history), each(pitch_rounding);
+  each(pitch), each(origin), each(unit), each(unclear), each(places_known), each(history), each(pitch_rounding);
 }
 
 class FieldWriter {
@@ -91,6 +90,10 @@ class FieldWriter {
   void operator()(const std::vector<double>& numbers) const {
     out_.put(numbers.size());
     for (const double number : numbers) out_.put(number);
+  }
+  void operator()(const std::vector<UnclearStatement>& statements) const {
+    out_.put(statements.size());
+    for (const UnclearStatement& statement : statements) out_.put(statement.about), out_.put_text(statement.message);
   }
   template <class T>
   void operator()(const std::optional<T>& field) const {
@@ -115,6 +118,12 @@ class FieldReader {
   }
   void operator()(std::vector<double>& numbers) const {
     for (auto count = in_.get<std::size_t>(); count > 0; --count) numbers.push_back(in_.get<double>());
+  }
+  void operator()(std::vector<UnclearStatement>& statements) const {
+    for (auto count = in_.get<std::size_t>(); count > 0; --count) {
+      const auto about = in_.get<UnclearStatement::About>();
+      statements.push_back({about, in_.text()});
+    }
   }
   template <class T>
   void operator()(std::optional<T>& field) const {

@@ -9,12 +9,14 @@
 #include "core/base/number_text.h"
 #include "core/base/units.h"
 #include "core/formats/field_name.h"
+#include "core/formats/remark_guard.h"
 #include "core/map/value_units.h"
 
 namespace dwell {
 namespace {
 
-constexpr double kSameLength = 1e-6;  // relative: single precision
+constexpr double kSameLength = 1e-6;          // relative: single precision
+constexpr std::size_t kLongestRemark = 4000;  // characters
 
 bool agree(double a, double b) { return std::abs(a - b) <= kSameLength * std::max(std::abs(a), std::abs(b)); }
 
@@ -69,12 +71,20 @@ class MapFieldsReader {
     return std::string(trim(field.texts.front()));
   }
 
+  /// "z = 'um'" is a unit whatever else the name may be of; pixels have a height too.
+  static bool is_unit_of_values(const MapField& field, const FieldName& name) {
+    return (name.values || name.topic == MapTopic::Label) && name.axis == FieldAxis::Both && field.texts.size() == 1 &&
+           field.numbers.empty() && known_value_unit(field.texts.front());
+  }
+
   void read_unit(const MapField& field, const FieldName& name) {
-    if (name.topic == FieldTopic::ValueUnit) take_unit(field, unit_text(field));
-    if (name.topic == FieldTopic::UnknownUnit && !unknown_unit_ && !is_of_something_else(field)) unknown_unit_ = &field;
-    if (name.topic == FieldTopic::Label && field.texts.size() == 1)
-      take_unit(field, unit_of_label(field.texts.front()));
-    if (name.topic != FieldTopic::LateralUnit || field.texts.size() != 1) return;
+    if (is_unit_of_values(field, name)) return take_unit(field, std::string(trim(field.texts.front())));
+    if (name.topic == MapTopic::ValueUnit && !(field.texts.empty() && field.numbers.empty())) {
+      take_unit(field, unit_text(field));
+    }
+    if (name.topic == MapTopic::UnknownUnit && !unknown_unit_ && !is_of_something_else(field)) unknown_unit_ = &field;
+    if (name.topic == MapTopic::Label && field.texts.size() == 1) take_unit(field, unit_of_label(field.texts.front()));
+    if (name.topic != MapTopic::LateralUnit || field.texts.size() != 1) return;
     const auto nm = known_length_unit(field.texts.front());
     if (!nm) return;  // pixels, degrees on the sky: what it is of has no length then
     const double mm = *nm / units::kNmPerMm;
@@ -106,17 +116,26 @@ class MapFieldsReader {
   }
 
   void read_other(const MapField& field, const FieldName& name) {
+    if (is_unit_of_values(field, name)) return;
     switch (name.topic) {
-      case FieldTopic::Pitch:
+      case MapTopic::Pitch:
         return take_pitch(field, name);
-      case FieldTopic::Size:
+      case MapTopic::Size:
+        guard(field);
         return add_unclear(said_.unclear_pitch, field);
-      case FieldTopic::Origin:
+      case MapTopic::Orientation:
+        return take_orientation(field);
+      case MapTopic::Other:
+        return guard(field);
+      case MapTopic::Label:
+        if (field.texts.size() != 1 || unit_of_label(field.texts.front()).empty()) guard(field);
+        return;
+      case MapTopic::Origin:
         return take_origin(field, name);
-      case FieldTopic::NoData:
+      case MapTopic::NoData:
         return take_no_data(field);
-      case FieldTopic::ValueScale:
-        return check_scale(field);
+      case MapTopic::ValueScale:
+        return check_scale(field, name);
       default:
         return;
     }
@@ -174,7 +193,8 @@ class MapFieldsReader {
       return;
     }
     const auto zero = [](double place) { return place == 0.0; };
-    if (field.texts.empty() && std::all_of(field.numbers.begin(), field.numbers.end(), zero)) return;
+    const bool nowhere = field.texts.empty() && std::all_of(field.numbers.begin(), field.numbers.end(), zero);
+    if (nowhere && !(name.middle && !field.numbers.empty())) return;
     if (!field.texts.empty() && std::none_of(field.texts.begin(), field.texts.end(), speaks_of_a_place)) return;
     add_unclear(said_.unclear_origin, field);
   }
@@ -192,20 +212,53 @@ class MapFieldsReader {
     for (const std::string& text : field.texts) {
       const auto number = height_number(text);
       if (!number) refuse(field, "a number that stands for no data is");
-      if (!std::isnan(*number)) said_.no_data.push_back(*number);
+      if (!std::isnan(*number)) said_.header.no_data.push_back(*number);
     }
     for (const double number : field.numbers) {
-      if (!std::isnan(number)) said_.no_data.push_back(number);
+      if (!std::isnan(number)) said_.header.no_data.push_back(number);
     }
   }
 
-  void check_scale(const MapField& field) const {
+  /// What the texts of a field say that is not known, as a comment would: "columns = 'x_mm y_mm z_um'".
+  void guard(const MapField& field) {
+    for (const std::string& text : field.texts) {
+      if (text.size() > kLongestRemark) continue;  // a program, a log
+      const std::string place = fmt::format("{}: {}", where_, field.shown);
+      std::vector<UnclearStatement> unclear = unclear_remarks(text, place, RemarkPlace::Field);
+      // "detector = 'm'": a unit alone is said of the name.
+      if (unclear.empty() && known_value_unit(text) && lower_case(trim(text)) != "in") {
+        unclear = unclear_remarks(fmt::format("{} = {}", field.name, text), place, RemarkPlace::Field);
+      }
+      said_.header.unclear.insert(said_.header.unclear.end(), unclear.begin(), unclear.end());
+    }
+  }
+
+  void add_statement(UnclearStatement::About about, const MapField& field, const char* what) {
+    said_.header.unclear.push_back({about, fmt::format("{}: {} looks like {}", where_, said(field), what)});
+  }
+
+  void take_orientation(const MapField& field) {
+    const bool none =
+        std::all_of(field.numbers.begin(), field.numbers.end(), [](double v) { return v == 0.0; }) &&
+        std::all_of(field.texts.begin(), field.texts.end(), [](const std::string& text) {
+          const std::string lower = lower_case(trim(text));
+          return lower.empty() || lower == "none" || lower == "no" || lower == "false" || lower == "normal";
+        });
+    if (!none) {
+      add_statement(UnclearStatement::About::Rows, field,
+                    "an orientation; the first row is that of the smallest y, the first column that of the smallest x");
+    }
+  }
+
+  void check_scale(const MapField& field, const FieldName& name) {
     const std::string lower = lower_case(field.name);
     const bool added = lower.find("offset") != std::string::npos || lower.find("intercept") != std::string::npos;
-    const double neutral = added ? 0.0 : 1.0;
+    const double neutral = added || lower == "waves" ? 0.0 : 1.0;
     const bool harmless = field.texts.empty() && std::all_of(field.numbers.begin(), field.numbers.end(),
                                                              [&](double number) { return number == neutral; });
-    if (!harmless) refuse(field, fmt::format("{} (heights as they are) is", neutral));
+    if (harmless) return;
+    if (name.clear) refuse(field, fmt::format("{} (heights as they are) is", neutral));
+    add_statement(UnclearStatement::About::Factor, field, "a factor of the values, which are read as they are");
   }
 
   void settle_unit() const {

@@ -12,7 +12,15 @@ namespace dwell {
 /// Something that a file seems to say but not clearly, as a pitch without a unit. It is refused unless the file says it
 /// clearly elsewhere or an option of the user does.
 struct UnclearStatement {
-  enum class About { Unit, Pitch, Origin, NoData };
+  enum class About {
+    Unit,    // of the values
+    Factor,  // of the values: their unit may be said and say nothing of it
+    Pitch,
+    Places,  // the unit of places: the pitch of a matrix, and of points x and y themselves
+    Origin,
+    Rows,  // which way rows and columns run
+    NoData,
+  };
   About about;
   std::string message;  // where it stands, what it says and how it would be clear
 };
@@ -22,10 +30,11 @@ struct MapHeader {
   std::optional<Point> pitch;   // in x and y [mm], both > 0
   std::optional<Point> origin;  // centre of pixel (0, 0) [mm]
   std::optional<std::string> unit;
-  std::vector<double> no_data;            // values, as the file holds them, that stand for no data
-  std::vector<UnclearStatement> unclear;  // of text files (core/formats/text_header.h)
-  std::vector<std::string> history;       // how the map was made, a step each, oldest first
-  double pitch_rounding = 1e-9;           // relative: how well a pitch that the user gives can agree with the file's
+  std::vector<double> no_data;  // values, as the file holds them, that stand for no data
+  std::vector<UnclearStatement> unclear;
+  bool places_known = false;         // of points: their unit is said
+  std::vector<std::string> history;  // how the map was made, a step each, oldest first
+  double pitch_rounding = 1e-9;      // relative: how well a pitch that the user gives can agree with the file's
 };
 
 /// pitch_rounding of formats that hold the pitch in single precision.

@@ -115,14 +115,20 @@ double known_scale(const MapHeader& header, const MapReadOptions& options, const
 void settle_unclear(const MapHeader& header, const MapReadOptions& options, bool points) {
   using About = UnclearStatement::About;
   for (const UnclearStatement& unclear : header.unclear) {
-    const auto [settled, option] = [&]() -> std::pair<bool, const char*> {
+    const auto [settled, option] = [&]() -> std::pair<bool, std::string> {
       switch (unclear.about) {
         case About::Unit:
           return {header.unit || options.scale, "unit"};
+        case About::Factor:
+          return {options.scale.has_value(), "unit"};
         case About::Pitch:
           return {points || header.pitch || options.pitch, "pixel"};
+        case About::Places:
+          return points ? std::pair(header.places_known, "") : std::pair(header.pitch || options.pitch, "pixel");
         case About::Origin:
           return {points || header.origin || options.origin || !options.origin_counts, "origin"};
+        case About::Rows:
+          return {points || options.rows, "rows"};
         case About::NoData:
           return {!header.no_data.empty() || options.no_data, "no data"};
       }
@@ -130,7 +136,7 @@ void settle_unclear(const MapHeader& header, const MapReadOptions& options, bool
     }();
     if (settled) continue;
     // The origin of a removal function is where its tool axis says; no option gives it.
-    const bool has_option = unclear.about != About::Origin || options.name == "map";
+    const bool has_option = !option.empty() && (unclear.about != About::Origin || options.name == "map");
     throw InputError(unclear.message + (has_option ? fmt::format("; or give `{} {}`", options.name, option) : ""));
   }
 }
@@ -175,6 +181,7 @@ HeightMap map_of_source(MapSource source, const MapReadOptions& options, const s
                     where, options.name, source.rows, source.cols));
   }
   settle_unclear(source.header, options, false);
+  apply_map_rows(source, options.rows);
   const double scale = known_scale(source.header, options, where);
   check_origin_is_clear(source, options, where);
   check_pixels(static_cast<double>(source.rows), static_cast<double>(source.cols), options.limit, where);
@@ -232,9 +239,9 @@ HeightMap fit_points_of(const XyzText& xyz, const MapReadOptions& options, const
 
 HeightMap read_xyz(std::string_view text, const MapReadOptions& options, const std::string& where,
                    const Progress& progress) {
-  if (options.table) {
-    throw InputError(fmt::format("{}: `{} table` is for a matrix, but the file holds points x y z; leave it out", where,
-                                 options.name));
+  if (options.table || options.rows) {
+    throw InputError(fmt::format("{}: `{} {}` is for a matrix, but the file holds points x y z; leave it out", where,
+                                 options.name, options.table ? "table" : "rows"));
   }
   XyzText xyz = parse_xyz_text(text, where);
   settle_unclear(xyz.header, options, true);

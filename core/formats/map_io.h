@@ -7,6 +7,7 @@
 #include "core/base/grid_limit.h"
 #include "core/base/progress.h"
 #include "core/base/staged_files.h"
+#include "core/formats/map_rows.h"
 #include "core/formats/matrix_table.h"
 #include "core/formats/no_data.h"
 #include "core/map/height_map.h"
@@ -28,6 +29,7 @@ struct MapReadOptions {
   std::optional<NoDataMarkers> no_data;  // numbers of the file that stand for no data, besides what it says
   std::optional<double> max_pv;          // the most that heights or rates may span [nm], [nm/s]; default kMostSpan
   std::optional<MatrixTable> table;      // what the first row and column of a matrix as text are
+  std::optional<MapRows> rows;           // at which edge the first row of a grid lies; default: as the format says
   std::optional<ScatterOptions> grid;    // points x y z are scattered: a surface is fitted to them
   int threads = 1;                       // for that fit
 };

@@ -15,6 +15,10 @@ namespace {
 
 constexpr double kExactSteps = 1e-9;    // of the largest number: equal steps, but for the rounding of doubles
 constexpr double kRoundedSteps = 0.05;  // of the step: as kLatticeTolerance, for coordinates printed with few digits
+// Of the step: the most that one of the last digit may be, for four numbers and for eight. Fewer are soon in equal
+// steps to their rounding.
+constexpr double kPrintedSteps = 0.12, kPrintedStepsOfMany = 0.34;
+constexpr Index kLeastPrinted = 4, kManyPrinted = 8;
 constexpr Index kLeastAlone = 5;  // numbers in equal steps beside a corner that is a number: four may be an accident
 constexpr Index kTelling = 3;     // two numbers are always in equal steps
 constexpr Index kLeastPoints = 9;
@@ -39,18 +43,39 @@ MatrixLine matrix_column(const MapSource& m, Index col) {
 struct Steps {
   double first = 0.0, step = 0.0;
   Index count = 0;
+  double rounding = 0.0;  // how well the step is known, as a part of it: the numbers are printed with few digits
 };
 
+/// One of the last digit that the numbers are printed with; 0 if they have more digits than a table shows.
+double printed_unit(const MatrixLine& line) {
+  constexpr int kMostDigits = 6;
+  constexpr double kWhole = 1e-6;
+  double scale = 1.0;
+  for (int digits = 0; digits <= kMostDigits; ++digits, scale *= 10.0) {
+    bool whole = true;
+    for (Index i = 0; i < line.count && whole; ++i) {
+      whole = std::abs(line[i] * scale - std::round(line[i] * scale)) <= kWhole;
+    }
+    if (whole) return 1.0 / scale;
+  }
+  return 0.0;
+}
+
+/// The line as numbers in equal steps, if it is: to `exact` of the largest number, to `rounded` of the step, or to the
+/// rounding of the digits that are printed (0.094, 0.188, 0.281), if these are some for each step.
 std::optional<Steps> steps_of(const MatrixLine& line, Index least, double exact, double rounded) {
   if (line.count < std::max<Index>(least, 2)) return std::nullopt;
   const double first = line[0], last = line[line.count - 1],
                step = (last - first) / static_cast<double>(line.count - 1);
-  const double tolerance = std::max(exact * std::max(std::abs(first), std::abs(last)), rounded * std::abs(step));
   if (!std::isfinite(step) || step == 0.0) return std::nullopt;
+  const double printed = line.count >= kLeastPrinted ? printed_unit(line) : 0.0;
+  double tolerance = std::max(exact * std::max(std::abs(first), std::abs(last)), rounded * std::abs(step));
+  const double most = line.count >= kManyPrinted ? kPrintedStepsOfMany : kPrintedSteps;
+  if (printed <= most * std::abs(step)) tolerance = std::max(tolerance, printed);
   for (Index i = 0; i < line.count; ++i) {
     if (!(std::abs(line[i] - first - step * static_cast<double>(i)) <= tolerance)) return std::nullopt;
   }
-  return Steps{first, step, line.count};
+  return Steps{first, step, line.count, printed / static_cast<double>(line.count - 1) / std::abs(step)};
 }
 
 /// Whether a line besides the first is in equal steps too, as all are of a tilted plane.
@@ -84,6 +109,11 @@ Headings suspected(const MapSource& m) {
     return steps && steps->count >= kTelling && !another_is_even(m, rows);
   };
   if (both.x && both.y && (tells(both.x, true) || tells(both.y, false))) return both;
+  // Beside an empty corner one of the two says that both are there.
+  const auto headed = [&](const std::optional<Steps>& steps, bool rows) {
+    return blank && steps && steps->count >= kLeastAlone && tells(steps, rows);
+  };
+  if (headed(both.x, true) || headed(both.y, false)) return both;
   Headings one;
   if (m.rows > 1) one.x = steps_of(row, kLeastAlone, kExactSteps, 0.0);
   if (tells(one.x, true)) return one.row = true, one;
@@ -110,6 +140,8 @@ Headings stated(const MapSource& m, bool named_columns) {
     found = {{}, whole_y, false, true};
   else
     found.row = named_columns || found.x.has_value(), found.column = found.y.has_value();
+  // An empty corner stands above a column, and beside a row, of headings.
+  if (std::isnan(m.values[0]) && !named_columns && (found.row || found.column)) found.row = found.column = true;
   return found;
 }
 
@@ -120,6 +152,41 @@ std::string in_words(const Headings& h) {
   };
   const std::string row = h.row ? line("row", h.x) : "", column = h.column ? line("column", h.y) : "";
   return row + (h.row && h.column ? " and " : "") + column;
+}
+
+/// Whether the line is in equal steps, its first number left out or not, and of those that may be heights none is.
+std::optional<Steps> lone_last(const MapSource& m, bool rows) {
+  const Index count = rows ? m.rows : m.cols;
+  const auto even = [&](Index i) {
+    const MatrixLine line = rows ? matrix_row(m, i) : matrix_column(m, i);
+    const auto whole = steps_of(line, kLeastAlone, kExactSteps, 0.0);
+    return whole ? whole : steps_of(line.without_first(), kLeastAlone, kExactSteps, 0.0);
+  };
+  const auto last = count > kTelling ? even(count - 1) : std::nullopt;
+  if (!last) return std::nullopt;
+  for (Index i = 1; i + 1 < count; ++i) {
+    if (even(i)) return std::nullopt;
+  }
+  return last;
+}
+
+/// Coordinates that stand behind the heights.
+void refuse_last(const MapSource& m, const std::string& where, const std::string& name) {
+  for (const bool rows : {false, true}) {
+    const auto last = lone_last(m, rows);
+    if (!last) continue;
+    throw InputError(
+        fmt::format("{}: the last {} ({} numbers from {} in steps of {:.9g}) looks like an index or coordinates, not "
+                    "like heights; put it first and give `{} table` index or mm, or leave it out of the file, or give "
+                    "`{} table` heights to take it as heights",
+                    where, rows ? "row" : "column", last->count, last->first, last->step, name, name));
+  }
+}
+
+/// What of the first row and column is missing, for messages.
+std::string missing_in_words(const Headings& found) {
+  if (!found.x && !found.y) return "first row and column are no numbers";
+  return found.x ? "first column is no numbers" : "first row is no numbers";
 }
 
 /// Whether the rows look like points: x and y on a grid of which they fill a quarter at least.
@@ -151,10 +218,10 @@ void refuse_suspicious(const MapSource& m, const std::string& where, const std::
   const Headings found = suspected(m);
   if (!found.row && !found.column) return;
   throw InputError(fmt::format(
-      "{}: {} look like an index or coordinates, not like heights; give `{} table` index to leave them out, `{} table` "
+      "{}: {} {} like an index or coordinates, not like heights; give `{} table` index to leave them out, `{} table` "
       "mm (or another unit of length) to take pitch and origin from them, or `{} table` heights to take them as "
       "heights",
-      where, in_words(found), name, name, name));
+      where, in_words(found), found.row && found.column ? "look" : "looks", name, name, name));
 }
 
 void leave_out(MapSource& m, const Headings& h) {
@@ -195,7 +262,8 @@ void take_coordinates(MapSource& m, Headings& h, const MatrixTable& table, const
   const double mm = table.unit_nm / units::kNmPerMm;
   const Point pitch{h.x->step * mm, h.y->step * mm}, origin{h.x->first * mm, h.y->first * mm};
   constexpr double kStepAgreement = 1e-3;  // of the pitch
-  const auto agree = [&](double a, double b, double size) { return std::abs(a - b) <= kStepAgreement * size; };
+  const double rounding = std::max({kStepAgreement, h.x->rounding, h.y->rounding});
+  const auto agree = [&](double a, double b, double size) { return std::abs(a - b) <= rounding * size; };
   const MapHeader& said = m.header;
   if ((said.pitch && !(agree(said.pitch->x, pitch.x, pitch.x) && agree(said.pitch->y, pitch.y, pitch.y))) ||
       (said.origin && !(agree(said.origin->x, origin.x, pitch.x) && agree(said.origin->y, origin.y, pitch.y)))) {
@@ -204,7 +272,7 @@ void take_coordinates(MapSource& m, Headings& h, const MatrixTable& table, const
         "otherwise; they must agree",
         where, table.unit, pitch.x, pitch.y, origin.x, origin.y));
   }
-  if (!said.pitch) m.header.pitch_rounding = kStepAgreement;
+  if (!said.pitch) m.header.pitch_rounding = rounding;
   if (!said.pitch) m.header.pitch = pitch;
   if (!said.origin) m.header.origin = origin;
 }
@@ -232,14 +300,17 @@ std::string to_string(const MatrixTable& table) {
 
 void apply_matrix_table(MapSource& matrix, const std::optional<MatrixTable>& table, bool named_columns,
                         const std::string& where, const std::string& name) {
-  if (!table) return refuse_suspicious(matrix, where, name);
-  if (table->kind == MatrixTable::Kind::Heights) return;
+  if (!table) refuse_suspicious(matrix, where, name);
+  if (!table || table->kind != MatrixTable::Kind::Heights) refuse_last(matrix, where, name);
+  if (!table || table->kind == MatrixTable::Kind::Heights) return;
   const bool coordinates = table->kind == MatrixTable::Kind::Coordinates;
   Headings found = stated(matrix, named_columns);
   if (coordinates ? !(found.x && found.y) : !(found.row || found.column)) {
-    throw InputError(fmt::format(
-        "{}: `{} table` {}, but its first row {} column are no numbers in equal steps; leave the option out", where,
-        name, to_string(*table), coordinates ? "and" : "or"));
+    throw InputError(fmt::format("{}: `{} table` {}, but its {} in equal steps{}; leave the option out", where, name,
+                                 to_string(*table), missing_in_words(found),
+                                 coordinates && (found.x || found.y)
+                                     ? ", and coordinates are needed of both (or give index, and the pitch)"
+                                     : ""));
   }
   if (matrix.rows <= (found.row ? 1 : 0) || matrix.cols <= (found.column ? 1 : 0)) {
     throw InputError(fmt::format("{}: nothing is left without {}", where, in_words(found)));

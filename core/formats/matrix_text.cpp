@@ -9,6 +9,7 @@
 #include "core/base/errors.h"
 #include "core/base/number_text.h"
 #include "core/base/text_lines.h"
+#include "core/formats/text_comment.h"
 #include "core/formats/text_header.h"
 
 namespace dwell {
@@ -116,7 +117,7 @@ MapSource parse_matrix_text(std::string_view text, const std::string& where, boo
       if (matrix.rows > 0 && blank_line == 0) blank_line = lines.number();
       continue;
     }
-    if (trimmed.starts_with('#') && !starts_with_spreadsheet_error(trimmed)) {
+    if (is_text_comment(trimmed)) {
       if (matrix.rows > 0 && is_a_row(trimmed, separator, matrix.cols)) {
         throw InputError(
             fmt::format("{}, line {}: {} has as many numbers as a row, but begins with '#'; a row, or a comment before "

@@ -17,12 +17,6 @@ constexpr double kFarSpans = 10.0;
 constexpr double kLeftOut = 0.01;  // of the values at either end, one at least, for the span of the others
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-/// Also where the file holds it in single precision.
-bool is_marker(double value, double marker, double factor) {
-  return value == marker * factor || value == static_cast<double>(static_cast<float>(marker)) * factor ||
-         std::abs(value - marker * factor) <= 1e-12 * std::abs(value);
-}
-
 std::size_t remove_huge(const RawValues& raw, double& largest) {
   std::size_t count = 0;
   for (double& value : *raw.values) {
@@ -38,7 +32,7 @@ std::size_t remove_huge(const RawValues& raw, double& largest) {
 std::size_t remove_marker(const RawValues& raw, double marker) {
   std::size_t count = 0;
   for (double& value : *raw.values) {
-    if (std::isnan(value) || !is_marker(value, marker, raw.factor)) continue;
+    if (std::isnan(value) || !is_marker(value / raw.factor, marker)) continue;
     value = kNone;
     ++count;
   }
@@ -115,6 +109,12 @@ void refuse_lone_extreme(const RawValues& raw, const std::string& where, const s
 }
 
 }  // namespace
+
+bool is_marker(double value, double marker) {
+  constexpr double kRounding = 1e-12;  // of a factor that the reader has multiplied by
+  return value == marker || value == static_cast<double>(static_cast<float>(marker)) ||
+         std::abs(value - marker) <= kRounding * std::abs(value);
+}
 
 NoDataMarkers parse_no_data(const std::string& text) {
   NoDataMarkers markers;

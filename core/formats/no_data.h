@@ -28,6 +28,9 @@ struct RawValues {
 /// 9.97e36 of netCDF, 1e30 and 1e20 of others.
 inline constexpr double kLeastMarker = 1e20;
 
+/// Whether a number of a file is the marker, which may be written with more digits than single precision holds.
+bool is_marker(double value, double marker);
+
 /// Sets to NaN what is no height: numbers of kLeastMarker and more, and those that the file or the user names. Returns
 /// a line each, for the map's history. Without a word of the user, one extreme value is refused that stands in four
 /// pixels or more while nothing else is near it (-9999, 32767, 65535 around a part): farther from all others than ten

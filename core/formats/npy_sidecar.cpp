@@ -12,7 +12,6 @@
 #include "core/base/number_text.h"
 #include "core/base/whole_file.h"
 #include "core/formats/npy.h"
-#include "core/formats/packed_values.h"
 #include "core/map/value_units.h"
 
 namespace dwell {
@@ -41,7 +40,8 @@ class SidecarReader {
   SaidOfMap said() const {
     check_pair("pitch_mm", true);
     check_pair("origin_mm", false);
-    if (const auto unit = object_.find("unit"); unit != object_.end() && !unit->is_string()) refuse("unit", "a string");
+    const auto unit = object_.find("unit");
+    if (unit != object_.end() && !unit->is_string() && !unit->is_null()) refuse("unit", "a string");
     std::vector<MapField> fields;
     for (const auto& [key, value] : object_.items()) {
       if (key != "history" && key != "sha256" && key != "previous") add_field(key, value, fields);
@@ -61,9 +61,10 @@ class SidecarReader {
 
   void check_pair(const char* field, bool positive) const {
     const auto found = object_.find(field);
-    if (found == object_.end()) return;
+    if (found == object_.end() || found->is_null()) return;
+    if (positive && found->is_number() && found->get<double>() > 0.0) return;  // for x and y
     if (!found->is_array() || found->size() != 2 || !(*found)[0].is_number() || !(*found)[1].is_number()) {
-      refuse(field, "two numbers [x, y]");
+      refuse(field, positive ? "one number > 0, or two [x, y]" : "two numbers [x, y]");
     }
     if (positive && !((*found)[0].get<double>() > 0.0 && (*found)[1].get<double>() > 0.0)) {
       refuse(field, "two numbers > 0");
@@ -93,11 +94,13 @@ class SidecarReader {
       }
       return;
     }
+    if (value.is_null()) return;  // says nothing
     MapField field;
     field.name = key;
     field.shown = key;
     for (const Json& element : value.is_array() ? value : Json::array({value})) {
       if (element.is_number()) field.numbers.push_back(element.get<double>());
+      if (element.is_boolean()) field.numbers.push_back(element.get<bool>() ? 1.0 : 0.0);
       if (element.is_string()) field.texts.push_back(element.get<std::string>());
     }
     fields.push_back(std::move(field));
@@ -183,10 +186,6 @@ void add_npy_sidecar(const std::filesystem::path& npy_file, std::string_view byt
         "first: {}",
         sidecar, said.unclear_pitch);
   }
-  PackedValues packing;
-  for (const double value : said.no_data) packing.no_data.push_back({"no data", value});
-  const std::string done = unpack_values(packing, source.values);
-  if (!done.empty()) source.header.history.push_back(fmt::format("read {}: {}", sidecar, done));
 }
 
 void stage_npy_with_sidecar(const std::filesystem::path& npy_file, const HeightMap& map, StagedFiles& files) {

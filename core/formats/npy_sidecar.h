@@ -27,7 +27,7 @@ SaidOfMap parse_npy_sidecar(const std::string& text, const std::string& sha256, 
 /// naming the sidecar and the field: not such a JSON object, or stale: sha256 is of other bytes.
 SaidOfMap read_npy_sidecar(const std::filesystem::path& npy_file, std::string_view bytes);
 
-/// The same, added to what was read of the array: its markers of no data become NaN, which the history then says.
+/// The same, added to what was read of the array.
 void add_npy_sidecar(const std::filesystem::path& npy_file, std::string_view bytes, MapSource& source);
 
 /// Stages the map's values as `npy_file` and the rest as its sidecar, in such an order of renames that whenever these

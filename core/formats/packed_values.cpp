@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/formats/no_data.h"
+
 namespace dwell {
 namespace {
 
@@ -13,10 +15,6 @@ double with_other_sign(double value, int bits) {
   const double all = std::ldexp(1.0, std::abs(bits));
   if (bits > 0) return value < 0.0 ? value + all : value;
   return value >= 0.5 * all ? value - all : value;
-}
-
-bool is_stored_marker(double value, double marker, bool single_precision) {
-  return value == marker || (single_precision && static_cast<float>(value) == static_cast<float>(marker));
 }
 
 class Unpacker {
@@ -32,7 +30,7 @@ class Unpacker {
     constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
     const double number = stored(value);
     for (std::size_t i = 0; i < packing_.no_data.size(); ++i) {
-      if (!is_stored_marker(number, packing_.no_data[i].value, packing_.single_precision)) continue;
+      if (!is_marker(number, packing_.no_data[i].value)) continue;
       ++counts_[i];
       return kNoValue;
     }

@@ -21,7 +21,6 @@ struct PackedValues {
   bool range_of_heights = false;      // or heights beyond, after scale and offset
   /// Integers of this many bits that were stored without a sign in a type that has one, or (negative) the other way.
   int other_sign_bits = 0;
-  bool single_precision = false;  // stored so: a marker given with more digits is rounded likewise
 };
 
 /// Turns stored values into heights, no data into NaN. Returns what was done with counts, for the history of the map;

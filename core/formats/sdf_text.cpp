@@ -53,10 +53,11 @@ void take_other_fields(const std::vector<MapField>& fields, MapSource& source, c
         fmt::format("{}: the SDF file says a unit of {}; Xscale, Yscale and Zscale are in m, so m is required", where,
                     in_quotes(*said.header.unit)));
   }
-  if (!said.no_data.empty()) {
-    throw InputError(
-        fmt::format("{}: the SDF file says that {} is no data; BAD is required for it", where, said.no_data.front()));
+  if (!said.header.no_data.empty()) {
+    throw InputError(fmt::format("{}: the SDF file says that {} is no data; BAD is required for it", where,
+                                 said.header.no_data.front()));
   }
+  source.header.unclear.insert(source.header.unclear.end(), said.header.unclear.begin(), said.header.unclear.end());
   if (said.header.origin && !source.header.origin) source.header.origin = said.header.origin;
   if (!source.header.origin) source.unclear_origin = said.unclear_origin;
 }

@@ -8,6 +8,7 @@
 
 #include "core/formats/header_roles.h"
 #include "core/formats/map_header.h"
+#include "core/formats/said_layout.h"
 
 namespace dwell {
 
@@ -15,11 +16,12 @@ namespace dwell {
 /// programs (docs/formats.md, "What a file may say of itself"): the unit of the values, pitch, size of the field,
 /// origin, the value that stands for no data, and how the map was made. What looks like one of these and cannot be
 /// understood is refused at once (InputError naming line, key, value and what is accepted), or kept as unclear for
-/// whoever knows the options; every other comment means nothing.
+/// whoever knows the options. What no rule has understood is scanned by the last guard (core/formats/remark_guard.h);
+/// every other comment means nothing.
 class TextHeader {
  public:
   /// `where` begins messages, as in "map a.csv".
-  explicit TextHeader(std::string where) : where_(std::move(where)) {}
+  explicit TextHeader(std::string where) : where_(where), layout_(std::move(where)) {}
 
   /// Takes one comment line, from its '#'.
   void read_comment(std::string_view comment, long line);
@@ -38,16 +40,6 @@ class TextHeader {
   std::optional<double> lateral_unit() const { return lateral_; }
 
  private:
-  struct Length {
-    double mm = 0.0;
-    std::string key;
-    double rounding = 0.0;  // relative
-  };
-  struct Count {
-    std::vector<double> numbers;
-    std::string message;
-  };
-
   void read_statement(std::string_view text);
   bool read_loose(std::string_view text);
   bool read_captions(std::string_view text);
@@ -55,30 +47,28 @@ class TextHeader {
   bool take(HeaderKey key, std::string_view value, bool loose);
   bool take_value_unit(const HeaderKey& key, std::string_view value, bool sure);
   bool take_lateral(const HeaderKey& key, std::string_view value, bool sure);
-  bool take_pitch(const HeaderKey& key, std::string_view value, bool sure);
+  bool take_pitch(const HeaderKey& key, std::string_view value, InText trust);
   bool take_size(const HeaderKey& key, std::string_view value);
   bool take_origin(const HeaderKey& key, std::string_view value, bool sure);
-  bool take_offset(const HeaderKey& key, std::string_view value);
-  bool take_no_data(const HeaderKey& key, std::string_view value, bool sure);
+  bool take_offset(const HeaderKey& key, std::string_view value, bool moves);
+  bool take_no_data(const HeaderKey& key, std::string_view value, bool sure, bool named);
   bool take_scale(const HeaderKey& key, std::string_view value);
-  void note_mention(std::string_view text);
-  void set_length(std::optional<Length>& slot, const Length& length, const char* what);
+  bool take_unknown_unit(const HeaderKey& key, std::string_view value);
+  bool take_prose_pitch(const HeaderKey& key, std::string_view value);
+  void guard(std::string_view text);
+  bool read_fields(std::string_view text);
   double unit_of_lengths(const HeaderKey& key, std::string_view value, const HeaderLengths& lengths) const;
-  void only_once(const HeaderKey& key, HeaderRole role);
+  void only_once(const HeaderKey& key, MapTopic topic);
   [[noreturn]] void refuse(const HeaderKey& key, std::string_view value, const std::string& required) const;
   std::string place() const;
-  void add_size(MapHeader& header, Index rows, Index cols) const;
-  void add_counts(MapHeader& header, Index rows, Index cols) const;
-
   std::string where_;
   long line_ = 0;
   MapHeader header_;
   std::string unit_key_, lateral_key_;
+  std::string of_everything_;  // why the unit of the values may be that of places too; empty: it is not
   std::optional<double> unit_factor_, lateral_;
-  std::optional<Length> pitch_[2], size_[2], origin_[2];  // along x and y
-  std::vector<Count> counts_;
-  std::map<std::string, long> seen_;  // role and name of what was said: line
-  bool gwyddion_ = false;             // its size is that of all pixels, edge to edge
+  SaidLayout layout_;
+  std::map<std::string, long> seen_;  // topic and name of what was said: line
 };
 
 }  // namespace dwell

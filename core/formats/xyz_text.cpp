@@ -12,6 +12,7 @@
 #include "core/base/number_text.h"
 #include "core/base/text_lines.h"
 #include "core/base/units.h"
+#include "core/formats/text_comment.h"
 #include "core/formats/text_header.h"
 #include "core/formats/xyz_columns.h"
 #include "core/map/value_units.h"
@@ -125,8 +126,9 @@ bool names_xyz_columns(std::string_view text) {
   for (TextLines lines(text); lines.next();) {
     const std::string_view line = trim(lines.line());
     if (line.empty()) continue;
-    if (parse_xyz_columns(line)) return true;
-    if (line.front() != '#') return false;
+    const bool comment = is_text_comment(line);
+    if (parse_xyz_columns(comment ? bare_comment(line) : line)) return true;
+    if (!comment) return false;
   }
   return false;
 }
@@ -137,12 +139,13 @@ XyzText parse_xyz_text(std::string_view text, const std::string& where) {
   for (TextLines lines(text); lines.next();) {
     const std::string_view line = trim(lines.line());
     if (line.empty()) continue;
-    const bool comment = line.front() == '#' && !starts_with_spreadsheet_error(line);
+    const bool comment = is_text_comment(line);
     if (comment || (xyz.points.empty() && !starts_like_number(line))) {
       header.set_line(lines.number());
-      const auto columns = parse_xyz_columns(line);
+      const std::string_view said = comment ? bare_comment(line) : line;
+      const auto columns = parse_xyz_columns(said);
       if (columns) take_columns(*columns, fmt::format("{}, line {}", where, lines.number()), header);
-      if (comment && !columns && names_other_columns(line)) refuse_columns(line, where, lines.number());
+      if (comment && !columns && names_other_columns(said)) refuse_columns(line, where, lines.number());
       if (comment && !columns) header.read_comment(line, lines.number());
       if (comment || columns) continue;
     }

@@ -9,8 +9,8 @@
 namespace dwell {
 
 /// The nm in one of the unit of length that the text names: nm, um, mm, cm, m, pm, angstrom, inch, each by its sign or
-/// its word, British or American, one or many ("µm" with either mu and in Latin-1 too, "micron", "Micrometres"), in any
-/// case, in brackets or quotes or not. Nothing if it names none.
+/// its word, British or American, German or French, one or many ("µm" with either mu and in Latin-1 too, "micron",
+/// "Micrometres"), in any case, in brackets or quotes or not. Nothing if it names none.
 std::optional<double> known_length_unit(std::string_view text);
 
 /// The nm/s in one of the unit of rate that the text names: a length per second, minute or hour, written "um/min",

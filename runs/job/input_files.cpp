@@ -35,6 +35,7 @@ MapReadOptions map_reading(const JobOptions& options) {
   read.no_data = options.map_no_data;
   if (options.map_max_pv_mm) read.max_pv = *options.map_max_pv_mm * units::kNmPerMm;
   read.table = options.map_table;
+  read.rows = options.map_rows;
   read.grid = options.map_grid;
   read.threads = thread_count(options.threads);
   return read;
@@ -53,6 +54,7 @@ MapReadOptions tif_reading(const JobOptions& options, MapQuantity quantity) {
   read.origin_counts = is_centred_at_a_place(options);
   read.no_data = options.tif_no_data;
   read.table = options.tif_table;
+  read.rows = options.tif_rows;
   read.grid = options.tif_grid;
   read.threads = thread_count(options.threads);
   return read;

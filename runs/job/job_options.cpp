@@ -55,6 +55,7 @@ int whole(const std::string& text) {
 std::string shown(double value) { return fmt::format("{}", value); }
 std::string shown(const std::optional<double>& value) { return value ? shown(*value) : ""; }
 std::string shown(const std::optional<NoDataMarkers>& value) { return value ? to_string(*value) : ""; }
+std::string shown(const std::optional<MapRows>& value) { return value ? to_string(*value) : ""; }
 std::string shown(const std::optional<MatrixTable>& value) { return value ? to_string(*value) : ""; }
 
 /// The solvers, as a user names them.
@@ -106,6 +107,11 @@ std::vector<JobOptionRecord> make_table() {
        "in this unit",
        false, false, [](Options& o, const std::string& t) { o.map_table = parse_matrix_table(t); },
        [](const Options& o) { return shown(o.map_table); }},
+      {"map-rows", "map_rows", "EDGE",
+       "edge of the part at which the first row of the map's file lies: bottom (the smallest y) or top (the rows are "
+       "turned over); default: as the format says, bottom for a matrix",
+       false, false, [](Options& o, const std::string& t) { o.map_rows = parse_map_rows(t); },
+       [](const Options& o) { return shown(o.map_rows); }},
       {"map-grid", "map_grid", "pitch=MM[,reach=MM]",
        "fits a surface of this pixel pitch to points x y z that lie on no grid; no data farther than reach from the "
        "nearest point (default 1.5 times their spacing)",
@@ -140,6 +146,9 @@ std::vector<JobOptionRecord> make_table() {
       {"tif-table", "tif_table", "WHAT", "the same as --map-table for the removal function's file", false, false,
        [](Options& o, const std::string& t) { o.tif_table = parse_matrix_table(t); },
        [](const Options& o) { return shown(o.tif_table); }},
+      {"tif-rows", "tif_rows", "EDGE", "the same as --map-rows for the removal function's file", false, false,
+       [](Options& o, const std::string& t) { o.tif_rows = parse_map_rows(t); },
+       [](const Options& o) { return shown(o.tif_rows); }},
       {"tif-grid", "tif_grid", "pitch=MM[,reach=MM]", "the same as --map-grid for the removal function's file", false,
        false, [](Options& o, const std::string& t) { o.tif_grid = parse_scatter_options(t); },
        [](const Options& o) { return to_string(o.tif_grid); }},

@@ -6,6 +6,7 @@
 
 #include "core/base/point.h"
 #include "core/form/form_terms.h"
+#include "core/formats/map_rows.h"
 #include "core/formats/matrix_table.h"
 #include "core/formats/no_data.h"
 #include "core/map/aperture.h"
@@ -31,6 +32,7 @@ struct JobOptions {
   std::optional<NoDataMarkers> map_no_data;
   std::optional<double> map_max_pv_mm;  // nothing: 10 mm
   std::optional<MatrixTable> map_table;
+  std::optional<MapRows> map_rows;  // nothing: as the format says
   std::optional<ScatterOptions> map_grid;
   std::string map_steps;
   std::optional<double> max_pixels;  // nothing: kMaxPixels, and no file that unpacks to many times its size
@@ -39,6 +41,7 @@ struct JobOptions {
   std::string tif_unit;  // empty: as the file says, else nm/s
   std::optional<NoDataMarkers> tif_no_data;
   std::optional<MatrixTable> tif_table;
+  std::optional<MapRows> tif_rows;
   std::optional<ScatterOptions> tif_grid;
   std::optional<double> tif_dwell_time_s;
   std::optional<TifCentre> tif_centre;  // nothing: as the file says

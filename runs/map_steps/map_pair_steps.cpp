@@ -26,6 +26,7 @@ namespace {
 HeightMap read_other(const std::string& file, const MapStep& step, MapStepContext& context) {
   MapReadOptions read = context.read;
   read.table.reset();
+  read.rows.reset();
   read.grid.reset();
   if (const auto pixel = step.optional_number("pixel")) read.pitch = *pixel;
   if (const auto origin = step.point("origin")) read.origin = *origin;

@@ -45,13 +45,14 @@ void refuse_unused(const TifJob& job) {
   only(o.map_pixel_mm || o.map_origin_mm || !o.map_unit.empty() || !o.map_steps.empty(), measured,
        "--map-pixel, --map-origin, --map-unit or --map-steps",
        "--spot or --trench (for a file of rates: --tif-pixel, --tif-unit)");
-  only(o.map_no_data || o.map_max_pv_mm || o.map_table || o.map_grid, measured,
-       "--map-no-data, --map-max-pv, --map-table or --map-grid",
-       "--spot or --trench (for a file of rates: --tif-no-data, --tif-table, --tif-grid)");
+  only(o.map_no_data || o.map_max_pv_mm || o.map_table || o.map_rows || o.map_grid, measured,
+       "--map-no-data, --map-max-pv, --map-table, --map-rows or --map-grid",
+       "--spot or --trench (for a file of rates: --tif-no-data, --tif-table, --tif-rows, --tif-grid)");
   only(o.tif_pixel_mm || !o.tif_unit.empty() || o.tif_centre, !measured, "--tif-pixel, --tif-unit or --tif-centre",
        "a file of rates (for --spot and --trench: --map-pixel, --map-unit, --centre)");
-  only(o.tif_no_data || o.tif_table || o.tif_grid, !measured, "--tif-no-data, --tif-table or --tif-grid",
-       "a file of rates (for --spot and --trench: --map-no-data, --map-table, --map-grid)");
+  only(o.tif_no_data || o.tif_table || o.tif_rows || o.tif_grid, !measured,
+       "--tif-no-data, --tif-table, --tif-rows or --tif-grid",
+       "a file of rates (for --spot and --trench: --map-no-data, --map-table, --map-rows, --map-grid)");
 }
 
 HeightMap read_heights(const std::string& file, const TifJob& job, const char* role, std::vector<InputFile>& inputs,

@@ -22,6 +22,16 @@ TEST(ParseNumber, LeavesInfinityAndNanToTheCaller) {
   EXPECT_TRUE(std::isnan(*parse_number("nan")));
 }
 
+TEST(ParseNumber, KnowsWhatProgramsWriteForNoData) {
+  for (const char* text : {"", "nan", "-nan", "nan(ind)", "NA", "None", "NULL", "masked", "--", "BAD", "1.#QNAN",
+                           "-1.#IND", "\"none\"", "<NA>", "NoData", "#N/A"}) {
+    const auto value = height_number(text);
+    ASSERT_TRUE(value) << text;
+    EXPECT_TRUE(std::isnan(*value)) << text;
+  }
+  for (const char* text : {"1.#INF", "#REF!", "-", "nothing", "bads"}) EXPECT_FALSE(height_number(text)) << text;
+}
+
 TEST(ParseNumber, TrimsBothEnds) {
   EXPECT_EQ(trim("\t a b \r"), "a b");
   EXPECT_EQ(trim(" \t"), "");

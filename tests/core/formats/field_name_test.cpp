@@ -9,24 +9,24 @@ namespace dwell {
 namespace {
 
 TEST(FieldName, KnowsATopicInManySpellings) {
-  const auto expect = [](FieldTopic topic, const std::vector<std::string>& names) {
+  const auto expect = [](MapTopic topic, const std::vector<std::string>& names) {
     for (const std::string& name : names) EXPECT_EQ(parse_field_name(name).topic, topic) << name;
   };
-  expect(FieldTopic::ValueUnit, {"unit", "Units", "z_unit", "z unit", "zUnits", "ZUNIT", "BUNIT", "Height units",
-                                 "value_units", "DataUnit", "opd_unit", "rate unit", "unit_z"});
-  expect(FieldTopic::LateralUnit, {"xy_unit", "PIXUNIT", "pitch_unit", "pixel size unit", "lateral_units", "XUnit"});
-  expect(FieldTopic::UnknownUnit, {"laser_unit", "gizmo units"});
-  expect(FieldTopic::Other, {"exposure_time_unit", "TEMPERATURE_UNIT", "wavelength", "operator", "community", "x", "y",
-                             "serial", "date", "count", "", "__"});
-  expect(FieldTopic::Pitch, {"pitch_mm", "pixel_size_um", "Pixel size",       "PixelSizeX",   "dx",
-                             "dY",       "dx_mm",         "spacing",          "mm_per_pixel", "xpix",
-                             "XPIXSZ",   "PIXSIZE1",      "PUPLSCAL",         "PITCHMM",      "lateral_resolution",
-                             "x_step",   "DIFFELEM",      "pixel pitch [um]", "x_scale",      "pixels_per_mm"});
-  expect(FieldTopic::Size, {"width_mm", "XReal", "size", "diameter", "field_of_view"});
-  expect(FieldTopic::Origin, {"origin_mm", "Origin", "x_offset", "xmin", "X0", "y_start", "XORGSUBF", "originX_mm"});
-  expect(FieldTopic::NoData, {"no_data", "NODATA", "fill_value", "missing", "bad value", "InvalidValue"});
-  expect(FieldTopic::ValueScale, {"z_scale", "offset", "slope", "scale", "ZFactor"});
-  expect(FieldTopic::Label, {"long_name", "label"});
+  expect(MapTopic::ValueUnit, {"unit", "Units", "z_unit", "z unit", "zUnits", "ZUNIT", "BUNIT", "Height units",
+                               "value_units", "DataUnit", "opd_unit", "rate unit", "unit_z"});
+  expect(MapTopic::LateralUnit, {"xy_unit", "PIXUNIT", "pitch_unit", "pixel size unit", "lateral_units", "XUnit"});
+  expect(MapTopic::UnknownUnit, {"laser_unit", "gizmo units"});
+  expect(MapTopic::Other, {"exposure_time_unit", "TEMPERATURE_UNIT", "wavelength", "operator", "community", "x", "y",
+                           "serial", "date", "count", "", "__"});
+  expect(MapTopic::Pitch, {"pitch_mm", "pixel_size_um", "Pixel size",       "PixelSizeX",   "dx",
+                           "dY",       "dx_mm",         "spacing",          "mm_per_pixel", "xpix",
+                           "XPIXSZ",   "PIXSIZE1",      "PUPLSCAL",         "PITCHMM",      "lateral_resolution",
+                           "x_step",   "DIFFELEM",      "pixel pitch [um]", "x_scale",      "pixels_per_mm"});
+  expect(MapTopic::Size, {"width_mm", "XReal", "size", "diameter", "field_of_view"});
+  expect(MapTopic::Origin, {"origin_mm", "Origin", "x_offset", "xmin", "X0", "y_start", "XORGSUBF", "originX_mm"});
+  expect(MapTopic::NoData, {"no_data", "NODATA", "fill_value", "missing", "bad value", "InvalidValue"});
+  expect(MapTopic::ValueScale, {"z_scale", "offset", "slope", "scale", "ZFactor"});
+  expect(MapTopic::Label, {"long_name", "label"});
 }
 
 TEST(FieldName, FindsTheAxisAndTheUnit) {

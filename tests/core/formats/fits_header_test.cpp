@@ -63,6 +63,43 @@ TEST(FitsHeader, NamesWhatMayBeAPitch) {
   }
 }
 
+TEST(FitsHeader, ReadsUnitsUnderNamesOfTheValues) {
+  EXPECT_EQ(read_with({"HEIGHT  = 'um'"}).header.unit, "um");
+  EXPECT_EQ(read_with({"BTYPE   = 'height [um]'"}).header.unit, "um");
+  EXPECT_EQ(read_with({"Z       = 'micron'"}).header.unit, "micron");
+  EXPECT_TRUE(read_with({"BTYPE   = 'height'"}).header.unclear.empty());
+}
+
+TEST(FitsHeader, KeepsWhatRemarksAndOtherKeywordsMaySay) {
+  using About = UnclearStatement::About;
+  const auto expect = [](const std::string& card, About about, const std::string& word) {
+    const MapSource source = read_with({card});
+    ASSERT_EQ(source.header.unclear.size(), 1u) << card;
+    EXPECT_EQ(source.header.unclear[0].about, about) << card;
+    EXPECT_NE(source.header.unclear[0].message.find(word), std::string::npos) << source.header.unclear[0].message;
+  };
+  expect("COMMENT heights in um", About::Unit, "FITS COMMENT: 'heights in um'");
+  expect("HISTORY values written in nm", About::Unit, "FITS HISTORY");
+  expect("COMMENT row 0 = top", About::Rows, "orientation");
+  expect("FLIPY   =                    T", About::Rows, "FLIPY = 1");
+  expect("NOTE    = 'residual, microns'", About::Unit, "FITS keyword NOTE");
+  expect("GAIN    = 2.5", About::Factor, "GAIN = 2.5");
+  EXPECT_NE(read_with({"LTV1    = 12.0"}).unclear_origin.find("LTV1 = 12"), std::string::npos);
+  for (const char* card :
+       {"HISTORY flipped in y by the pipeline", "COMMENT measured by Anna", "FLIPY   =                    F",
+        "LTV1    = 0.0", "OBJECT  = 'mirror 5'", "GAIN    = 1.0"}) {
+    const MapSource source = read_with({card});
+    EXPECT_TRUE(source.header.unclear.empty()) << card;
+    EXPECT_EQ(source.unclear_origin, "") << card;
+  }
+  const test::TemporaryFolder folder;
+  const auto path = folder.file("a.fits", map_bytes({"PITCHMM = 0.5", "COMMENT heights in um"}));
+  test::expect_input_error([&] { read_map(path); }, {"a.fits", "heights in um", "`map unit`"});
+  MapReadOptions options;
+  options.scale = 1e3;
+  EXPECT_EQ(read_map(path, options).values.back(), 6e3);
+}
+
 TEST(FitsHeader, NamesWhatMayBeAnOrigin) {
   EXPECT_NE(read_with({"CRVAL1  = -4.0"}).unclear_origin.find("CRVAL1 = -4 with CUNIT1 = ''"), std::string::npos);
   EXPECT_NE(read_with({"XORGSUBF= 12"}).unclear_origin.find("XORGSUBF = 12"), std::string::npos);
@@ -91,7 +128,7 @@ TEST(FitsHeader, TakesMarkersOfNoData) {
     EXPECT_EQ(source.header.history.front(), said);
   };
   expect({"BLANK   = 5"}, "read FITS: pixels without data: 1 of BLANK 5");
-  expect({"NODATA  = 5.0"}, "read FITS: pixels without data: 1 of no data 5");
+  EXPECT_EQ(read_with({"NODATA  = 5.0"}).header.no_data, std::vector<double>{5.0});
   refused({"NODATA  = 'grey'"}, {"NODATA = 'grey'", "a number"});
   refused({"ZSCALE  = 2.0"}, {"ZSCALE = 2", "1 (heights as they are)"});
 }

@@ -85,6 +85,22 @@ TEST(Hdf5Fields, WhatMayBeAnOriginNeedsAWord) {
   EXPECT_EQ(read_map(path, options).grid.origin, (Point{12.0, 0.0}));
 }
 
+TEST(Hdf5Fields, ATextMaySayWhatNoNameSays) {
+  EXPECT_EQ(read_with([](auto& f) { f.text("/run/z", "quantity", "um"); }).header.unit, "um");
+  const test::TemporaryFolder folder;
+  for (const char* where : {"/z", "/"}) {
+    Hdf5TestFile file;
+    file.doubles("/z", {1, 2}, {1, 2});
+    file.number("/z", "pitch_mm", {0.5});
+    file.text(where, "comment", "amplitude in um");
+    const auto path = folder.file("a.h5", file.bytes());
+    test::expect_input_error([&] { read_map(path); }, {"a.h5", "attribute comment", "'amplitude in um'", "`map unit`"});
+    MapReadOptions options;
+    options.scale = 1e3;
+    EXPECT_EQ(read_map(path, options).at(0, 1), 2e3) << where;
+  }
+}
+
 TEST(Hdf5Fields, AFactorIsRefusedByName) {
   refused([](auto& f) { f.number("/run/z", "z_scale", {1e-3}); }, {"attribute z_scale", "0.001", "required"});
   refused([](auto& f) { f.number("/", "z_factor", {2}); }, {"attribute z_factor of HDF5 group '/'", "2"});

@@ -85,11 +85,50 @@ TEST(MapFields, TakeAnOriginOrSayThatItIsUnclear) {
 }
 
 TEST(MapFields, TakeMarkersOfNoDataAndRefuseFactors) {
-  EXPECT_EQ(said({number("no_data", {-9999}), text("missing", "nan")}).no_data, (std::vector<double>{-9999}));
+  EXPECT_EQ(said({number("no_data", {-9999}), text("missing", "nan")}).header.no_data, (std::vector<double>{-9999}));
   refused({text("no_data", "grey")}, {"no_data = 'grey'", "a number"});
   refused({number("z_scale", {1e-3})}, {"z_scale = 0.001", "1 (heights as they are)"});
   refused({number("offset", {5})}, {"offset = 5", "0 (heights"});
-  EXPECT_TRUE(said({number("scale", {1}), number("offset", {0})}).no_data.empty());
+  EXPECT_TRUE(said({number("scale", {1}), number("offset", {0})}).header.no_data.empty());
+}
+
+TEST(MapFields, TakeAUnitUnderANameOfTheValues) {
+  for (const MapField& field :
+       {text("z", "um"), text("height", "um"), text("quantity", "um"), text("quantity", "height [um]"),
+        text("surface", "um"), text("H\xc3\xb6he", "um"), text("Einheit", "um")}) {
+    EXPECT_EQ(said({field}).header.unit, "um") << field.name;
+    EXPECT_TRUE(said({field}).header.unclear.empty()) << field.name;
+    EXPECT_EQ(said({field}).unclear_pitch, "") << field.name;
+  }
+  EXPECT_FALSE(said({text("quantity", "height")}).header.unit);
+}
+
+TEST(MapFields, KeepWhatTextsAndDoubtfulNamesMaySay) {
+  using About = UnclearStatement::About;
+  const auto expect = [](const MapField& field, About about) {
+    const MapHeader header = said({field}).header;
+    ASSERT_FALSE(header.unclear.empty()) << field.name;
+    EXPECT_EQ(header.unclear[0].about, about) << field.name;
+    EXPECT_NE(header.unclear[0].message.find("map a: field " + field.name), std::string::npos)
+        << header.unclear[0].message;
+  };
+  expect(text("columns", "x_mm y_mm z_um"), About::Unit);
+  expect(text("comment", "heights in um"), About::Unit);
+  expect(text("detector", "um"), About::Unit);
+  expect(text("height", "given in um"), About::Unit);
+  expect(number("conversion", {0.5}), About::Factor);
+  expect(number("gain", {2}), About::Factor);
+  expect(number("waves", {1}), About::Factor);
+  expect(text("orientation", "top-down"), About::Rows);
+  expect(number("flipped", {1}), About::Rows);
+  for (const MapField& field : {text("orientation", "none"), number("flipped", {0}), text("comment", "made by Anna"),
+                                text("instrument", "Verifire, 633 nm"), number("gain", {1}), number("waves", {0})}) {
+    EXPECT_TRUE(said({field}).header.unclear.empty()) << field.name;
+  }
+  for (const MapField& field : {number("center_mm", {50, 50}), number("center_mm", {0, 0}),
+                                number("extent_mm", {0, 9, 0, 8}), number("Mittelpunkt", {1, 2})}) {
+    EXPECT_NE(said({field}).unclear_origin.find(field.name), std::string::npos) << field.name;
+  }
 }
 
 TEST(MapFields, KnowALengthAsText) {

@@ -1,5 +1,6 @@
 #include "core/formats/matrix_table.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -40,6 +41,56 @@ TEST(MatrixTable, RefusesAnIndexAndCoordinatesWithAHint) {
   expect_hint(kIndexAlone, {"the first column (5 numbers from 1 in steps of 1)"});
   expect_hint(kHeaderAlone, {"the first row (5 numbers from 0 in steps of 10)"});
   expect_hint(kNumberedCorner, {"first row (4 numbers", "first column (4 numbers"});
+}
+
+/// Heights without any order, with coordinates as printed with so many decimals: x of 0.09375, y of 0.0625 mm.
+std::string printed_table(const std::string& corner, int decimals, bool row, bool column, bool last = false) {
+  constexpr int kRows = 9, kCols = 12;
+  std::string text;
+  const auto add = [&](const std::string& heading, const std::string& numbers, bool headed) {
+    text += !headed ? numbers : last ? numbers + "," + heading : heading + "," + numbers;
+    text += "\n";
+  };
+  std::string x;
+  for (int col = 0; col < kCols; ++col) x += fmt::format("{}{:.{}f}", col == 0 ? "" : ",", 0.09375 * col, decimals);
+  if (row) add(corner, x, column);
+  for (int i = 0; i < kRows; ++i) {
+    std::string heights;
+    for (int col = 0; col < kCols; ++col) {
+      heights += fmt::format("{}{}", col == 0 ? "" : ",", (i * 37 + col * col * 29 + i * i * col * 11) % 101 - 50);
+    }
+    add(fmt::format("{:.{}f}", 1.0 + 0.0625 * i, decimals), heights, column);
+  }
+  return text;
+}
+
+TEST(MatrixTable, KnowsCoordinatesThatArePrintedWithFewDigits) {
+  for (const int decimals : {2, 3, 4}) {
+    for (const char* corner : {"", "0", "nan"}) {
+      const std::string text = printed_table(corner, decimals, true, true);
+      expect_hint(text, {"first row (12 numbers from 0", "first column (9 numbers from 1"});
+      const HeightMap map = read_table(text, "mm", std::nullopt);
+      EXPECT_EQ(map.grid.rows, 9) << text;
+      EXPECT_EQ(map.grid.cols, 12) << text;
+      EXPECT_NEAR(map.grid.pitch_x, 0.09375, 1e-3) << text;
+      EXPECT_NEAR(map.grid.pitch_y, 0.0625, 1e-3) << text;
+      EXPECT_EQ(map.at(0, 1), -21.0);
+      EXPECT_EQ(read_table(text, "index", 0.0625).grid, (Grid{9, 12, 0.0625, 0.0625, {}}));
+    }
+    expect_hint(printed_table("", decimals, true, false), {"the first row (12 numbers from 0"});
+    expect_hint(printed_table("", decimals, false, true), {"the first column (9 numbers from 1"});
+  }
+}
+
+TEST(MatrixTable, RefusesCoordinatesThatStandLast) {
+  for (const char* table : {"", "mm", "index"}) {
+    for (const bool row : {false, true}) {
+      const std::string text = printed_table("nan", 3, row, true, true);
+      expect_input_error([&] { read_table(text, table); }, {"the last column (9 numbers from 1", "put it first"});
+    }
+  }
+  EXPECT_EQ(read_table(printed_table("", 3, false, true, true), "heights").grid.cols, 13);
+  expect_input_error([] { read_table(printed_table("", 3, true, false), "mm"); }, {"first column", "needed of both"});
 }
 
 TEST(MatrixTable, TakesPlanesSmallMapsAndEmptyCornersForHeights) {

@@ -103,7 +103,7 @@ TEST(NpySidecar, ReadsTheKeysOfOtherPrograms) {
   EXPECT_EQ(said(R"("pitch": 0.5, "pitch_unit": "mm")").header.pitch, (Point{0.5, 0.5}));
   EXPECT_EQ(said(R"("pixel_size": 0.5)").unclear_pitch, "pixel_size = 0.5");
   EXPECT_EQ(said(R"("offset_x_mm": 3)").unclear_origin, "offset_x_mm = 3");
-  EXPECT_EQ(said(R"("no_data": -9999)").no_data, (std::vector<double>{-9999}));
+  EXPECT_EQ(said(R"("no_data": -9999)").header.no_data, (std::vector<double>{-9999}));
   EXPECT_FALSE(said(R"("operator": "nobody", "shape": [2, 3], "temperature_unit": "K")").header.unit);
   test::expect_input_error([&] { said(R"("unit": "um", "units": "nm")"); }, {"a.json", "unit = 'um'", "units = 'nm'"});
   test::expect_input_error([&] { said(R"("z_scale": 0.001)"); }, {"a.json", "z_scale = 0.001"});
@@ -126,7 +126,18 @@ TEST(NpySidecar, ItsMarkersOfNoDataAndItsUnitHoldForTheArray) {
   const HeightMap read = read_map(file, options);
   EXPECT_EQ(read.at(0, 2), 3000.0);
   EXPECT_TRUE(std::isnan(read.at(0, 1)));
-  EXPECT_EQ(read.history, (std::vector<std::string>{"read a.npy.json: pixels without data: 1 of no data -9999"}));
+  EXPECT_EQ(read.history, (std::vector<std::string>{"no data: 1 pixels of -9999, as the file says"}));
+}
+
+TEST(NpySidecar, TakesOneNumberForBothPitchesAndNullForNothing) {
+  const std::string sha(64, 'a');
+  const auto header = [&](const std::string& fields) {
+    return parse_npy_sidecar("{\"sha256\": \"" + sha + "\", " + fields + "}", sha, "a.json").header;
+  };
+  EXPECT_EQ(header(R"("pitch_mm": 0.5)").pitch, (Point{0.5, 0.5}));
+  const MapHeader none = header(R"("unit": null, "origin_mm": null, "pitch_mm": null, "no_data": null)");
+  EXPECT_FALSE(none.unit || none.pitch || none.origin || !none.no_data.empty() || !none.unclear.empty());
+  EXPECT_EQ(header(R"("flipped": true)").unclear.size(), 1u);
 }
 
 TEST(NpySidecar, NamesWhatItRefuses) {
@@ -142,7 +153,7 @@ TEST(NpySidecar, NamesWhatItRefuses) {
   refused("{\"sha256\": 1}", {"sha256 = 1"});
   refused("{\"sha256\": \"abc\"}", {"stale", "'abc'", sha});
   refused("{\"sha256\": \"abc\", \"previous\": 1}", {"previous", "JSON object"});
-  refused(entry("\"pitch_mm\": 0.1"), {"pitch_mm = 0.1", "[x, y]"});
+  refused(entry("\"pitch_mm\": -0.1"), {"pitch_mm = -0.1", "one number > 0, or two [x, y]"});
   refused(entry("\"pitch_mm\": [0.1, 0]"), {"pitch_mm = [0.1,0]", "> 0"});
   refused(entry("\"pitch_mm\": [0.1, 1e999]"), {"no sidecar"});
   refused(entry("\"pitch_mm\": [0.1, null]"), {"pitch_mm"});

@@ -76,6 +76,39 @@ TEST(TextHeader, TakesTheUnitOfTheValuesInEverySpelling) {
   EXPECT_EQ(unit_factor(*header_of("# rate unit: um/min").unit, MapQuantity::Rate), 1e3 / 60.0);
 }
 
+TEST(TextHeader, KnowsGermanAndFrench) {
+  for (const char* line :
+       {"# Einheiten: um", "# Einheit: \xc2\xb5m", "# unit\xc3\xa9: um", "# unit\xe9s = um",
+        "# H\xc3\xb6he in Mikrometer", "# H\xf6hen [um]",
+        "# Ma\xc3\x9f"
+        "einheit: um",
+        "# hauteurs en microm\xc3\xa8tres", "# residual, microns", "# amplitude in um", "# unit,um,"}) {
+    const MapHeader header = header_of(line);
+    ASSERT_TRUE(header.unit) << line;
+    EXPECT_EQ(known_length_unit(*header.unit), 1e3) << line;
+    EXPECT_TRUE(header.unclear.empty()) << line << ": " << header.unclear[0].message;
+  }
+  for (const char* line : {"# Pixelabstand: 0.25 mm", "# pas: 250 um", "# Schrittweite_mm: 0.25",
+                           "# Pixelgr\xc3\xb6\xc3\x9f"
+                           "e: 0.25 mm",
+                           "# pitch_mm,0.25"}) {
+    EXPECT_EQ(header_of(line).pitch, (Point{0.25, 0.25})) << line;
+  }
+  EXPECT_EQ(header_of("# Ursprung_mm: 100,-50").origin, (Point{100.0, -50.0}));
+  EXPECT_EQ(header_of("# Fehlwert: -9999").no_data, std::vector<double>{-9999.0});
+  expect_unclear("# Breite: 100 mm", About::Pitch, {"Breite", "100 mm"});
+  expect_unclear("# pas: 0.5", About::Pitch, {"pas", "'0.5'", "without a unit"});
+  expect_unclear("# Verst\xc3\xa4rkung: 2.5", About::Factor, {"'2.5'", "factor"});
+}
+
+TEST(TextHeader, AsksWhatADecimalCommaMeans) {
+  for (const char* line : {"# Pixelabstand: 0,5 mm", "# pitch: 1,5 mm", "# dx: 0,5 mm", "# pas = 0,5"}) {
+    expect_unclear(line, About::Pitch, {"decimal comma"});
+  }
+  EXPECT_EQ(header_of("# pitch_mm: 1,2").pitch, (Point{1.0, 2.0})) << "as this program writes it";
+  EXPECT_EQ(header_of("# pitch: 0.25, 0.5 mm").pitch, (Point{0.25, 0.5}));
+}
+
 TEST(TextHeader, TakesAUnitThatStandsAlone) {
   for (const char* line : {"# um", "# [um]", "#microns", "# (\xc2\xb5m)"}) {
     const MapHeader header = header_of(line);
@@ -89,11 +122,11 @@ TEST(TextHeader, TakesAUnitThatStandsAlone) {
 }
 
 TEST(TextHeader, FindsAUnitInBracketsBehindAnyWords) {
-  for (const char* line : {"# dz [um]", "# TIF [um/s]", "# wavefront (nm)", "# slope [urad]", "# sag of run 7 [m]"}) {
+  for (const char* line : {"# measured through the window of the long chamber (nm)", "# dz [um]", "# TIF [um/s]",
+                           "# wavefront (nm)", "# slope [urad]", "# sag of run 7 [m]"}) {
     expect_unclear(line, About::Unit, {"line 2", "unit of the values"});
   }
   EXPECT_TRUE(says_nothing(header_of("# aperture [mm]")));
-  EXPECT_TRUE(says_nothing(header_of("# measured through the window of the long chamber (nm)")));
 }
 
 TEST(TextHeader, TakesThePitchInEveryUnit) {
@@ -161,6 +194,11 @@ TEST(TextHeader, TakesTheOriginAndRefusesAnOffset) {
   expect_unclear("# offset: 3 mm", About::Origin, {"line 2", "offset", "'3 mm'", "origin_mm"});
   expect_unclear("# X_Offset_mm: 3", About::Origin, {"X_Offset_mm", "'3'"});
   expect_unclear("# x0: 3 mm", About::Origin, {"x0", "one direction"});
+  for (const char* line :
+       {"# center_mm: 50,50", "# centre: 0, 0", "# extent: 0 100 0 80", "# origin: center", "# corner: 0,0",
+        "# lower left: 3, 4 mm", "# Bildmitte: 50 50 mm", "# map centre at 12, 9 mm"}) {
+    expect_unclear(line, About::Origin, {"origin_mm", "centre of the first pixel"});
+  }
   EXPECT_TRUE(says_nothing(header_of("# offset: 0,0\n# origin: Oslo\n# z offset: 0")));
 }
 
@@ -178,11 +216,18 @@ TEST(TextHeader, KeepsWhatIsUnclearForWhoeverKnowsTheOptions) {
   expect_unclear("# pitch: 0.25", About::Pitch, {"map a.csv, line 2", "pitch", "'0.25'", "without a unit", "pitch_mm"});
   expect_unclear("# resolution: 0.1 mm", About::Pitch, {"resolution"});
   expect_unclear("# the pixel pitch was found to be 0.25 mm", About::Pitch, {"pitch_mm"});
-  expect_unclear("# z scale: 1e-9", About::Unit, {"z scale", "'1e-9'", "unit"});
-  expect_unclear("# dz: 2 nm", About::Unit, {"dz", "unit"});
+  expect_unclear("# z scale: 1e-9", About::Factor, {"z scale", "'1e-9'", "unit"});
+  expect_unclear("# gain: 2.5", About::Factor, {"gain", "'2.5'", "factor"});
+  expect_unclear("# height [10 nm]", About::Factor, {"factor"});
+  expect_unclear("# nm/count: 0.5", About::Factor, {"factor"});
+  expect_unclear("# laser unit: um", About::Unit, {"laser unit um"});
+  expect_unclear("# OPD in waves at 633 nm", About::Unit, {"no length"});
+  expect_unclear("# row 0 = top", About::Rows, {"orientation"});
+  expect_unclear("# dz: 2 nm", About::Factor, {"dz", "unit"});
   expect_unclear("# measured height map of Tuesday (um)", About::Unit, {"looks like the unit", "# unit: um"});
   expect_unclear("# unit um of the surface", About::Unit, {"unit um of"});
   expect_unclear("# lateral unit: um", About::Pitch, {"lateral unit"});
+  expect_unclear("# pitch: unknown", About::Pitch, {"pitch", "'unknown'", "mm or with a unit"});
   expect_unclear("# dx: 0.5 mm", About::Pitch, {"dx", "one direction"});
 }
 
@@ -194,14 +239,13 @@ TEST(TextHeader, RefusesByNameWhatItCannotRead) {
   refused("# Unit: waves", {"Unit", "'waves'", "nm, um, mm, m"});
   refused("# heights in fringes", {"'fringes'", "nm, um"});
   refused("# z [waves]", {"'waves'", "nm, um"});
-  refused("# pitch: unknown", {"pitch", "'unknown'", "mm or with a unit"});
   refused("# Pitch_mm: 0", {"Pitch_mm", "'0'"});
   refused("# pixel size: 0.5 furlongs", {"pixel size", "'0.5 furlongs'"});
   refused("# pitch_um: 250 mm", {"pitch_um", "'250 mm'", "um"});
   refused("# dx=0.5 dy=0.5", {"dx", "'0.5 dy=0.5'"});
   refused("# origin_mm: 1", {"origin_mm", "'1'", "x,y"});
   refused("# origin: x=1 mm, y=2 mm", {"origin", "'x=1 mm'"});
-  refused("# nodata: BAD", {"nodata", "'BAD'", "nan"});
+  refused("# nodata: grey", {"nodata", "'grey'", "nan"});
   refused("# lateral units: pixel", {"lateral units", "'pixel'"});
 }
 
@@ -221,6 +265,13 @@ TEST(TextHeader, LeavesOtherCommentsAlone) {
                            "# instrument: Zygo Verifire, 633 nm",
                            "# wavelength: 632.8 nm",
                            "# operator: N. N., part no. 5",
+                           "# pitch: Gugolz 64",
+                           "# no data outside the aperture",
+                           "# lateral resolution (optical): 3 um",
+                           "# PV: 120.3 nm",
+                           "# RMS 23 nm",
+                           "# 5 mm aperture stop",
+                           "# measured by Anna, 20 C",
                            "# unit under test",
                            "# unit number: 5",
                            "# C:/data/height.txt",
@@ -265,6 +316,16 @@ TEST(TextHeader, AnOptionSettlesWhatIsUnclear) {
   const HeightMap map = read_map(file, options);
   EXPECT_EQ(map.at(1, 0), 4e3);
   EXPECT_TRUE(std::isnan(map.at(1, 1)));
+}
+
+// A unit says nothing of a factor: nobody knows whether it is that before or after.
+TEST(TextHeader, AUnitDoesNotSettleAFactor) {
+  const test::TemporaryFolder folder;
+  const auto file = folder.file("a.csv", "# pitch_mm: 0.5\n# unit: um\n# gain: 2.5\n1,2\n4,7\n");
+  MapReadOptions options;
+  test::expect_input_error([&] { read_map(file, options); }, {"a.csv, line 3", "gain = '2.5'", "`map unit`"});
+  options.scale = 1e3;
+  EXPECT_EQ(read_map(file, options).at(1, 0), 4e3);
 }
 
 }  // namespace

@@ -5,9 +5,11 @@
 
 #include <cmath>
 
+#include "core/formats/map_io.h"
 #include "core/formats/point_grid.h"
 #include "core/map/value_units.h"
 #include "tests/core/base/expect_error.h"
+#include "tests/core/base/temporary_folder.h"
 
 namespace dwell {
 namespace {
@@ -118,6 +120,55 @@ TEST(XyzText, NamesTheLineItRefuses) {
   expect_refused("0,0 0,0 1,5\n0,5 0,0 2,5\n", {"line 1", "'0,0 0,0 1,5'", "decimal commas", "points"});
   expect_refused("0,0\t1\t1,5\n", {"line 1", "'0,0\\t1\\t1,5'", "decimal commas"});
   expect_refused("# unit: nm\nx y z_um\n0 0 1\n", {"line 2", "'um'", "'nm'"});
+}
+
+/// Four columns and three rows, no two distances alike.
+std::string points_after(const std::string& comment) {
+  std::string text = comment + "\n";
+  for (int y = 0; y < 3; ++y) {
+    for (int x = 0; x < 4; ++x) text += fmt::format("{} {} {}\n", x * 0.5, y * 0.25, (7 * x + y) % 5);
+  }
+  return text;
+}
+
+TEST(XyzText, TakesTheUnitOfCoordinatesFromASentence) {
+  const auto pitch = [](const std::string& comment) {
+    const test::TemporaryFolder folder;
+    const Grid grid = read_map(folder.file("a.xyz", points_after(comment))).grid;
+    return Point{grid.pitch_x, grid.pitch_y};
+  };
+  for (const char* inches : {"# coordinates in inches", "# coordinates are in inches",
+                             "# x and y coordinates in inches", "# xy in inches"}) {
+    EXPECT_NEAR(pitch(inches).x, 12.7, 1e-9) << inches;
+    EXPECT_NEAR(pitch(inches).y, 6.35, 1e-9) << inches;
+  }
+  EXPECT_NEAR(pitch("# everything in um").x, 0.0005, 1e-12);
+  EXPECT_NEAR(pitch("# Koordinaten in cm").y, 2.5, 1e-9);
+  EXPECT_EQ(pitch("# coordinates in mm"), (Point{0.5, 0.25}));
+  EXPECT_EQ(pitch("# measured by Anna, 20 C"), (Point{0.5, 0.25}));
+}
+
+TEST(XyzText, TakesAUnitOfEverything) {
+  const test::TemporaryFolder folder;
+  const auto file = folder.file("a.xyz", "# all in metres\n0 0 1e-6\n0.002 0 2e-6\n0 0.001 3e-6\n0.002 0.001 5e-6\n");
+  const HeightMap map = read_map(file);
+  EXPECT_NEAR(map.grid.pitch_x, 2.0, 1e-12);
+  EXPECT_NEAR(map.grid.pitch_y, 1.0, 1e-12);
+  EXPECT_NEAR(map.at(1, 1), 5e3, 1e-9);
+}
+
+TEST(XyzText, RefusesPlacesInAUnitThatIsNotClear) {
+  const test::TemporaryFolder folder;
+  for (const char* comment : {"# pixel indices, 0.1 mm per pixel", "# all lengths in m", "# x and y in pixels",
+                              "# data in inches", "# unit: m", "# lateral positions in um, heights in nm"}) {
+    MapReadOptions options;
+    const auto file = folder.file("a.xyz", points_after(comment));
+    test::expect_input_error([&] { read_map(file, options); }, {"a.xyz, line 1", "mm"});
+    options.scale =
+        comment == std::string("# unit: m") || comment == std::string("# data in inches") ? options.scale : 1.0;
+    options.pitch = 0.5;
+    test::expect_input_error([&] { read_map(file, options); }, {"a.xyz, line 1"});
+  }
 }
 
 TEST(PointGrid, NamesPointsOffTheGridAndPointsGivenTwice) {

@@ -28,6 +28,7 @@ JobOptions unusual() {
   o.map_no_data = NoDataMarkers{{-9999.0, 0.1}};
   o.map_max_pv_mm = 25.0;
   o.map_table = parse_matrix_table("um");
+  o.map_rows = MapRows::Top;
   o.map_grid = ScatterOptions{0.3, 1.0 / 7.0};
   o.map_steps = "crop:data; subtract:file=/data/b.csv,how=resample";
   o.max_pixels = 1e6;
@@ -36,6 +37,7 @@ JobOptions unusual() {
   o.tif_unit = "um/min";
   o.tif_no_data = NoDataMarkers{};
   o.tif_table = parse_matrix_table("index");
+  o.tif_rows = MapRows::Bottom;
   o.tif_grid = ScatterOptions{0.2, {}};
   o.tif_dwell_time_s = 4.5;
   o.tif_centre = parse_tif_centre("0.5,-0.25");

@@ -57,6 +57,7 @@ TEST(JobOptionTable, GivesBackWhatItIsGiven) {
                                                                   {"map-no-data", "none"},
                                                                   {"map-max-pv", "12.5"},
                                                                   {"map-table", "index"},
+                                                                  {"map-rows", "top"},
                                                                   {"map-grid", "pitch=0.5,reach=2"},
                                                                   {"map-steps", "crop:data;fill:harmonic"},
                                                                   {"max-pixels", "1000000000"},
