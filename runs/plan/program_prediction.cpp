@@ -7,7 +7,7 @@
 namespace dwell {
 
 bool lattice_too_coarse(const ExactResidual& exact, const MapStatistics& before) {
-  constexpr double kTells = 5e-5;  // of the removal: errors of the table cancel along the path
+  constexpr double kTells = 1.5e-5;  // of the removal: errors of the table cancel along the path
   const double most =
       std::max(kWorstLatticeError * exact.statistics.rms_about_zero(), kTells * before.rms_about_zero());
   return !(exact.lattice_error <= most);
