@@ -8,6 +8,7 @@
 #include "core/base/whole_file.h"
 #include "core/map/aperture.h"
 #include "runs/job/input_files.h"
+#include "runs/plan/pitch_choice.h"
 
 namespace dwell {
 namespace {
@@ -38,8 +39,10 @@ Job load_job(const JobOptions& options, const Progress& progress) {
 }
 
 LaidPath lay_job_path(const Job& job, const Progress& progress) {
-  const double max_feed = dwell_options(job.options).machine.feed_limits().max_feed;
-  return lay_path(*job.part, required_path(job.options), job.options.motion, max_feed, progress);
+  const DwellOptions options = dwell_options(job.options);
+  const PathSpec& spec = required_path(job.options);
+  if (pitch_is_searched(spec)) return lay_searched_raster(*job.part, spec, job.options.motion, options, progress);
+  return lay_path(*job.part, spec, job.options.motion, options.machine.feed_limits().max_feed, progress);
 }
 
 std::optional<InputFile> path_input(const JobOptions& options) {
