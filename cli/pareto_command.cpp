@@ -18,6 +18,7 @@ struct ParetoArguments {
   std::unique_ptr<JobArguments> job;
   std::string smoothnesses, time_prices;
   JsonOption json;
+  ResultFolder folder;
 };
 
 /// The text for people: the front of the sweep.
@@ -45,8 +46,9 @@ int run_pareto(const ParetoArguments& arguments) {
   if (!arguments.smoothnesses.empty())
     ranges.smoothnesses = parse_weight_list(arguments.smoothnesses, "--smoothnesses");
   if (!arguments.time_prices.empty()) ranges.time_prices = parse_weight_list(arguments.time_prices, "--time-prices");
-  arguments.json.check(arguments.job->files_read(options), options.out);
-  OutputFolder folder = result_folder(options.out, pareto_files());
+  const std::vector<ReadFile> read = arguments.job->files_read(options);
+  arguments.json.check(read, options.out);
+  OutputFolder folder = arguments.folder.make(options.out, pareto_files(), read);
   const ParetoSweep sweep = sweep_weights(options, ranges, terminal_progress());
   const std::string json = write_pareto(sweep, folder);
   folder.commit();
@@ -82,6 +84,7 @@ void add_pareto_command(CLI::App& program, int& exit_code) {
           "prices of machine time in nm^2/s, likewise (default 0 and four up to a hundredth of the highest that "
           "has any effect)")
       ->type_name("PRICES");
+  arguments->folder.add_to(*command);
   arguments->json.add_to(*command);
   command->footer(
       "Example:\n"

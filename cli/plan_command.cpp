@@ -21,6 +21,7 @@ namespace {
 struct PlanArguments {
   std::unique_ptr<JobArguments> job;
   JsonOption json;
+  ResultFolder folder;
   bool write_job = false;
 };
 
@@ -63,8 +64,9 @@ int run_plan(const PlanArguments& arguments) {
     print(job_file_text(options));
     return kDone;
   }
-  arguments.json.check(arguments.job->files_read(options), options.out);
-  OutputFolder folder = result_folder(options.out, plan_files());
+  const std::vector<ReadFile> read = arguments.job->files_read(options);
+  arguments.json.check(read, options.out);
+  OutputFolder folder = arguments.folder.make(options.out, plan_files(), read);
   const Progress progress = terminal_progress();
   const PlannedJob plan = plan_job(options, progress);
   const WrittenPlan written = write_plan(plan, folder, progress);
@@ -80,6 +82,7 @@ void add_plan_command(CLI::App& program, int& exit_code) {
   CLI::App* command = program.add_subcommand("plan", "plan a run: path, dwell, feed table, program, predicted surface");
   auto arguments = std::make_shared<PlanArguments>();
   arguments->job = std::make_unique<JobArguments>(*command, every_flag(), true);
+  arguments->folder.add_to(*command);
   arguments->json.add_to(*command);
   command->add_flag("--write-job", arguments->write_job,
                     "print a job file with these options, with comments, and stop");

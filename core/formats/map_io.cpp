@@ -167,6 +167,11 @@ void check_origin_is_clear(const MapSource& source, const MapReadOptions& option
                                where, source.unclear_origin, way_out));
 }
 
+/// A pitch of 3e-6 m is 0.003 mm, not 0.0029999999999999996, here and wherever it is shown.
+void round_to_fewest_digits(std::optional<Point>& point) {
+  if (point) point = Point{fewest_digits(point->x), fewest_digits(point->y)};
+}
+
 HeightMap map_of_source(MapSource source, const MapReadOptions& options, const std::string& where) {
   if (options.grid) {
     throw InputError(
@@ -174,6 +179,8 @@ HeightMap map_of_source(MapSource source, const MapReadOptions& options, const s
                     "leave it out",
                     where, options.name, source.rows, source.cols));
   }
+  round_to_fewest_digits(source.header.pitch);
+  round_to_fewest_digits(source.header.origin);
   settle_unclear(source.header, options, false);
   const double scale = known_scale(source.header, options, where);
   check_origin_is_clear(source, options, where);
@@ -237,6 +244,8 @@ HeightMap read_xyz(std::string_view text, const MapReadOptions& options, const s
                                  options.name));
   }
   XyzText xyz = parse_xyz_text(text, where);
+  round_to_fewest_digits(xyz.header.pitch);
+  round_to_fewest_digits(xyz.header.origin);
   settle_unclear(xyz.header, options, true);
   const double scale = known_scale(xyz.header, options, where);
   append(xyz.header.history, remove_no_data_of_points(xyz, options, where));

@@ -138,7 +138,9 @@ PathComparison compare_paths(const JobOptions& options, const std::string& list,
   }
   parse_path_list(list, pitch.value_or(1.0));  // refuses a wrong list before any work is done
   PathComparison comparison;
-  comparison.job = load_job(options, progress);
+  comparison.job = time_limit(options.max_solve_s).run(progress, [&](const Progress& limited) {
+    return load_job(options, limited);
+  });
   comparison.pitch_given = pitch.has_value();
   comparison.pitch = pitch.value_or(default_pitch(comparison.job.part->tif));
   comparison.before = radial_spectrum(comparison.job.part->figure, comparison.job.part->threads);

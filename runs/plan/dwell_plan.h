@@ -21,6 +21,7 @@ struct DwellPlan {
   std::optional<WeightTrials> search;  // nothing = both given
   Vector seconds;                      // of every dwell point, in path order
   double step_rms = 0.0;               // |D t| / sqrt(number of links) [s]
+  double seconds_before_solve = 0.0;   // wall clock of the phases before, as far as the time limit counts them [s]
   SolverSummary solver;
   Certificate certificate;
   MapStatistics residual;           // as the solver predicts, form terms removed
@@ -28,9 +29,9 @@ struct DwellPlan {
 };
 
 /// Solves the dwell problem of a part and a path laid on it. Throws OutOfMemory before the work if the machine has less
-/// memory than it takes for certain, InputError for options that contradict each other
-/// (weights_are_searched), Interrupted, std::runtime_error if the solver fails. Cost: the solver's operator
-/// applications dominate (docs/math.md).
+/// memory than it takes for certain, TimeLimitReached if options.max_seconds are over before the solve, InputError for
+/// options that contradict each other (weights_are_searched), Interrupted, std::runtime_error if the solver fails.
+/// Cost: the solver's operator applications dominate (docs/math.md).
 DwellPlan find_dwell(const Part& part, const LaidPath& laid, const DwellOptions& options,
                      const Progress& progress = {});
 

@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "core/base/number_text.h"
 #include "core/base/units.h"
 #include "runs/base/inputs_json.h"
 #include "runs/reports/options_json.h"
@@ -42,8 +43,8 @@ Json weights_json(const DwellPlan& plan) {
 
 Json feed_json(const FeedSchedule& feed, Motion motion) {
   return {{"motion", to_string(motion)},
-          {"min_mm_per_min", units::mm_per_min(feed.min_speed)},
-          {"max_mm_per_min", units::mm_per_min(feed.max_speed)},
+          {"min_mm_per_min", fewest_digits(units::mm_per_min(feed.min_speed))},
+          {"max_mm_per_min", fewest_digits(units::mm_per_min(feed.max_speed))},
           {"segments_limited", feed.segments_limited},
           {"segments_infeasible", feed.segments_infeasible}};
 }
