@@ -7,6 +7,7 @@
 #include "cli/progress_line.h"
 #include "cli/result_folder.h"
 #include "cli/terminal.h"
+#include "core/base/errors.h"
 #include "runs/example/example_files.h"
 
 namespace dwell::cli {
@@ -20,7 +21,12 @@ struct ExampleArguments {
   ResultFolder folder;
 };
 
-int run_example(ExampleArguments& arguments) {
+int run_example(ExampleArguments& arguments, const CLI::App& command) {
+  if (arguments.shape == "round" && command.count("--height") > 0) {
+    throw InputError(fmt::format(
+        "--height {}: of a rectangle only; a round mirror has its diameter by --width (or give --shape rectangle)",
+        arguments.mirror.height));
+  }
   arguments.mirror.shape = arguments.shape == "round" ? ExampleOptions::Shape::Round : ExampleOptions::Shape::Rectangle;
   arguments.json.check({}, arguments.out);
   OutputFolder folder = arguments.folder.make(arguments.out, example_files(), {});
@@ -58,7 +64,7 @@ void add_example_command(CLI::App& program, int& exit_code) {
   arguments->folder.add_to(*command);
   arguments->json.add_to(*command);
   command->footer("Example:\n  dwell example --out example\n  dwell plan --job example/demo.toml --out plan");
-  command->callback([arguments, &exit_code] { exit_code = run_example(*arguments); });
+  command->callback([arguments, command, &exit_code] { exit_code = run_example(*arguments, *command); });
 }
 
 }  // namespace dwell::cli

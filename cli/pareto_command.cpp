@@ -46,6 +46,7 @@ int run_pareto(const ParetoArguments& arguments) {
   if (!arguments.smoothnesses.empty())
     ranges.smoothnesses = parse_weight_list(arguments.smoothnesses, "--smoothnesses");
   if (!arguments.time_prices.empty()) ranges.time_prices = parse_weight_list(arguments.time_prices, "--time-prices");
+  JobArguments::require(options, {"map", "tif", "path", "out"});
   const std::vector<ReadFile> read = arguments.job->files_read(options);
   arguments.json.check(read, options.out);
   OutputFolder folder = arguments.folder.make(options.out, pareto_files(), read);

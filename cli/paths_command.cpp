@@ -42,6 +42,7 @@ int run_paths(const PathsArguments& arguments) {
   if (arguments.list.empty())
     throw InputError("--paths: required; for instance raster,spiral,random (--kinds lists all)");
   const JobOptions options = arguments.job->options();
+  JobArguments::require(options, {"map", "tif", "out"});
   std::vector<ReadFile> read = arguments.job->files_read(options);
   for (const ListedPath& path : parse_path_list(arguments.list, arguments.pitch.value_or(1.0))) {
     const PathSpec spec = parse_path_spec(path.text);

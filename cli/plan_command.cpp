@@ -64,6 +64,7 @@ int run_plan(const PlanArguments& arguments) {
     print(job_file_text(options));
     return kDone;
   }
+  JobArguments::require(options, {"map", "tif", "path", "out"});
   const std::vector<ReadFile> read = arguments.job->files_read(options);
   arguments.json.check(read, options.out);
   OutputFolder folder = arguments.folder.make(options.out, plan_files(), read);

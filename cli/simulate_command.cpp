@@ -53,6 +53,7 @@ int run_simulate(const SimulateArguments& arguments) {
   if (!arguments.gcode.empty()) reading.dialect = parse_gcode_dialect(arguments.gcode);
   if (!arguments.g4.empty()) reading.halts = parse_halt_unit(arguments.g4);
   const JobOptions options = arguments.job->options();
+  JobArguments::require(options, {"map", "tif"});
   check_outputs(arguments, options);
   const Progress progress = terminal_progress();
   const Simulation s = simulate_file(arguments.program, reading, options, progress, arguments.exact);

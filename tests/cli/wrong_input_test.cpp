@@ -238,5 +238,28 @@ TEST(WrongProgram, IsRefusedBySimulate) {
   EXPECT_EQ(everything_in(inputs.folder.path()), before);
 }
 
+TEST(WrongWords, AreAnsweredWithTheOptionAndAllThatIsMissing) {
+  const test::SmallInputs inputs;
+  const struct {
+    std::vector<std::string> words;
+    const char* said;
+  } kCases[] = {
+      {{"plan", "--map", "map.csv"}, "--tif, --path, --out: required"},
+      {{"paths", "--paths", "raster"}, "--map, --tif, --out: required"},
+      {{"simulate", "--program", "x.nc"}, "--map, --tif: required"},
+      {{"example", "--out", "e", "--hole", "500"}, "--hole = 500 mm; required from 0 to the width"},
+      {{"example", "--out", "e", "--height", "50"}, "--height 50: of a rectangle only"},
+      {{"example", "--out", "e", "--pitch", "90"}, "--pitch = 90 mm; required such that both edges"},
+      {{"map", "map.csv", "--map-pixel", "0.5", "--limit", "radial:1,-2"}, "a limit that rises"},
+      {{"map", "map.csv", "--map-pixel", "0.5", "--map-unit", "um/s"}, "--map-unit: 'um/s' is a rate, not a height"},
+      {{"tif", "tif.csv", "--tif-pixel", "0.5", "--tif-unit", "um"}, "--tif-unit: 'um' is a height, not a rate"},
+  };
+  for (const auto& [words, said] : kCases) {
+    const test::ProgramResult result = inputs.run(words);
+    EXPECT_EQ(result.exit_code, 2) << words.back();
+    test::expect_has(result.err, said);
+  }
+}
+
 }  // namespace
 }  // namespace dwell
