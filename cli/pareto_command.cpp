@@ -9,6 +9,7 @@
 #include "cli/progress_line.h"
 #include "cli/result_folder.h"
 #include "cli/terminal.h"
+#include "core/base/duration_text.h"
 #include "runs/campaigns/pareto_output.h"
 
 namespace dwell::cli {
@@ -30,12 +31,13 @@ std::string front_text(const ParetoSweep& sweep) {
   for (const ParetoPoint& p : sweep.points) applications += p.solver.operator_applications;
   text += fmt::format("solves    {}, {} operator applications, {:.2f} s; {} on the Pareto front:\n",
                       sweep.points.size(), applications, sweep.seconds, on_front);
-  text += fmt::format("{:>12} {:>20} {:>18} {:>10} {:>12}\n", "smoothness", "time price [nm^2/s]", "residual RMS [nm]",
-                      "total [s]", "step RMS [s]");
+  text += fmt::format("{:>12} {:>20} {:>18} {:>10} {:>13} {:>12}\n", "smoothness", "time price [nm^2/s]",
+                      "residual RMS [nm]", "total [s]", "h:min:s", "step RMS [s]");
   for (const ParetoPoint& p : sweep.points) {
     if (!p.on_front) continue;
-    text += fmt::format("{:>12.4g} {:>20.4g} {:>18.4g} {:>10.2f} {:>12.4g}\n", p.weights.smoothness,
-                        p.weights.time_price, p.trade_off.residual_rms, p.trade_off.total, p.trade_off.step_rms);
+    text += fmt::format("{:>12.4g} {:>20.4g} {:>18.4g} {:>10.2f} {:>13} {:>12.4g}\n", p.weights.smoothness,
+                        p.weights.time_price, p.trade_off.residual_rms, p.trade_off.total,
+                        clock_text(p.trade_off.total), p.trade_off.step_rms);
   }
   return text;
 }

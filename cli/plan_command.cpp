@@ -9,6 +9,7 @@
 #include "cli/result_folder.h"
 #include "cli/standard_streams.h"
 #include "cli/terminal.h"
+#include "core/base/duration_text.h"
 #include "core/base/units.h"
 #include "runs/job/job_file.h"
 #include "runs/reports/plan_files.h"
@@ -46,15 +47,17 @@ std::string plan_text(const PlannedJob& plan, const WrittenPlan& written) {
   text += fmt::format("solver    {}: {} after {} iterations, {} operator applications, {:.2f} s\n",
                       to_string(plan.dwell.solver.kind), to_string(plan.dwell.solver.status),
                       plan.dwell.solver.iterations, plan.dwell.solver.operator_applications, plan.dwell.solver.seconds);
-  text += fmt::format("dwell     total {:.2f} s, from {:.4g} s to {:.4g} s a point, step RMS {:.4g} s\n",
-                      plan.dwell.seconds.sum(), plan.dwell.seconds.minCoeff(), plan.dwell.seconds.maxCoeff(),
-                      plan.dwell.step_rms);
+  text += fmt::format("dwell     total {}, from {:.4g} s to {:.4g} s a point, step RMS {:.4g} s\n",
+                      duration_text(plan.dwell.seconds.sum()), plan.dwell.seconds.minCoeff(),
+                      plan.dwell.seconds.maxCoeff(), plan.dwell.step_rms);
   text += fmt::format("feed      {:.4g} to {:.4g} mm/min, {} of {} segments at a limit\n",
                       units::mm_per_min(plan.program.feed.min_speed), units::mm_per_min(plan.program.feed.max_speed),
                       plan.program.feed.segments_limited, plan.laid.path.size());
   text += fmt::format("predicted {} by the solver\n", in_words(plan.dwell.residual));
-  text += fmt::format("program   {} by simulating program.nc as read back, {:.2f} s\n", in_words(written.simulated),
-                      written.program_seconds);
+  text += fmt::format("program   {} by simulating program.nc as read back\n", in_words(written.simulated));
+  text += fmt::format("time      {}, of which lifted moves at maximum feed {:.2f} s\n",
+                      duration_text(written.total_seconds()), written.lift_seconds);
+  for (const std::string& warning : written.warnings) text += fmt::format("warning   {}\n", warning);
   return text;
 }
 

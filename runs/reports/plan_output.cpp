@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/base/errors.h"
 #include "core/base/units.h"
 #include "core/base/version.h"
 #include "core/formats/map_io.h"
@@ -11,10 +12,12 @@
 #include "core/removal/simulate.h"
 #include "runs/drawing/path_picture.h"
 #include "runs/drawing/picture.h"
+#include "runs/job/option_flags.h"
 #include "runs/programs/program_formats.h"
 #include "runs/programs/program_reader.h"
 #include "runs/reports/figure_output.h"
 #include "runs/reports/plan_summary.h"
+#include "runs/reports/plan_warnings.h"
 
 namespace dwell {
 namespace {
@@ -116,6 +119,13 @@ WrittenPlan write_plan(const PlannedJob& plan, const OutputFolder& folder, const
       plan.part().form, plan.part().threads);
   written.simulated = map_statistics(written.residual, {}, plan.part().threads);
   written.program_seconds = program.total_seconds();
+  const DwellOptions options = dwell_options(plan.job.options);
+  written.lift_seconds = lift_seconds(plan.laid.metrics, plan.job.options.lift_height_mm, options.machine);
+  const bool moves = plan.laid.motion == Motion::Moving;
+  for (const std::string& warning :
+       run_warnings({written.total_seconds(), plan.dwell.seconds.sum(), moves ? program.removing_length() : 0.0})) {
+    written.warnings.push_back(with_option_names(warning, flag_of));
+  }
   written.program = program_figures(program, written.simulated, to_string(plan.part().form));
   written.program.file = "program.nc";  // not the path of the temporary folder that it was read from
   compare_with_solver(plan, written);

@@ -69,6 +69,9 @@ std::string plan_summary_text(const PlannedJob& plan, const WrittenPlan& written
                   {"residual", residual_block(to_string(plan.part().form), plan.dwell.residual)},
                   {"feed", feed_json(plan.program.feed, plan.laid.motion)},
                   {"program", program_json(written)},
+                  {"total_s", written.total_seconds()},
+                  {"lift_s", written.lift_seconds},
+                  {"warnings", written.warnings},
                   {"limits", written.limits},
                   {"options", options_json(plan.job)},
                   {"inputs", inputs_json(plan.job.inputs)}});
