@@ -58,7 +58,7 @@ std::optional<Point> known_pitch(const MapHeader& header, const MapReadOptions& 
     throw InputError(
         fmt::format("{}: header says pitch_mm = {},{} but `{} pixel` says {}; they must agree (or the option "
                     "be left out)",
-                    where, header.pitch->x, header.pitch->y, options.name, pitch));
+                    where, fewest_digits(header.pitch->x), fewest_digits(header.pitch->y), options.name, pitch));
   }
   // What the file rounds more than single precision would, as the size of a field, the user may know better.
   if (header.pitch_rounding > kSinglePitchRounding) return Point{pitch, pitch};
@@ -167,11 +167,6 @@ void check_origin_is_clear(const MapSource& source, const MapReadOptions& option
                                where, source.unclear_origin, way_out));
 }
 
-/// A pitch of 3e-6 m is 0.003 mm, not 0.0029999999999999996, here and wherever it is shown.
-void round_to_fewest_digits(std::optional<Point>& point) {
-  if (point) point = Point{fewest_digits(point->x), fewest_digits(point->y)};
-}
-
 HeightMap map_of_source(MapSource source, const MapReadOptions& options, const std::string& where) {
   if (options.grid) {
     throw InputError(
@@ -179,8 +174,6 @@ HeightMap map_of_source(MapSource source, const MapReadOptions& options, const s
                     "leave it out",
                     where, options.name, source.rows, source.cols));
   }
-  round_to_fewest_digits(source.header.pitch);
-  round_to_fewest_digits(source.header.origin);
   settle_unclear(source.header, options, false);
   const double scale = known_scale(source.header, options, where);
   check_origin_is_clear(source, options, where);
@@ -244,8 +237,6 @@ HeightMap read_xyz(std::string_view text, const MapReadOptions& options, const s
                                  options.name));
   }
   XyzText xyz = parse_xyz_text(text, where);
-  round_to_fewest_digits(xyz.header.pitch);
-  round_to_fewest_digits(xyz.header.origin);
   settle_unclear(xyz.header, options, true);
   const double scale = known_scale(xyz.header, options, where);
   append(xyz.header.history, remove_no_data_of_points(xyz, options, where));

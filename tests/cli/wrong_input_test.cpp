@@ -200,13 +200,15 @@ TEST(WrongInputWithoutOption, NamesTheOptionThatIsMissing) {
   };
   refused({"plan"}, {"--out", "required"});
   refused({"plan", "--out", "plan"}, {"--map", "required"});
-  refused({"plan", "--out", "plan", "--map", "map.csv"}, {"map.csv", "no pixel pitch", "--map-pixel"});
+  const std::vector<std::string> others{"--tif", "tif.csv", "--path", "raster:pitch=1"};
+  refused(test::with({"plan", "--out", "plan", "--map", "map.csv"}, others),
+          {"map.csv", "no pixel pitch", "--map-pixel"});
   refused({"plan", "--out", "plan", "--map", "map.csv", "--map-pixel", "0.5"}, {"--tif", "required"});
-  refused({"plan", "--out", "plan", "--map", "map.csv", "--map-pixel", "0.5", "--tif", "tif.csv"},
+  refused(test::with({"plan", "--out", "plan", "--map", "map.csv", "--map-pixel", "0.5"}, others),
           {"tif.csv", "no pixel pitch", "--tif-pixel"});
   refused({"plan", "--out", "plan", "--map", "map.csv", "--map-pixel", "0.5", "--tif", "gaussian:peak=1,fwhm=2"},
           {"--path", "required"});
-  refused({"pareto"}, {"--out", "required", "pareto"});
+  refused({"pareto"}, {"--map, --tif, --path, --out: required"});
   refused({"pareto", "--out", "sweep"}, {"--map", "required"});
   refused({"simulate"}, {"--program", "required"});
   refused({"map"}, {"file", "required"});
