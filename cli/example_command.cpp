@@ -7,6 +7,7 @@
 #include "cli/progress_line.h"
 #include "cli/result_folder.h"
 #include "cli/terminal.h"
+#include "core/base/errors.h"
 #include "runs/example/example_files.h"
 
 namespace dwell::cli {
@@ -17,12 +18,18 @@ struct ExampleArguments {
   ExampleOptions mirror;
   ExampleTifOptions tif;
   JsonOption json;
+  ResultFolder folder;
 };
 
-int run_example(ExampleArguments& arguments) {
+int run_example(ExampleArguments& arguments, const CLI::App& command) {
+  if (arguments.shape == "round" && command.count("--height") > 0) {
+    throw InputError(fmt::format(
+        "--height {}: of a rectangle only; a round mirror has its diameter by --width (or give --shape rectangle)",
+        arguments.mirror.height));
+  }
   arguments.mirror.shape = arguments.shape == "round" ? ExampleOptions::Shape::Round : ExampleOptions::Shape::Rectangle;
   arguments.json.check({}, arguments.out);
-  OutputFolder folder = result_folder(arguments.out, example_files());
+  OutputFolder folder = arguments.folder.make(arguments.out, example_files(), {});
   const Progress progress = terminal_progress();
   const Example example = write_example(folder.path(""), arguments.mirror, arguments.tif, progress);
   finish_progress();
@@ -54,9 +61,10 @@ void add_example_command(CLI::App& program, int& exit_code) {
   command->add_option("--pitch", m.pitch, fmt::format("pixel pitch in mm (default {})", m.pitch))->type_name("MM");
   command->add_option("--seed", m.seed, fmt::format("seed of the roughness and the noise (default {})", m.seed))
       ->type_name("N");
+  arguments->folder.add_to(*command);
   arguments->json.add_to(*command);
   command->footer("Example:\n  dwell example --out example\n  dwell plan --job example/demo.toml --out plan");
-  command->callback([arguments, &exit_code] { exit_code = run_example(*arguments); });
+  command->callback([arguments, command, &exit_code] { exit_code = run_example(*arguments, *command); });
 }
 
 }  // namespace dwell::cli

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "core/base/errors.h"
 #include "runs/job/job_file.h"
 #include "runs/map_steps/map_steps.h"
 
@@ -38,6 +39,16 @@ JobOptions JobArguments::options() const {
     set_job_option(options, *given.record, given.option->results().back(), "--" + given.record->flag);
   }
   return options;
+}
+
+void JobArguments::require(const JobOptions& options, const std::vector<std::string>& flags) {
+  std::vector<std::string> missing;
+  for (const JobOptionRecord& record : job_option_table()) {
+    const bool wanted = std::find(flags.begin(), flags.end(), record.flag) != flags.end();
+    if (wanted && record.get(options).empty()) missing.push_back("--" + record.flag);
+  }
+  if (missing.size() < 2) return;
+  throw InputError(fmt::format("{}: required; --help says what each is", fmt::join(missing, ", ")));
 }
 
 std::vector<ReadFile> JobArguments::files_read(const JobOptions& options) const {

@@ -19,6 +19,10 @@ class JobArguments {
   /// The job file, if one is given, then what the command line says over it. Throws InputError.
   JobOptions options() const;
 
+  /// Throws InputError that names all of the flags whose option is not given, if these are two or more: whoever lacks
+  /// one is told better by what reads it.
+  static void require(const JobOptions& options, const std::vector<std::string>& flags);
+
   /// The files that these options name for reading, the job file among them, as check_output_files takes them.
   std::vector<ReadFile> files_read(const JobOptions& options) const;
 

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 
+#include "cli/places.h"
 #include "cli/standard_streams.h"
 #include "core/base/errors.h"
 #include "core/base/number_text.h"
@@ -13,19 +13,8 @@
 namespace dwell::cli {
 namespace {
 
-namespace fs = std::filesystem;
-
 /// What CLI11 stores for a flag that is given alone. It cannot be the name of a file, which would end in .json.
 constexpr const char* kPrinted = "true";
-
-bool lies_in(const fs::path& file, const fs::path& folder) {
-  std::error_code unknown;
-  const fs::path whole = fs::weakly_canonical(fs::absolute(file), unknown);
-  fs::path inside = fs::weakly_canonical(fs::absolute(folder), unknown);
-  if (!inside.has_filename()) inside = inside.parent_path();  // "plan/" is the folder "plan"
-  const auto end = std::mismatch(inside.begin(), inside.end(), whole.begin(), whole.end()).first;
-  return end == inside.end();
-}
 
 }  // namespace
 
@@ -42,10 +31,11 @@ bool JsonOption::printed() const { return value_ == kPrinted; }
 std::string JsonOption::file() const { return printed() ? "" : value_; }
 
 void JsonOption::check(const std::vector<ReadFile>& read, const std::string& out) const {
+  if (!file().empty() && !out.empty() && lies_in(file(), out)) {
+    throw InputError(fmt::format(
+        "--json '{}': lies in the folder of --out, which is replaced whole; a file elsewhere is required", file()));
+  }
   check_output_files({output()}, read);
-  if (file().empty() || out.empty() || !lies_in(file(), out)) return;
-  throw InputError(fmt::format(
-      "--json '{}': lies in the folder of --out, which is replaced whole; a file elsewhere is required", file()));
 }
 
 void JsonOption::deliver(const std::string& json, const std::string& text) const {

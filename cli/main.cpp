@@ -19,6 +19,7 @@
 #include "cli/terminal.h"
 #include "core/base/errors.h"
 #include "core/base/memory.h"
+#include "core/base/time_limit.h"
 #include "core/base/version.h"
 #include "runs/job/option_flags.h"
 
@@ -73,18 +74,22 @@ int fail(int exit_code, const char* prefix, const std::exception& error) {
 
 int main(int argc, char** argv) {
   using namespace dwell::cli;
+  hold_interrupts();
   start_with_quiet_threads(argv);
   hold_standard_streams();
   leave_nothing_at_a_sudden_end();
-  keep_freed_memory();
   try {
     catch_interrupts();
+    keep_freed_memory();
     const int exit_code = run(argc, argv);
     const bool said = finish_output();
     ignore_interrupts();
     return said ? exit_code : kInternalFault;
   } catch (const dwell::InputError& error) {
     return fail(kBadInput, "", dwell::with_flags(error));
+  } catch (const dwell::TimeLimitReached& error) {
+    const std::string reason = dwell::with_option_names(error.what(), dwell::flag_of);
+    return fail(kLimitReached, "limit reached: ", std::runtime_error(reason));
   } catch (const dwell::Interrupted&) {
     say_interrupted();
     return kInterrupted;

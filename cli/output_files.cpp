@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <system_error>
 
+#include "cli/places.h"
+#include "cli/result_kinds.h"
 #include "core/base/errors.h"
 #include "core/base/number_text.h"
 #include "core/base/staged_files.h"
@@ -66,21 +68,20 @@ void check_place(const OutputFile& output) {
   }
 }
 
-/// Also by another name: links, "./", a case-insensitive file system.
-bool same_file(const fs::path& a, const fs::path& b) {
-  std::error_code unknown;
-  if (fs::equivalent(a, b, unknown)) return true;
-  // Absolute first: of a name that does not exist yet, only that makes "a.png" and "./a.png" the same.
-  std::error_code unknown_a, unknown_b;
-  const fs::path whole_a = fs::weakly_canonical(fs::absolute(a, unknown_a), unknown_a);
-  const fs::path whole_b = fs::weakly_canonical(fs::absolute(b, unknown_b), unknown_b);
-  return unknown_a || unknown_b ? a == b : whole_a == whole_b;
-}
-
 /// The file and, of an NPY array, its sidecar.
 void add_places(std::vector<Place>& places, const std::string& name, const fs::path& file) {
   places.push_back({name, file});
   if (extension_of(file) == ".npy") places.push_back({"the sidecar of " + name, npy_sidecar_name(file)});
+}
+
+/// A folder that holds a result can be replaced by the next as long as nothing else is in it.
+void keep_results_replaceable(const OutputFile& output, const Place& place) {
+  const fs::path folder = place.file.has_parent_path() ? place.file.parent_path() : fs::path(".");
+  for (const ResultFiles* kind : kinds_of_results()) {
+    if (kind->has(place.file.filename().string()) || !is_result(folder, *kind)) continue;
+    refuse(output, fmt::format("'{}' holds an earlier {}, which could then no longer be replaced; give another folder",
+                               folder.string(), kind->kind));
+  }
 }
 
 }  // namespace
@@ -97,6 +98,7 @@ void check_output_files(const std::vector<OutputFile>& outputs, const std::vecto
     std::vector<Place> places;
     add_places(places, output.option, output.file);
     for (const Place& mine : places) {
+      keep_results_replaceable(output, mine);
       for (const Place& other : taken) {
         if (same_file(mine.file, other.file)) {
           refuse(output,

@@ -9,6 +9,7 @@
 #include "cli/progress_line.h"
 #include "cli/result_folder.h"
 #include "cli/terminal.h"
+#include "core/base/duration_text.h"
 #include "runs/campaigns/pareto_output.h"
 
 namespace dwell::cli {
@@ -18,6 +19,7 @@ struct ParetoArguments {
   std::unique_ptr<JobArguments> job;
   std::string smoothnesses, time_prices;
   JsonOption json;
+  ResultFolder folder;
 };
 
 /// The text for people: the front of the sweep.
@@ -29,12 +31,13 @@ std::string front_text(const ParetoSweep& sweep) {
   for (const ParetoPoint& p : sweep.points) applications += p.solver.operator_applications;
   text += fmt::format("solves    {}, {} operator applications, {:.2f} s; {} on the Pareto front:\n",
                       sweep.points.size(), applications, sweep.seconds, on_front);
-  text += fmt::format("{:>12} {:>20} {:>18} {:>10} {:>12}\n", "smoothness", "time price [nm^2/s]", "residual RMS [nm]",
-                      "total [s]", "step RMS [s]");
+  text += fmt::format("{:>12} {:>20} {:>18} {:>10} {:>13} {:>12}\n", "smoothness", "time price [nm^2/s]",
+                      "residual RMS [nm]", "total [s]", "h:min:s", "step RMS [s]");
   for (const ParetoPoint& p : sweep.points) {
     if (!p.on_front) continue;
-    text += fmt::format("{:>12.4g} {:>20.4g} {:>18.4g} {:>10.2f} {:>12.4g}\n", p.weights.smoothness,
-                        p.weights.time_price, p.trade_off.residual_rms, p.trade_off.total, p.trade_off.step_rms);
+    text += fmt::format("{:>12.4g} {:>20.4g} {:>18.4g} {:>10.2f} {:>13} {:>12.4g}\n", p.weights.smoothness,
+                        p.weights.time_price, p.trade_off.residual_rms, p.trade_off.total,
+                        clock_text(p.trade_off.total), p.trade_off.step_rms);
   }
   return text;
 }
@@ -45,8 +48,10 @@ int run_pareto(const ParetoArguments& arguments) {
   if (!arguments.smoothnesses.empty())
     ranges.smoothnesses = parse_weight_list(arguments.smoothnesses, "--smoothnesses");
   if (!arguments.time_prices.empty()) ranges.time_prices = parse_weight_list(arguments.time_prices, "--time-prices");
-  arguments.json.check(arguments.job->files_read(options), options.out);
-  OutputFolder folder = result_folder(options.out, pareto_files());
+  JobArguments::require(options, {"map", "tif", "path", "out"});
+  const std::vector<ReadFile> read = arguments.job->files_read(options);
+  arguments.json.check(read, options.out);
+  OutputFolder folder = arguments.folder.make(options.out, pareto_files(), read);
   const ParetoSweep sweep = sweep_weights(options, ranges, terminal_progress());
   const std::string json = write_pareto(sweep, folder);
   folder.commit();
@@ -82,6 +87,7 @@ void add_pareto_command(CLI::App& program, int& exit_code) {
           "prices of machine time in nm^2/s, likewise (default 0 and four up to a hundredth of the highest that "
           "has any effect)")
       ->type_name("PRICES");
+  arguments->folder.add_to(*command);
   arguments->json.add_to(*command);
   command->footer(
       "Example:\n"

@@ -14,6 +14,7 @@
 #include "core/base/errors.h"
 #include "paths/path_catalogue.h"
 #include "runs/campaigns/path_comparison_output.h"
+#include "runs/job/path_list.h"
 
 namespace dwell::cli {
 namespace {
@@ -23,6 +24,7 @@ struct PathsArguments {
   std::string list;
   std::optional<double> pitch;
   JsonOption json;
+  ResultFolder folder;
   bool kinds = false;
 };
 
@@ -40,8 +42,14 @@ int run_paths(const PathsArguments& arguments) {
   if (arguments.list.empty())
     throw InputError("--paths: required; for instance raster,spiral,random (--kinds lists all)");
   const JobOptions options = arguments.job->options();
-  arguments.json.check(arguments.job->files_read(options), options.out);
-  OutputFolder folder = result_folder(options.out, path_comparison_files());
+  JobArguments::require(options, {"map", "tif", "out"});
+  std::vector<ReadFile> read = arguments.job->files_read(options);
+  for (const ListedPath& path : parse_path_list(arguments.list, arguments.pitch.value_or(1.0))) {
+    const PathSpec spec = parse_path_spec(path.text);
+    if (const auto* file = spec.get_if<PathFromFile>()) read.push_back({"the path", file->file.string()});
+  }
+  arguments.json.check(read, options.out);
+  OutputFolder folder = arguments.folder.make(options.out, path_comparison_files(), read);
   const PathComparison comparison =
       compare_paths(options, arguments.list, arguments.pitch, folder, terminal_progress());
   const std::string json = write_path_comparison(comparison, folder);
@@ -74,6 +82,7 @@ void add_paths_command(CLI::App& program, int& exit_code) {
       ->add_option("--pitch", arguments->pitch,
                    "pitch in mm of the paths that say none (default a quarter of the removal function's FWHM)")
       ->type_name("MM");
+  arguments->folder.add_to(*command);
   arguments->json.add_to(*command);
   command->add_flag("--kinds", arguments->kinds, "list the kinds of path with their options, and stop");
   command->footer(

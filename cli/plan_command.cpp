@@ -9,6 +9,7 @@
 #include "cli/result_folder.h"
 #include "cli/standard_streams.h"
 #include "cli/terminal.h"
+#include "core/base/duration_text.h"
 #include "core/base/units.h"
 #include "runs/job/job_file.h"
 #include "runs/reports/exact_lines.h"
@@ -22,6 +23,7 @@ namespace {
 struct PlanArguments {
   std::unique_ptr<JobArguments> job;
   JsonOption json;
+  ResultFolder folder;
   bool write_job = false;
 };
 
@@ -46,9 +48,9 @@ std::string plan_text(const PlannedJob& plan, const WrittenPlan& written) {
   text += fmt::format("solver    {}: {} after {} iterations, {} operator applications, {:.2f} s\n",
                       to_string(plan.dwell.solver.kind), to_string(plan.dwell.solver.status),
                       plan.dwell.solver.iterations, plan.dwell.solver.operator_applications, plan.dwell.solver.seconds);
-  text += fmt::format("dwell     total {:.2f} s, from {:.4g} s to {:.4g} s a point, step RMS {:.4g} s\n",
-                      plan.dwell.seconds.sum(), plan.dwell.seconds.minCoeff(), plan.dwell.seconds.maxCoeff(),
-                      plan.dwell.step_rms);
+  text += fmt::format("dwell     total {}, from {:.4g} s to {:.4g} s a point, step RMS {:.4g} s\n",
+                      duration_text(plan.dwell.seconds.sum()), plan.dwell.seconds.minCoeff(),
+                      plan.dwell.seconds.maxCoeff(), plan.dwell.step_rms);
   text += fmt::format("feed      {:.4g} to {:.4g} mm/min, {} of {} segments at a limit\n",
                       units::mm_per_min(plan.program.feed.min_speed), units::mm_per_min(plan.program.feed.max_speed),
                       plan.program.feed.segments_limited, plan.laid.path.size());
@@ -56,9 +58,11 @@ std::string plan_text(const PlannedJob& plan, const WrittenPlan& written) {
       "predicted {} by the solver, on a lattice of {} x {} cells a pixel{}\n", in_words(plan.dwell.residual),
       plan.dwell.lattice.kernel.division.x, plan.dwell.lattice.kernel.division.y,
       plan.dwell.lattices > 1 ? fmt::format(" (solved {} times, each finer)", plan.dwell.lattices) : "");
-  text += fmt::format("program   {} by simulating program.nc as read back, {:.2f} s\n",
-                      in_words(written.exact.statistics), written.program_seconds);
+  text += fmt::format("program   {} by simulating program.nc as read back\n", in_words(written.exact.statistics));
   text += exact_lines(written.exact);
+  text += fmt::format("time      {}, of which lifted moves at maximum feed {:.2f} s\n",
+                      duration_text(written.total_seconds()), written.lift_seconds);
+  for (const std::string& warning : written.warnings) text += fmt::format("warning   {}\n", warning);
   return text;
 }
 
@@ -68,8 +72,10 @@ int run_plan(const PlanArguments& arguments) {
     print(job_file_text(options));
     return kDone;
   }
-  arguments.json.check(arguments.job->files_read(options), options.out);
-  OutputFolder folder = result_folder(options.out, plan_files());
+  JobArguments::require(options, {"map", "tif", "path", "out"});
+  const std::vector<ReadFile> read = arguments.job->files_read(options);
+  arguments.json.check(read, options.out);
+  OutputFolder folder = arguments.folder.make(options.out, plan_files(), read);
   const Progress progress = terminal_progress();
   const PlannedJob plan = plan_job(options, progress);
   const WrittenPlan written = write_plan(plan, folder, progress);
@@ -85,6 +91,7 @@ void add_plan_command(CLI::App& program, int& exit_code) {
   CLI::App* command = program.add_subcommand("plan", "plan a run: path, dwell, feed table, program, predicted surface");
   auto arguments = std::make_shared<PlanArguments>();
   arguments->job = std::make_unique<JobArguments>(*command, every_flag(), true);
+  arguments->folder.add_to(*command);
   arguments->json.add_to(*command);
   command->add_flag("--write-job", arguments->write_job,
                     "print a job file with these options, with comments, and stop");

@@ -8,6 +8,7 @@
 #include "cli/output_files.h"
 #include "cli/progress_line.h"
 #include "cli/terminal.h"
+#include "core/base/duration_text.h"
 #include "core/formats/map_formats.h"
 #include "runs/drawing/picture.h"
 #include "runs/programs/program_formats.h"
@@ -35,8 +36,8 @@ void check_outputs(const SimulateArguments& a, const JobOptions& options) {
 std::string simulation_text(const Simulation& s) {
   std::string notes;
   for (const std::string& note : s.program.notes) notes += fmt::format("          {}\n", note);
-  return fmt::format("program   {}: {} steps, {:.6g} mm with removal, {:.2f} s\n", s.program.file,
-                     s.program.steps.size(), s.program.removing_length(), s.program.total_seconds()) +
+  return fmt::format("program   {}: {} steps, {:.6g} mm with removal, {}\n", s.program.file, s.program.steps.size(),
+                     s.program.removing_length(), duration_text(s.program.total_seconds())) +
          notes +
          fmt::format("before    {} ({} removed, {} pixels)\n", in_words(s.before), to_string(s.terms),
                      s.before.valid_pixels) +
@@ -49,6 +50,7 @@ int run_simulate(const SimulateArguments& arguments) {
   if (!arguments.gcode.empty()) reading.dialect = parse_gcode_dialect(arguments.gcode);
   if (!arguments.g4.empty()) reading.halts = parse_halt_unit(arguments.g4);
   const JobOptions options = arguments.job->options();
+  JobArguments::require(options, {"map", "tif"});
   check_outputs(arguments, options);
   const Progress progress = terminal_progress();
   const Simulation s = simulate_file(arguments.program, reading, options, progress, arguments.exact);

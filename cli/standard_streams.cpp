@@ -9,6 +9,8 @@
 #include <cstdio>
 #include <system_error>
 
+#include "core/base/utf8_text.h"
+
 namespace dwell::cli {
 
 void hold_standard_streams() {
@@ -22,6 +24,7 @@ void hold_standard_streams() {
 }
 
 void say(const std::string& text, int patience_ms) {
+  if (!is_utf8(text)) return say(with_escaped_bytes(text), patience_ms);
   pollfd error{STDERR_FILENO, POLLOUT, 0};
   if (patience_ms >= 0 && ::poll(&error, 1, patience_ms) == 0) return;
   // This writes past std::cerr, because a thread that is stuck may hold the stream for ever.
@@ -30,7 +33,8 @@ void say(const std::string& text, int patience_ms) {
 
 void print(const std::string& text) {
   // fmt::print would throw as soon as the buffer of the stream overflows, and as an internal fault.
-  std::fwrite(text.data(), 1, text.size(), stdout);
+  const std::string shown = is_utf8(text) ? text : with_escaped_bytes(text);
+  std::fwrite(shown.data(), 1, shown.size(), stdout);
 }
 
 bool finish_output() {

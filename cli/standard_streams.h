@@ -9,11 +9,13 @@ namespace dwell::cli {
 /// the start of the program.
 void hold_standard_streams();
 
-/// Writes a text to standard error, or nothing if nobody reads there. May be called from any thread. Waits for a reader
+/// Writes a text to standard error, or nothing if nobody reads there. Bytes that are no UTF-8 (of names of files) are
+/// shown as \xE9. May be called from any thread. Waits for a reader
 /// that has stalled (a full pipe) for at most `patience_ms` milliseconds; -1 is for ever.
 void say(const std::string& text, int patience_ms = -1);
 
-/// Puts text to standard output. What cannot be written, finish_output() says at the end.
+/// Puts text to standard output, bytes that are no UTF-8 likewise. What cannot be written, finish_output() says at the
+/// end.
 void print(const std::string& text);
 
 /// Flushes standard output, at the end of the program. If not all of it could be written (a full device, a closed

@@ -50,7 +50,19 @@ void end_if_unanswered() {
   _exit(kInterrupted);
 }
 
+sigset_t interrupts() {
+  sigset_t set;
+  sigemptyset(&set);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&set, signal);
+  return set;
+}
+
 }  // namespace
+
+void hold_interrupts() {
+  const sigset_t set = interrupts();
+  sigprocmask(SIG_BLOCK, &set, nullptr);
+}
 
 void catch_interrupts() {
   if (sem_init(&interrupt_asked, 0, 0) != 0) throw std::runtime_error("no semaphore for interrupts");
@@ -62,6 +74,8 @@ void catch_interrupts() {
   std::signal(SIGPIPE, SIG_IGN);
   // A limit of the file size is a failed write, with its reason, like a full disk.
   std::signal(SIGXFSZ, SIG_IGN);
+  const sigset_t set = interrupts();
+  sigprocmask(SIG_UNBLOCK, &set, nullptr);  // what came meanwhile is answered here
 }
 
 void ignore_interrupts() {

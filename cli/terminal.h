@@ -16,6 +16,9 @@ Progress terminal_progress();
 /// Says on standard error that the run was interrupted, once however often it is called.
 void say_interrupted();
 
+/// Keeps interrupts waiting until catch_interrupts(), also across a new start of the program: first thing in main.
+void hold_interrupts();
+
 /// Installs the handlers that make a run stop cleanly: what works is asked to stop (Progress), and if the process has
 /// not ended 0.1 s later it is ended, with nothing left of what was not yet a result.
 void catch_interrupts();

@@ -83,9 +83,12 @@ void note_long_moves(ToolPath& path, const PathJob& job) {
   }
   if (moves == 0) return;
   path.notes.push_back(
-      fmt::format("{} moves are longer than the removal function is wide and made with the tool down, "
-                  "the longest {:.4g} mm: they remove where they pass",
-                  moves, longest));
+      moves == 1 ? fmt::format("1 move is longer than the removal function is wide and made with the tool down, "
+                               "{:.4g} mm: it removes where it passes",
+                               longest)
+                 : fmt::format("{} moves are longer than the removal function is wide and made with the tool down, "
+                               "the longest {:.4g} mm: they remove where they pass",
+                               moves, longest));
 }
 
 ToolPath plan_raster(RasterOptions options, const PathJob& job) {

@@ -14,6 +14,7 @@
 #include "core/base/text_lines.h"
 #include "core/base/units.h"
 #include "core/base/whole_file.h"
+#include "core/map/unit_mention.h"
 #include "core/map/value_units.h"
 
 namespace dwell {
@@ -80,6 +81,13 @@ class PathFileReader {
   /// words of a feed table, which may be read as a path, say the same.
   void check_comment(std::string_view comment) const {
     const std::size_t end = comment.find_first_of(":=");
+    if (end != std::string_view::npos && is_name_of_file(trim(comment.substr(0, end)))) return;
+    if (const auto unit = find_other_unit(comment)) {
+      throw InputError(
+          fmt::format("{}: line {}: \"{}\" in the comment \"{}\" looks like another unit; accepted: x_mm and y_mm in "
+                      "mm, or the comment without a unit",
+                      name_, line_number_, printable_text(*unit), printable_text(trim(comment))));
+    }
     if (end == std::string_view::npos) return;
     const std::string key = lower_case(trim(comment.substr(0, end)));
     const std::string_view value = trim(comment.substr(end + 1));
@@ -93,6 +101,9 @@ class PathFileReader {
                     "map's coordinates",
                     name_, line_number_, printable_text(trim(comment))));
   }
+
+  /// Lines of our feed tables whose value is a name that a user gave.
+  static bool is_name_of_file(std::string_view key) { return key == "input" || key == "path"; }
 
   /// A column that is named almost as one that is read would be skipped in silence.
   void refuse_almost(std::string_view column) const {

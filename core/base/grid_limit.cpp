@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.h"
+#include "core/base/memory.h"
 
 namespace dwell {
 
@@ -17,6 +18,7 @@ void check_pixels(double rows, double cols, const PixelLimit& limit, const std::
 Grid limited_grid(double rows, double cols, Point pitch, Point origin, const std::string& what,
                   const PixelLimit& limit) {
   check_pixels(rows, cols, limit, what);
+  require_memory(sizeof(double) * rows * cols, fmt::format("{}: a map of {:.0f} x {:.0f} pixels", what, rows, cols));
   return {static_cast<Index>(rows), static_cast<Index>(cols), pitch.x, pitch.y, origin};
 }
 

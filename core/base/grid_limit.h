@@ -24,7 +24,8 @@ inline constexpr double kMostPixelsOfAll = 2147483648.0;
 /// 1 to limit.most() pixels.
 void check_pixels(double rows, double cols, const PixelLimit& limit, const std::string& what);
 
-/// A grid of rows x cols pixels. Throws as check_pixels.
+/// A grid of rows x cols pixels, for a map to be made. Throws as check_pixels, and OutOfMemory if its values alone take
+/// more than there is.
 Grid limited_grid(double rows, double cols, Point pitch, Point origin, const std::string& what,
                   const PixelLimit& limit = {});
 

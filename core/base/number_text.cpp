@@ -78,6 +78,20 @@ std::optional<double> finite_number(std::string_view text) {
   return parsed.value;
 }
 
+double fewest_digits(double value) {
+  constexpr double kSame = 1e-12;
+  constexpr int kMostDigits = 10;
+  if (!std::isfinite(value)) return value;
+  for (int digits = 1; digits <= kMostDigits; ++digits) {
+    char text[32];
+    const auto end = std::to_chars(text, text + sizeof(text), value, std::chars_format::scientific, digits - 1).ptr;
+    double shorter = 0.0;
+    std::from_chars(text, end, shorter);
+    if (std::abs(shorter - value) <= kSame * std::abs(value)) return shorter;
+  }
+  return value;
+}
+
 bool starts_with_spreadsheet_error(std::string_view line) {
   line = trim(line);
   if (line.starts_with('"')) line.remove_prefix(1);

@@ -27,6 +27,10 @@ std::optional<double> finite_number(std::string_view text);
 /// no comment there.
 bool starts_with_spreadsheet_error(std::string_view line);
 
+/// The number of fewest digits, ten at most, that agrees to 1e-12 of the value: 0.003 of 0.0029999999999999996, which a
+/// change of units made of it. A value that has more digits, as 1/3, stays.
+double fewest_digits(double value);
+
 /// A height as map files write it: a finite number, or NaN for "no data" (empty, nan, No Data, NA, N/A, None, NULL,
 /// masked, --, BAD, 1.#QNAN, -1.#IND, and the #N/A, #DIV/0!, #NUM!, #VALUE!, #NULL! of spreadsheets; any case), in
 /// quotes or not. Nothing if it is neither: #REF! and #NAME? are a broken formula.

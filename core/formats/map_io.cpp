@@ -58,7 +58,7 @@ std::optional<Point> known_pitch(const MapHeader& header, const MapReadOptions& 
     throw InputError(
         fmt::format("{}: header says pitch_mm = {},{} but `{} pixel` says {}; they must agree (or the option "
                     "be left out)",
-                    where, header.pitch->x, header.pitch->y, options.name, pitch));
+                    where, fewest_digits(header.pitch->x), fewest_digits(header.pitch->y), options.name, pitch));
   }
   // What the file rounds more than single precision would, as the size of a field, the user may know better.
   if (header.pitch_rounding > kSinglePitchRounding) return Point{pitch, pitch};

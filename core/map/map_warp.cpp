@@ -7,13 +7,25 @@
 
 #include "core/base/errors.h"
 #include "core/base/grid_limit.h"
+#include "core/base/memory.h"
 #include "core/map/map_sampler.h"
 
 namespace dwell {
+namespace {
+
+/// The new map, and of the old one a wider copy and the spline through it.
+void require_memory_to_warp(const Grid& from, const Grid& onto) {
+  constexpr double kSpline = 2.0;
+  require_memory(sizeof(double) * (static_cast<double>(onto.size()) + kSpline * static_cast<double>(from.size())),
+                 fmt::format("resampling {} x {} pixels onto {} x {}", from.rows, from.cols, onto.rows, onto.cols));
+}
+
+}  // namespace
 
 HeightMap warp_map(const HeightMap& map, const PlaneTransform& forward, const Grid& target, int threads,
                    const Progress& progress) {
   const PlaneTransform back = forward.inverse();
+  require_memory_to_warp(map.grid, target);
   progress.step("the spline through the map");
   const MapSampler sampler(map, progress);
   HeightMap result(target);

@@ -72,7 +72,7 @@ PsdLimitCheck check_psd_limit(const PsdCurve& curve, const PsdLine& limit, doubl
 }
 
 PsdLimit parse_psd_limit(const std::string& text) {
-  constexpr ValueRange kDensities{1e-30, 1e30, ""}, kExponents{-20.0, 20.0, ""};
+  constexpr ValueRange kDensities{1e-30, 1e30, ""}, kExponents{0.0, 20.0, ""};
   const auto [kind, rest] = split_kind(text);
   const bool has_kind = text.find(':') != std::string::npos;
   const auto fields = split(has_kind ? std::string_view(rest) : std::string_view(text), ',');
@@ -82,7 +82,7 @@ PsdLimit parse_psd_limit(const std::string& text) {
   }
   throw InputError(fmt::format(
       "limit \"{}\"; accepted: A,B for the spectra along x and y (A > 0 in nm^2 mm, the density at 1/mm), or "
-      "radial:A,B (A in nm^2 mm^2); A {}, B {}",
+      "radial:A,B (A in nm^2 mm^2), for A f^-B: a negative B would be a limit that rises; A {}, B {}",
       text, kDensities.text(), kExponents.text()));
 }
 

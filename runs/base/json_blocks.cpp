@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/base/number_text.h"
 #include "core/base/utf8_text.h"
 #include "core/base/version.h"
 #include "solvers/solver_catalogue.h"
@@ -41,8 +42,8 @@ nlohmann::ordered_json finite_or_null(const std::optional<double>& value) {
 nlohmann::ordered_json grid_block(const Grid& grid) {
   return {{"rows", grid.rows},
           {"columns", grid.cols},
-          {"pixel_mm", {grid.pitch_x, grid.pitch_y}},
-          {"origin_mm", {grid.origin.x, grid.origin.y}}};
+          {"pixel_mm", {fewest_digits(grid.pitch_x), fewest_digits(grid.pitch_y)}},
+          {"origin_mm", {fewest_digits(grid.origin.x), fewest_digits(grid.origin.y)}}};
 }
 
 nlohmann::ordered_json map_block(const MapFigures& map) {

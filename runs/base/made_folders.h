@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <deque>
 #include <filesystem>
 
@@ -16,9 +17,9 @@ class MadeFolders {
   MadeFolders(const MadeFolders&) = delete;
   MadeFolders& operator=(const MadeFolders&) = delete;
 
-  /// Makes the folder and those around it, as far as they are missing. Throws InputError of the option `out` with the
-  /// system's reason.
-  void make(const std::filesystem::path& folder);
+  /// Makes the folder and those around it, as far as they are missing. Throws InputError of the option `out` if more
+  /// than `most` are missing, or with the system's reason.
+  void make(const std::filesystem::path& folder, std::size_t most);
 
  private:
   std::deque<UnfinishedOutput> folders_;  // outermost first

@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <limits>
 #include <system_error>
 #include <utility>
 
@@ -104,9 +105,11 @@ void refuse_inside_result(const fs::path& target, const ResultFiles& files,
   }
 }
 
-OutputFolder::OutputFolder(const fs::path& target, const ResultFiles& files) : target_(normal(target, files)) {
+OutputFolder::OutputFolder(const fs::path& target, const ResultFiles& files, MissingParents parents)
+    : target_(normal(target, files)) {
   check_target(target_, target, files);
-  made_parents_.make(target_.parent_path());
+  made_parents_.make(target_.parent_path(),
+                     parents == MissingParents::MakeAll ? std::numeric_limits<std::size_t>::max() : 1);
   unfinished_.emplace(UnfinishedOutput::Kind::Folder, [&] {
     try {
       TemporaryName name = make_temporary_folder(target_);

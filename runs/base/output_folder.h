@@ -33,15 +33,22 @@ bool is_result(const std::filesystem::path& folder, const ResultFiles& files);
 void refuse_inside_result(const std::filesystem::path& target, const ResultFiles& files,
                           const std::vector<const ResultFiles*>& kinds);
 
+/// Which missing folders above a result are made.
+enum class MissingParents {
+  MakeOne,  // more than one is rather a slip of the pen
+  MakeAll,
+};
+
 /// A folder of results that appears whole or not at all. Files go to a temporary folder beside the target; commit()
 /// puts it in place in one step (an earlier result is exchanged with it and then removed); without commit() the
 /// temporary folder is removed, with the parents that were made for it, and the target is as it was.
 class OutputFolder {
  public:
   /// Throws InputError if the target is empty text, a file, a folder that holds anything but an earlier result
-  /// of the kind, or if its parent cannot be written. Checks before any work is done; creates the temporary folder.
-  /// A link to a folder stays: what it points to is replaced.
-  OutputFolder(const std::filesystem::path& target, const ResultFiles& files);
+  /// of the kind, if more than `parents` allows is missing above it, or if its parent cannot be written. Checks before
+  /// any work is done; creates the temporary folder. A link to a folder stays: what it points to is replaced.
+  OutputFolder(const std::filesystem::path& target, const ResultFiles& files,
+               MissingParents parents = MissingParents::MakeOne);
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numeric>
 #include <tuple>
 
@@ -104,12 +105,15 @@ void mark_front(std::vector<ParetoPoint>& points) {
 
 ParetoSweep sweep_weights(const JobOptions& options, const ParetoRanges& ranges, const Progress& progress) {
   ParetoSweep sweep;
-  sweep.job = load_job(options, progress);
-  sweep.laid = lay_job_path(sweep.job, progress);
-  if (auto file = path_input(options)) sweep.job.inputs.push_back(std::move(*file));
-  progress.step("setting up the removal operator");
-  const LatticeChoice lattice = choose_lattice(*sweep.job.part, sweep.laid.strokes, progress.of_part("lattice"));
-  PlanProblem problem(*sweep.job.part, sweep.laid, lattice.kernel, dwell_options(options), progress);
+  const auto set_up = time_limit(options.max_solve_s).run(progress, [&](const Progress& limited) {
+    sweep.job = load_job(options, limited);
+    sweep.laid = lay_job_path(sweep.job, limited);
+    if (auto file = path_input(options)) sweep.job.inputs.push_back(std::move(*file));
+    limited.step("setting up the removal operator");
+    const LatticeChoice lattice = choose_lattice(*sweep.job.part, sweep.laid.strokes, limited.of_part("lattice"));
+    return std::make_unique<PlanProblem>(*sweep.job.part, sweep.laid, lattice.kernel, dwell_options(options), limited);
+  });
+  PlanProblem& problem = *set_up;
   sweep.ranges = complete_ranges(ranges, problem.highest_price());
   const std::size_t rows = sweep.ranges.smoothnesses.size(), columns = sweep.ranges.time_prices.size();
   sweep.points.resize(rows * columns);

@@ -22,12 +22,6 @@
 namespace dwell {
 namespace {
 
-/// The rapids, whose time the program does not say: up, and across. The way down is a feed move of the program.
-double lift_time(const PathMetrics& metrics, const JobOptions& o) {
-  const double up = o.lift_height_mm * static_cast<double>(metrics.lifts);
-  return (metrics.lifted_length + up) / units::mm_per_s(o.max_feed_mm_per_min);
-}
-
 PsdCurve radial_spectrum(const HeightMap& map, int threads) {
   PsdOptions options;
   options.threads = threads;
@@ -89,8 +83,8 @@ void plan_one(Job job, double pitch, ComparedPath& path, const OutputFolder& fol
   path.dwell_min = plan.dwell.seconds.minCoeff();
   path.dwell_max = plan.dwell.seconds.maxCoeff();
   path.step_rms = plan.dwell.step_rms;
-  path.lift_time = lift_time(plan.laid.metrics, plan.job.options);
-  path.total_time = written.program_seconds + path.lift_time;
+  path.lift_time = written.lift_seconds;
+  path.total_time = written.total_seconds();
   path.solver = plan.dwell.solver;
   path.program = written.program;
 }
@@ -138,7 +132,9 @@ PathComparison compare_paths(const JobOptions& options, const std::string& list,
   }
   parse_path_list(list, pitch.value_or(1.0));  // refuses a wrong list before any work is done
   PathComparison comparison;
-  comparison.job = load_job(options, progress);
+  comparison.job = time_limit(options.max_solve_s).run(progress, [&](const Progress& limited) {
+    return load_job(options, limited);
+  });
   comparison.pitch_given = pitch.has_value();
   comparison.pitch = pitch.value_or(default_pitch(comparison.job.part->tif));
   comparison.before = radial_spectrum(comparison.job.part->figure, comparison.job.part->threads);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/base/duration_text.h"
 #include "core/base/utf8_text.h"
 #include "runs/base/inputs_json.h"
 #include "runs/drawing/line_chart.h"
@@ -231,22 +232,23 @@ std::string path_comparison_text(const PathComparison& comparison) {
   std::string text =
       fmt::format("before    {}; pitch {:.6g} mm where a path says none ({})\n", in_words(comparison.job.part->before),
                   comparison.pitch, comparison.pitch_given ? "given" : "a quarter of the removal function's FWHM");
-  text += fmt::format("  {:<{}} {:>12} {:>11} {:>9} {:>11} {:>8} {:>10} {:>6} {:>9} {:>10}\n", "path", widest,
-                      "residual[nm]", "mid RMS[nm]", "total[s]", "step RMS[s]", "points", "length[mm]", "lifts",
-                      "ripple[%]", "anisotropy");
+  text += fmt::format("  {:<{}} {:>12} {:>11} {:>9} {:>13} {:>8} {:>11} {:>8} {:>10} {:>6} {:>9} {:>10}\n", "path",
+                      widest, "residual[nm]", "mid RMS[nm]", "total[s]", "h:min:s", "lift[s]", "step RMS[s]", "points",
+                      "length[mm]", "lifts", "ripple[%]", "anisotropy");
   std::string below;
   for (const ComparedPath& p : comparison.paths) {
     if (!p.failure.empty()) {
       below += fmt::format("{}: no plan: {}\n", p.listed.name, p.failure);
       continue;
     }
-    text += fmt::format("{} {:<{}} {:>12.4g} {:>11} {:>9.2f} {:>11.4g} {:>8} {:>10.6g} {:>6} {:>9} {:>10.2f}\n",
-                        p.on_front  ? '*'
-                        : p.whole() ? ' '
-                                    : '!',
-                        p.listed.name, widest, p.residual_rms, p.mid_rms() ? fmt::format("{:.4g}", *p.mid_rms()) : "-",
-                        p.total_time, p.step_rms, p.metrics.points, p.metrics.length, p.metrics.lifts,
-                        p.ripple ? fmt::format("{:.3g}", 100.0 * p.ripple->pvn) : "-", p.metrics.anisotropy);
+    text += fmt::format(
+        "{} {:<{}} {:>12.4g} {:>11} {:>9.2f} {:>13} {:>8.2f} {:>11.4g} {:>8} {:>10.6g} {:>6} {:>9} {:>10.2f}\n",
+        p.on_front  ? '*'
+        : p.whole() ? ' '
+                    : '!',
+        p.listed.name, widest, p.residual_rms, p.mid_rms() ? fmt::format("{:.4g}", *p.mid_rms()) : "-", p.total_time,
+        clock_text(p.total_time), p.lift_time, p.step_rms, p.metrics.points, p.metrics.length, p.metrics.lifts,
+        p.ripple ? fmt::format("{:.3g}", 100.0 * p.ripple->pvn) : "-", p.metrics.anisotropy);
     if (!p.no_ripple.empty()) below += fmt::format("{}: no ripple: {}\n", p.listed.name, p.no_ripple);
     for (const std::string& note : p.notes) below += fmt::format("{}: {}\n", p.listed.name, note);
   }

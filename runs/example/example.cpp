@@ -22,6 +22,11 @@ void require(bool accepted, const char* owner, const char* field, double value, 
   if (!accepted) throw InputError(fmt::format("{}.{} = {}; required {}", owner, field, value, what));
 }
 
+/// The same for what the command line can give: the message names the option.
+void require_option(bool accepted, const char* option, double value, const char* what) {
+  if (!accepted) throw InputError(option, fmt::format("{} mm", value), what);
+}
+
 struct Field {
   const char* name;
   double value;
@@ -35,10 +40,10 @@ void check(const ExampleOptions& o) {
         Field{"spherical", o.spherical}, Field{"bump", o.bump}, Field{"edge_rolloff", o.edge_rolloff}}) {
     require(std::abs(f.value) <= kHuge, kOwner, f.name, f.value, "finite, at most 1e9 in magnitude");
   }
-  for (const Field f : {Field{"width", o.width}, Field{"height", o.height}, Field{"pitch", o.pitch},
-                        Field{"edge_width", o.edge_width}}) {
-    require(ranges::kSize.holds(f.value), kOwner, f.name, f.value, "> 0, from 1e-6 to 1e6 mm");
+  for (const Field f : {Field{"width", o.width}, Field{"height", o.height}, Field{"pitch", o.pitch}}) {
+    require_option(ranges::kSize.holds(f.value), f.name, f.value, "> 0, from 1e-6 to 1e6 mm");
   }
+  require(ranges::kSize.holds(o.edge_width), kOwner, "edge_width", o.edge_width, "> 0, from 1e-6 to 1e6 mm");
   for (const Field f : {Field{"roughness_rms", o.roughness_rms}, Field{"noise_rms", o.noise_rms}}) {
     require(f.value >= 0.0 && f.value <= kHuge, kOwner, f.name, f.value, ">= 0 and at most 1e9");
   }
@@ -47,10 +52,10 @@ void check(const ExampleOptions& o) {
   const bool round = o.shape == ExampleOptions::Shape::Round;
   const double least = round ? o.width : std::min(o.width, o.height);
   const double most = round ? o.width : std::max(o.width, o.height);
-  require(o.pitch <= 0.5 * least && o.pitch >= most / kLargestEdge, kOwner, "pitch", o.pitch,
-          "such that both edges have 2 to 4096 pixels");
-  require(o.hole >= 0.0 && (round ? o.hole <= o.width - 2.0 * o.pitch : o.hole == 0.0), kOwner, "hole", o.hole,
-          "from 0 to the width less two pitches for a round mirror, 0 for a rectangle");
+  require_option(o.pitch <= 0.5 * least && o.pitch >= most / kLargestEdge, "pitch", o.pitch,
+                 "such that both edges have 2 to 4096 pixels");
+  require_option(o.hole >= 0.0 && (round ? o.hole <= o.width - 2.0 * o.pitch : o.hole == 0.0), "hole", o.hole,
+                 "from 0 to the width less two pitches for a round mirror, 0 for a rectangle");
 }
 
 Grid centred_grid(double width, double height, double pitch) {
@@ -179,8 +184,7 @@ HeightMap example_mirror(const ExampleOptions& options, const Progress& progress
   }
   const std::vector<Index> pixels = finite_pixels(map);
   if (pixels.empty()) {
-    throw InputError(
-        fmt::format("ExampleOptions.pitch = {}; no pixel lies on the mirror, a finer one required", options.pitch));
+    throw InputError("pitch", fmt::format("{} mm", options.pitch), "a finer one: no pixel lies on the mirror");
   }
   RandomNumbers random(options.seed);
   std::vector<double> rough(map.values.size(), 0.0);

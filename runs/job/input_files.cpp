@@ -26,11 +26,20 @@ bool is_centred_at_a_place(const JobOptions& options) {
   return options.tif_centre && options.tif_centre->kind == TifCentre::Kind::Given;
 }
 
+/// The factor of a unit that an option gives, named in what is refused.
+double factor_of_option(const char* option, const std::string& unit, MapQuantity quantity) {
+  try {
+    return unit_factor(unit, quantity);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("--{}: {}", option, error.what()));
+  }
+}
+
 MapReadOptions map_reading(const JobOptions& options) {
   MapReadOptions read;
   read.pitch = options.map_pixel_mm;
   read.origin = options.map_origin_mm;
-  if (!options.map_unit.empty()) read.scale = height_unit_nm(options.map_unit);
+  if (!options.map_unit.empty()) read.scale = factor_of_option("map-unit", options.map_unit, MapQuantity::Height);
   read.limit = {options.max_pixels};
   read.no_data = options.map_no_data;
   if (options.map_max_pv_mm) read.max_pv = *options.map_max_pv_mm * units::kNmPerMm;
@@ -49,7 +58,7 @@ MapReadOptions tif_reading(const JobOptions& options, MapQuantity quantity) {
   read.pitch = options.tif_pixel_mm;
   // Job files of dwell 0.2 say nm/s where no unit was given, also of the surface that spots left.
   const bool said = !options.tif_unit.empty() && !(quantity == MapQuantity::Height && options.tif_unit == "nm/s");
-  if (said) read.scale = unit_factor(options.tif_unit, quantity);
+  if (said) read.scale = factor_of_option("tif-unit", options.tif_unit, quantity);
   read.limit = {options.max_pixels};
   read.origin_counts = is_centred_at_a_place(options);
   read.no_data = options.tif_no_data;

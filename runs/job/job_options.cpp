@@ -209,7 +209,7 @@ std::vector<JobOptionRecord> make_table() {
       {"solver", "solver", "NAME", "auto, or another of " + solver_words(), false, false,
        [](Options& o, const std::string& t) { o.solver = parse_solver_kind(t); },
        [](const Options& o) { return to_string(o.solver); }},
-      {"max-solve", "max_solve_s", "S", "time limit of the solver in s", false, true,
+      {"max-solve", "max_solve_s", "S", "time limit in s, of reading, path, set-up and solve together", false, true,
        [](Options& o, const std::string& t) { o.max_solve_s = number(t, ranges::kTime); },
        [](const Options& o) { return shown(o.max_solve_s); }},
       {"threads", "threads", "N", "threads; 0 = one for every processor", false, true,

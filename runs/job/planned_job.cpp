@@ -1,8 +1,10 @@
 #include "runs/job/planned_job.h"
 
+#include <optional>
 #include <utility>
 
 #include "core/base/errors.h"
+#include "core/base/time_limit.h"
 #include "runs/job/option_flags.h"
 
 namespace dwell {
@@ -14,15 +16,12 @@ std::vector<std::string> PlannedJob::limits() const {
   return all;
 }
 
-PlannedJob plan_job(const JobOptions& options, const Progress& progress) {
-  weights_are_searched(dwell_options(options));  // refuses what cannot be searched before any work is done
-  Job job = load_job(options, progress);
-  LaidPath laid = lay_job_path(job, progress);
-  return plan_job(std::move(job), std::move(laid), progress);
-}
+namespace {
 
-PlannedJob plan_job(Job job, LaidPath laid, const Progress& progress) {
-  const DwellOptions options = dwell_options(job.options);
+/// `used` went of the time limit before [s].
+PlannedJob plan_loaded(Job job, LaidPath laid, double used, const Progress& progress) {
+  DwellOptions options = dwell_options(job.options);
+  options.used_seconds = used;
   PlannedJob planned;
   planned.job = std::move(job);
   if (auto file = path_input(planned.job.options)) planned.job.inputs.push_back(std::move(*file));
@@ -30,6 +29,23 @@ PlannedJob plan_job(Job job, LaidPath laid, const Progress& progress) {
   planned.dwell = find_dwell(planned.part(), planned.laid, options, progress);
   planned.program = make_machine_program(planned.laid, planned.dwell, options.machine, progress);
   return planned;
+}
+
+}  // namespace
+
+PlannedJob plan_job(const JobOptions& options, const Progress& progress) {
+  weights_are_searched(dwell_options(options));  // refuses what cannot be searched before any work is done
+  const TimeLimit limit = time_limit(options.max_solve_s);
+  std::optional<Job> job;
+  LaidPath laid = limit.run(progress, [&](const Progress& limited) {
+    job = load_job(options, limited);
+    return lay_job_path(*job, limited);
+  });
+  return plan_loaded(std::move(*job), std::move(laid), limit.used(), progress);
+}
+
+PlannedJob plan_job(Job job, LaidPath laid, const Progress& progress) {
+  return plan_loaded(std::move(job), std::move(laid), 0.0, progress);
 }
 
 }  // namespace dwell

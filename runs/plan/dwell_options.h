@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+
+#include "core/base/time_limit.h"
 #include "runs/plan/machine_limits.h"
 #include "solvers/problem/dwell_solver.h"
 #include "solvers/weights/weight_search.h"
@@ -12,8 +15,16 @@ struct DwellOptions {
   WeightGoal smoothness{0.1};  // weight of smooth feed against residual, dimensionless
   WeightGoal time_price{0.0};  // price of a second of machine time [nm^2/s]
   SolverKind solver = SolverKind::Auto;
-  double max_seconds = 3600.0;  // wall clock for all solves together [s]; > 0
+  double max_seconds = 3600.0;  // wall clock for the set-up and all solves together [s]; > 0
+  double used_seconds = 0.0;    // of these, before find_dwell was called: by reading the input, planning the path
 };
+
+/// The clock of max_seconds, of which `used` went before [s]. The phases before a solve have a second even where
+/// max_seconds is less: so short a limit is one on the solve.
+inline TimeLimit time_limit(double max_seconds, double used = 0.0) {
+  constexpr double kLeastSetUp = 1.0;
+  return {std::max(max_seconds, kLeastSetUp), "max solve", used};
+}
 
 /// Whether the options leave a weight to a search. Throws InputError if both weights shall be the largest that hold a
 /// residual: many pairs of weights do, and none of them is the largest.

@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <memory>
 #include <utility>
 
+#include "core/base/time_limit.h"
 #include "core/removal/simulate.h"
 #include "paths/feed/plan_program.h"
 #include "runs/plan/plan_problem.h"
@@ -14,12 +17,16 @@
 namespace dwell {
 namespace {
 
+constexpr double kLeastSolve = 1e-9;  // s; enough for the statement that there was no time
+
 void collect_limits(DwellPlan& plan, const DwellOptions& options) {
   if (!plan.solver.converged()) {
     const bool time = plan.solver.status == SolverStatus::TimeLimit;
-    plan.limits.push_back(fmt::format("solver {}: {}: {}{}", to_string(options.solver), to_string(plan.solver.status),
-                                      plan.solver.message,
-                                      time ? fmt::format("; `max solve` is {} s", options.max_seconds) : ""));
+    plan.limits.push_back(fmt::format(
+        "solver {}: {}: {}{}", to_string(options.solver), to_string(plan.solver.status), plan.solver.message,
+        time ? fmt::format("; `max solve` is {} s, of which {:.1f} s went before the solve", options.max_seconds,
+                           plan.seconds_before_solve)
+             : ""));
   }
   if (plan.search) plan.limits.insert(plan.limits.end(), plan.search->limits.begin(), plan.search->limits.end());
 }
@@ -46,12 +53,19 @@ DwellPlan find_dwell_on(const LatticeChoice& lattice, const Part& part, const La
   DwellPlan plan;
   plan.lattice = lattice;
   if (weights_are_searched(options)) plan.search.emplace();
-  progress.step("solve: setting up the removal operator");
-  PlanProblem problem(part, laid, lattice.kernel, options, progress.of_part("solve"));
-  progress.check();
-  WeightedDwell found = plan.search ? choose_weights(problem, options, progress, *plan.search)
+  const TimeLimit limit = time_limit(options.max_seconds, options.used_seconds);
+  const std::unique_ptr<PlanProblem> set_up = limit.run(progress, [&](const Progress& limited) {
+    limited.step("solve: setting up the removal operator");
+    auto problem = std::make_unique<PlanProblem>(part, laid, lattice.kernel, options, limited.of_part("solve"));
+    limited.check();
+    return problem;
+  });
+  PlanProblem& problem = *set_up;
+  plan.seconds_before_solve = limit.used();
+  const double most = std::min(options.max_seconds, std::max(limit.left(), kLeastSolve));
+  WeightedDwell found = plan.search ? choose_weights(problem, options, most, progress, *plan.search)
                                     : problem.solve({options.smoothness.value, options.time_price.value},
-                                                    std::move(start), options.max_seconds, "solve", progress);
+                                                    std::move(start), most, "solve", progress);
   plan.weights = found.weights;
   plan.seconds = std::move(found.dwell);
   plan.solver = std::move(found.solver);
@@ -71,20 +85,27 @@ DwellPlan find_dwell_on(const LatticeChoice& lattice, const Part& part, const La
 
 DwellPlan find_dwell(const Part& part, const LaidPath& laid, const DwellOptions& options, const Progress& progress) {
   constexpr int kMostLattices = 3;
-  LatticeChoice lattice = choose_lattice(part, laid.strokes, progress.of_part("lattice"));
+  const TimeLimit limit = time_limit(options.max_seconds, options.used_seconds);
+  LatticeChoice lattice = limit.run(progress, [&](const Progress& limited) {
+    return choose_lattice(part, laid.strokes, limited.of_part("lattice"));
+  });
   // A Fourier deconvolution works on the map's own pixels.
   if (options.solver == SolverKind::Fourier) lattice = {part.kernel, lattice.error, true};
   const auto too_coarse = [&part](const DwellPlan& plan) { return lattice_too_coarse(plan.exact, part.before); };
   DwellOptions rest = options;
+  rest.used_seconds = limit.used();
   DwellPlan plan = find_dwell_on(lattice, part, laid, rest, {}, progress);
-  double seconds = plan.solver.seconds;
   for (int lattices = 2; lattices <= kMostLattices && too_coarse(plan) && !plan.lattice.finest; ++lattices) {
-    rest.max_seconds = options.max_seconds - seconds;
-    if (!(rest.max_seconds > 0.0)) break;
-    plan = find_dwell_on(finer_lattice(part, plan.lattice), part, laid, rest, std::move(plan.seconds), progress);
+    rest.used_seconds = limit.used();
+    if (!(limit.left() > 0.0)) break;
+    const double seconds = plan.solver.seconds;
+    try {
+      plan = find_dwell_on(finer_lattice(part, plan.lattice), part, laid, rest, plan.seconds, progress);
+    } catch (const TimeLimitReached&) {
+      break;  // the plan on the coarser lattice stands, and what follows says how wrong it is
+    }
     plan.lattices = lattices;
-    seconds += plan.solver.seconds;
-    plan.solver.seconds = seconds;
+    plan.solver.seconds += seconds;
   }
   if (too_coarse(plan)) {
     plan.limits.push_back(fmt::format(

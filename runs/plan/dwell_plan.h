@@ -23,6 +23,7 @@ struct DwellPlan {
   std::optional<WeightTrials> search;  // nothing = both given
   Vector seconds;                      // of every dwell point, in path order
   double step_rms = 0.0;               // |D t| / sqrt(number of links) [s]
+  double seconds_before_solve = 0.0;   // wall clock of the phases before, as far as the time limit counts them [s]
   SolverSummary solver;
   Certificate certificate;
   LatticeChoice lattice;            // of the removal operator
@@ -34,9 +35,10 @@ struct DwellPlan {
 
 /// Solves the dwell problem of a part and a path laid on it, on a lattice that holds the removal function; where the
 /// lattice's own error comes to more than 5 % of what is left, once or twice more on a finer one. Throws OutOfMemory
-/// before the work if the machine has less memory than it takes for certain, InputError for options that contradict
-/// each other (weights_are_searched), Interrupted, std::runtime_error if the solver fails. Cost: the solver's operator
-/// applications dominate (docs/math.md).
+/// before the work if the machine has less memory than it takes for certain, TimeLimitReached if options.max_seconds
+/// are over before the first solve, InputError for options that contradict each other (weights_are_searched),
+/// Interrupted, std::runtime_error if the solver fails. Cost: the solver's operator applications dominate
+/// (docs/math.md).
 DwellPlan find_dwell(const Part& part, const LaidPath& laid, const DwellOptions& options,
                      const Progress& progress = {});
 

@@ -21,4 +21,9 @@ MachineProgram make_machine_program(const LaidPath& laid, const DwellPlan& dwell
   return program;
 }
 
+double lift_seconds(const PathMetrics& metrics, double lift_height_mm, const MachineLimits& machine) {
+  const double up = lift_height_mm * static_cast<double>(metrics.lifts);
+  return (metrics.lifted_length + up) / machine.feed_limits().max_feed;
+}
+
 }  // namespace dwell

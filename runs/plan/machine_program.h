@@ -23,4 +23,8 @@ struct MachineProgram {
 MachineProgram make_machine_program(const LaidPath& laid, const DwellPlan& dwell, const MachineLimits& machine,
                                     const Progress& progress = {});
 
+/// The time of the rapids [s], which the program does not say: up by the lift height, and across, at the maximum feed.
+/// The way down is a feed move of the program.
+double lift_seconds(const PathMetrics& metrics, double lift_height_mm, const MachineLimits& machine);
+
 }  // namespace dwell

@@ -71,8 +71,8 @@ constexpr const char* kPriceUnit = " nm^2/s";
 
 }  // namespace
 
-WeightedDwell choose_weights(PlanProblem& problem, const DwellOptions& options, const Progress& progress,
-                             WeightTrials& search) {
+WeightedDwell choose_weights(PlanProblem& problem, const DwellOptions& options, double max_seconds,
+                             const Progress& progress, WeightTrials& search) {
   WeightSearchOptions how;
   how.smoothness = options.smoothness;
   how.time_price = options.time_price;
@@ -83,12 +83,12 @@ WeightedDwell choose_weights(PlanProblem& problem, const DwellOptions& options, 
   SolverSummary sum;
   bool out_of_time = false;
   const auto evaluate = [&](const Weights& weights) -> std::optional<TradeOff> {
-    out_of_time = !found.empty() && sum.seconds >= options.max_seconds;
+    out_of_time = !found.empty() && sum.seconds >= max_seconds;
     if (out_of_time) return std::nullopt;
     const std::string stage = fmt::format("search {}: smoothness {:.4g}, time price {:.4g} nm^2/s", found.size() + 1,
                                           weights.smoothness, weights.time_price);
     found.push_back(
-        problem.solve(weights, nearest.start_for(weights, found), options.max_seconds - sum.seconds, stage, progress));
+        problem.solve(weights, nearest.start_for(weights, found), max_seconds - sum.seconds, stage, progress));
     const WeightedDwell& f = found.back();
     progress.report(fmt::format("{}: residual {:.4g} nm RMS, total {:.5g} s, step {:.4g} s RMS", stage,
                                 f.trade_off.residual_rms, f.trade_off.total, f.trade_off.step_rms));

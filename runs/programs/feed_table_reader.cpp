@@ -12,8 +12,10 @@
 #include "core/base/poll.h"
 #include "core/base/text_lines.h"
 #include "core/base/units.h"
+#include "core/base/utf8_text.h"
 #include "core/base/value_range.h"
 #include "core/base/whole_file.h"
+#include "core/map/unit_mention.h"
 #include "paths/feed/plan_program.h"
 #include "runs/programs/feed_table.h"
 
@@ -81,11 +83,22 @@ class FeedTableReader {
       return;
     }
     const std::size_t colon = line.find_first_of(":=");
-    if (colon == std::string_view::npos) return;
+    if (colon == std::string_view::npos) return check_remark(line);
     const std::string_view key = trim(line.substr(0, colon));
     const std::string_view value = trim(line.substr(colon + 1));
     if (key == "input") return read_input(value);
-    if (key == "path" || is_quantity(key)) read_quantity(key, value);
+    if (key == "path" || is_quantity(key)) return read_quantity(key, value);
+    check_remark(line);
+  }
+
+  /// A remark that names another unit than the columns do is not skipped.
+  void check_remark(std::string_view line) const {
+    if (const auto unit = find_other_unit(line)) {
+      fail(
+          fmt::format("\"{}\" in the comment \"{}\" looks like another unit; accepted: {}, or the comment without a "
+                      "unit",
+                      with_escaped_bytes(*unit), with_escaped_bytes(line), kFeedTableUnits));
+    }
   }
 
   /// Whether a header line of this name is about the numbers of the table: of these none is skipped. Others are the

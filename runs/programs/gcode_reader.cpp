@@ -9,7 +9,9 @@
 #include "core/base/poll.h"
 #include "core/base/text_lines.h"
 #include "core/base/units.h"
+#include "core/base/utf8_text.h"
 #include "core/base/value_range.h"
+#include "core/map/unit_mention.h"
 #include "runs/programs/gcode_block.h"
 #include "runs/programs/gcode_tool.h"
 #include "runs/programs/gcode_words.h"
@@ -87,7 +89,7 @@ class GcodeInterpreter {
   void read_comment(std::string_view comment) {
     constexpr std::string_view kPrefix = "dwell:";
     while (comment.starts_with(' ')) comment.remove_prefix(1);
-    if (!comment.starts_with(kPrefix)) return;
+    if (!comment.starts_with(kPrefix)) return check_units(comment);
     comment.remove_prefix(kPrefix.size());
     while (!comment.empty()) {
       const std::size_t comma = comment.find(',');
@@ -97,6 +99,18 @@ class GcodeInterpreter {
       while (!entry.empty() && (entry.back() == ' ' || entry.back() == '\r')) entry.remove_suffix(1);
       read_entry(entry);
     }
+  }
+
+  /// A comment that names another unit than the program is read in is not skipped. In what our own programs say of
+  /// their input, the words are those of a file's name.
+  void check_units(std::string_view comment) const {
+    if (comment.starts_with("input: ") && comment.find(" sha256=") != std::string_view::npos) return;
+    const auto unit = find_other_unit(comment, reading_.halts == HaltUnit::Milliseconds);
+    if (!unit) return;
+    fail(
+        fmt::format("\"{}\" in the comment \"{}\" looks like another unit; accepted: X, Y, Z in mm and F in mm/min, or "
+                    "the comment without a unit",
+                    with_escaped_bytes(*unit), with_escaped_bytes(trim(comment))));
   }
 
   void read_entry(std::string_view entry) {

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/memory.h"
+
 namespace dwell {
 namespace {
 
@@ -70,6 +72,9 @@ MapFigures map_figures(const MapReport& report, const std::string& file, const H
 }
 
 MapReport map_report(const HeightMap& map, const MapReportOptions& options, const Progress& progress) {
+  constexpr double kCopies = 2.0;  // the figure, and what the robust PV leaves of it
+  require_memory(kCopies * sizeof(double) * static_cast<double>(map.grid.size()),
+                 fmt::format("the report of {} x {} pixels", map.grid.rows, map.grid.cols));
   MapReport report;
   report.removed = options.removed;
   report.figure = map;

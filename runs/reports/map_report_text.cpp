@@ -66,8 +66,11 @@ std::string bands_text(const SpectrumReport& s, double plain_rms) {
     text += fmt::format("     short{:>10.4g} nm RMS in the bands shorter than two pixels, along diagonals\n",
                         s.split.shorter);
   }
-  return text +
-         fmt::format("     all  {:>10.4g} nm RMS as the window sees the map (plain RMS {:.4g} nm)\n", s.rms, plain_rms);
+  return text + fmt::format(
+                    "     all  {:>10.4g} nm RMS as the window sees the map, and so the bands (plain RMS {:.4g} nm, "
+                    "every pixel "
+                    "alike)\n",
+                    s.rms, plain_rms);
 }
 
 /// `plain_rms`: of the map, every pixel counting the same [nm].
@@ -105,11 +108,21 @@ std::string robust_text(const MapReport& report) {
     return fmt::format("PVr       too few pixels: {} with data, 36 Zernike terms\n", report.statistics.valid_pixels);
   }
   const RobustPv& robust = *report.robust;
-  return fmt::format("PVr       {:.6g} nm (36 Zernike terms {:.6g} nm PV + 3 x {:.6g} nm RMS of the rest)\n",
-                     robust.pvr, robust.fit_pv, robust.residual_rms);
+  return fmt::format(
+      "PVr       {:.6g} nm (36 Zernike terms {:.6g} nm PV + 3 x {:.6g} nm RMS of the rest: an estimate, which "
+      "may be above the PV)\n",
+      robust.pvr, robust.fit_pv, robust.residual_rms);
 }
 
-std::string slope_number(double slope) { return std::isfinite(slope) ? fmt::format("{:.6g}", slope) : "none"; }
+std::string slope_number(double slope) { return std::isfinite(slope) ? fmt::format("{:.6g} urad", slope) : "none"; }
+
+std::string slope_text(const SlopeStatistics& slope) {
+  if (!std::isfinite(slope.x) && !std::isfinite(slope.y)) {
+    return "slope     none: no two pixels with data lie side by side\n";
+  }
+  return fmt::format("slope     {} RMS in x, {} in y, {} together, from pixel to pixel\n", slope_number(slope.x),
+                     slope_number(slope.y), slope_number(slope.total));
+}
 
 }  // namespace
 
@@ -119,8 +132,7 @@ std::string map_report_text(const MapReport& report) {
   text += robust_text(report);
   text += fmt::format("RMS       {:.6g} nm{} ({} removed)\n", report.statistics.rms, mean_in_words(report.statistics),
                       removed);
-  text += fmt::format("slope     {} urad RMS in x, {} in y, {} together, from pixel to pixel\n",
-                      slope_number(report.slope.x), slope_number(report.slope.y), slope_number(report.slope.total));
+  text += slope_text(report.slope);
   text += dropped_text(report.removed_fit);
   if (report.form) text += form_text(report);
   if (report.spectrum) text += spectrum_text(*report.spectrum, report.statistics.rms_about_zero());

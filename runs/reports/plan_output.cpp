@@ -5,17 +5,20 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/errors.h"
 #include "core/base/units.h"
 #include "core/base/version.h"
 #include "core/formats/map_io.h"
 #include "core/formats/npy.h"
 #include "runs/drawing/path_picture.h"
 #include "runs/drawing/picture.h"
+#include "runs/job/option_flags.h"
 #include "runs/plan/program_prediction.h"
 #include "runs/programs/program_formats.h"
 #include "runs/programs/program_reader.h"
 #include "runs/reports/figure_output.h"
 #include "runs/reports/plan_summary.h"
+#include "runs/reports/plan_warnings.h"
 
 namespace dwell {
 namespace {
@@ -113,6 +116,13 @@ WrittenPlan write_plan(const PlannedJob& plan, const OutputFolder& folder, const
   written.limits = plan.limits();
   written.exact = predict_program(plan.part(), program, plan.dwell.lattice.kernel, progress);
   written.program_seconds = program.total_seconds();
+  const DwellOptions options = dwell_options(plan.job.options);
+  written.lift_seconds = lift_seconds(plan.laid.metrics, plan.job.options.lift_height_mm, options.machine);
+  const bool moves = plan.laid.motion == Motion::Moving;
+  for (const std::string& warning :
+       run_warnings({written.total_seconds(), plan.dwell.seconds.sum(), moves ? program.removing_length() : 0.0})) {
+    written.warnings.push_back(with_option_names(warning, flag_of));
+  }
   written.program = program_figures(program, written.exact, to_string(plan.part().form));
   written.program.file = "program.nc";  // not the path of the temporary folder that it was read from
   compare_with_solver(plan, written);

@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "core/base/number_text.h"
 #include "core/base/units.h"
 #include "runs/base/inputs_json.h"
 #include "runs/reports/options_json.h"
@@ -42,8 +43,8 @@ Json weights_json(const DwellPlan& plan) {
 
 Json feed_json(const FeedSchedule& feed, Motion motion) {
   return {{"motion", to_string(motion)},
-          {"min_mm_per_min", units::mm_per_min(feed.min_speed)},
-          {"max_mm_per_min", units::mm_per_min(feed.max_speed)},
+          {"min_mm_per_min", fewest_digits(units::mm_per_min(feed.min_speed))},
+          {"max_mm_per_min", fewest_digits(units::mm_per_min(feed.max_speed))},
           {"segments_limited", feed.segments_limited},
           {"segments_infeasible", feed.segments_infeasible}};
 }
@@ -68,6 +69,9 @@ std::string plan_summary_text(const PlannedJob& plan, const WrittenPlan& written
                   {"residual", residual_block(to_string(plan.part().form), plan.dwell.residual)},
                   {"feed", feed_json(plan.program.feed, plan.laid.motion)},
                   {"program", program_json(written)},
+                  {"total_s", written.total_seconds()},
+                  {"lift_s", written.lift_seconds},
+                  {"warnings", written.warnings},
                   {"limits", written.limits},
                   {"options", options_json(plan.job)},
                   {"inputs", inputs_json(plan.job.inputs)}});

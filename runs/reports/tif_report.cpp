@@ -17,9 +17,10 @@ using Json = nlohmann::ordered_json;
 std::string wave(const std::optional<double>& w) { return w ? fmt::format("{:.4g} mm", *w) : "none"; }
 
 std::string spots_text(const SpotCalibration& c) {
-  std::string text = fmt::format(
-      "spots     {}, radius {:.4g} mm, noise cut took {:.2g} % of the volume{}\n", c.spots.size(), c.radius,
-      100.0 * c.volume_cut, c.filled_pixels > 0 ? fmt::format(", {} pixels without data filled", c.filled_pixels) : "");
+  std::string text =
+      fmt::format("spots     {}, radius {:.4g} mm, noise cut {} {:.2g} % of the volume{}\n", c.spots.size(), c.radius,
+                  c.volume_cut < 0.0 ? "took negative rates and so added" : "took", 100.0 * std::abs(c.volume_cut),
+                  c.filled_pixels > 0 ? fmt::format(", {} pixels without data filled", c.filled_pixels) : "");
   double sum = 0.0, square = 0.0;
   for (const CalibratedSpot& s : c.spots) {
     text += fmt::format(

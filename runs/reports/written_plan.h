@@ -10,13 +10,17 @@ namespace dwell {
 
 /// What was written, and the surface that the program on disk leaves.
 struct WrittenPlan {
-  ExactResidual exact;           // what the program leaves, as read back
-  double program_seconds = 0.0;  // of program.nc, as read back
-  ProgramFigures program;        // of it, for the summary
+  ExactResidual exact;                // what the program leaves, as read back
+  double program_seconds = 0.0;       // of program.nc, as read back
+  double lift_seconds = 0.0;          // of the lifted moves, whose time program.nc does not say
+  std::vector<std::string> warnings;  // what a machine shop would question, a sentence each
+  ProgramFigures program;             // of it, for the summary
   /// Whether feed.csv, read back, removes with the steps of program.nc; if not, it is simulated too.
   bool table_has_same_steps = false;
   std::vector<std::string> limits;  // of the plan, and those that reading its files back has shown; a sentence each
   std::string summary;              // the text of summary.json
+
+  double total_seconds() const { return program_seconds + lift_seconds; }
 };
 
 }  // namespace dwell

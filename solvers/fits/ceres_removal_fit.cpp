@@ -49,7 +49,11 @@ class ModelResiduals {
     const double factor = p[2] / shape.peak;
     constexpr std::size_t kBetweenLooks = 4096;  // of 20 us at most
     for (std::size_t i = 0; i < samples_.size(); ++i) {
-      if (i % kBetweenLooks == 0 && progress_.stop_asked()) return false;  // solve_with_stop then throws
+      // Any numbers will do, as solve_with_stop then throws; of a failed evaluation Ceres would write a line.
+      if (i % kBetweenLooks == 0 && progress_.stop_asked()) {
+        std::fill(residuals, residuals + samples_.size(), 0.0);
+        return true;
+      }
       const double r = samples_[i].rate - factor * shape.value(samples_[i].place - Point{p[0], p[1]});
       const double q = r / scale_;
       residuals[i] = scale_ > 0.0 ? r * std::sqrt(2.0 / (std::sqrt(1.0 + q * q) + 1.0)) : r;
@@ -208,6 +212,7 @@ class ModelFit {
     if (!ModelResiduals(model_, samples_, blur_, 0.0, progress_)(&block, r.data())) {
       throw InputError(fmt::format("fit of {}: ended outside of the model's range", model_.name));
     }
+    progress_.check();  // if it said stop, these are not the residuals
     return r;
   }
 

@@ -111,6 +111,7 @@ void StoppingRules::stop_at_rest(double value, double projected_gradient) {
 }
 
 std::string progress_line(const SolverProgress& progress) {
+  if (progress.iterations == 0) return fmt::format("before the first iteration, {:.1f} s", progress.seconds);
   return fmt::format("iteration {}, residual {:.4g} nm RMS, {:.1f} s", progress.iterations, progress.residual_rms,
                      progress.seconds);
 }

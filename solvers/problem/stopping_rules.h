@@ -73,7 +73,7 @@ class StoppingRules {
   long checkpoint_iteration_ = 0;
 };
 
-/// The line shown of a solve: "iteration 12, residual 3.4 nm RMS, 0.5 s".
+/// The line shown of a solve: "iteration 12, residual 3.4 nm RMS, 0.5 s"; before the first there is no residual yet.
 std::string progress_line(const SolverProgress& progress);
 
 }  // namespace dwell

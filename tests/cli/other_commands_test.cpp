@@ -81,7 +81,7 @@ TEST(MapCommand, TellsFormSpectraAndProfile) {
       {"map", "map.csv", "--map-pixel", "0.5", "--form", "zernike-noll:1-6", "--psd", "--bands", "5,2", "--profile",
        "y=3", "--json=map.json", "--psd-png", "psd.png", "--profile-png", "profile.png", "--remove", "legendre:1"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
-  for (const char* part : {"PVr  ", "urad RMS in x", "Z4 defocus", "PSD rad", "band mid", "5 - 2 mm",
+  for (const char* part : {"PVr  ", "urad RMS in x, ", "Z4 defocus", "PSD rad", "band mid", "5 - 2 mm",
                            "profile   y = 3 mm", "(legendre:1 removed)"}) {
     expect_has(result.out, part);
   }

@@ -54,6 +54,44 @@ TEST(OutputFiles, NeverReplaceAnInput) {
   EXPECT_EQ(read_whole_file(inputs / "part.png"), read_whole_file(inputs / "map.csv"));
 }
 
+TEST(OutputFiles, KeepAnEarlierResultReplaceable) {
+  const NamedInputs inputs;
+  ASSERT_EQ(inputs.run(SmallInputs::plan()).exit_code, 0);
+  const Words words{"holds an earlier plan, which could then no longer be replaced", "give another folder"};
+  expect_refused(inputs, with(inputs.map, {"--write", "plan/x.csv"}), with({"--write 'plan/x.csv'"}, words));
+  expect_refused(inputs, with(inputs.map, {"--write", "plan/dwell.npy"}), words);  // its sidecar is none of a plan
+  expect_refused(inputs, with(inputs.map, {"--png", "./plan/x.png"}), words);
+  expect_refused(inputs, with(inputs.map, {"--json=plan/x.json"}), words);
+  EXPECT_EQ(inputs.run(SmallInputs::plan()).exit_code, 0);
+}
+
+TEST(OutputFiles, NeverReplaceAFolderThatHoldsAnInput) {
+  const NamedInputs inputs;
+  ASSERT_EQ(inputs.run(SmallInputs::plan()).exit_code, 0);
+  const std::string summary = read_whole_file(inputs / "plan/summary.json");
+  const Words tif{"--tif", "tif.csv", "--tif-pixel", "0.5"}, path{"--path", "raster:pitch=1"};
+  expect_refused(inputs, with(with({"plan", "--map", "plan/residual.npy", "--out", "plan"}, tif), path),
+                 {"--out: 'plan' holds the map 'plan/residual.npy', and is replaced whole; give another folder"});
+  expect_refused(inputs, SmallInputs::plan({"--path", "file:plan/feed.csv", "--out", "./plan/"}),
+                 {"--out: './plan/' holds the path 'plan/feed.csv'"});
+  expect_refused(inputs, SmallInputs::plan({"--map-steps", "subtract:plan/residual.npy"}),
+                 {"--out: 'plan' holds a map of a step 'plan/residual.npy'"});
+  expect_refused(inputs, SmallInputs::plan({"--tif", "plan/residual.npy"}), {"holds the removal function"});
+  const Words comparison = with({"paths", "--map", "map.csv", "--map-pixel", "0.5", "--out", "paths"}, tif);
+  ASSERT_EQ(inputs.run(with(comparison, {"--paths", "raster:pitch=1"})).exit_code, 0);
+  expect_refused(inputs, with(comparison, {"--paths", "spiral:pitch=1;file:paths/raster/feed.csv"}),
+                 {"--out: 'paths' holds the path 'paths/raster/feed.csv'"});
+  EXPECT_EQ(read_whole_file(inputs / "plan/summary.json"), summary);
+}
+
+TEST(OutputFiles, AreMadeInAtMostOneFolderThatIsMissingUnlessAsked) {
+  const NamedInputs inputs;
+  expect_refused(inputs, SmallInputs::plan({"--out", "a/b/plan"}), {"--out: neither '", "/a/b' is there", "--parents"});
+  EXPECT_EQ(inputs.run(SmallInputs::plan({"--out", "a/plan"})).exit_code, 0);
+  EXPECT_EQ(inputs.run(SmallInputs::plan({"--out", "b/c/plan", "--parents"})).exit_code, 0);
+  EXPECT_TRUE(std::filesystem::exists(inputs / "b/c/plan/summary.json"));
+}
+
 TEST(OutputFiles, NeverReplaceTheSidecarOrContainerOfAnInput) {
   const NamedInputs inputs;
   ASSERT_EQ(inputs.run(with(inputs.map, {"--write", "a.npy"})).exit_code, 0);

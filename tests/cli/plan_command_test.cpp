@@ -170,11 +170,24 @@ TEST(PlanCommand, TimeLimitStillWritesAndSaysWhyWithExitCode3) {
   EXPECT_EQ(result.exit_code, 3) << result.err;
   expect_has(result.err, "limit reached");
   expect_has(result.err, "time limit");
-  expect_has(result.err, "--max-solve is 1e-09 s");
+  expect_has(result.err, "--max-solve is 1e-09 s, of which ");
   const json s = summary_of(inputs);
   ASSERT_FALSE(s["limits"].empty());
   expect_has(s["limits"][0], "time limit");
   EXPECT_TRUE(std::filesystem::exists(inputs / "plan/program.nc"));
+}
+
+TEST(PlanCommand, TimeLimitOverBeforeTheSolveIsSaidAndLeavesNothing) {
+  const SmallInputs inputs;
+  const auto before = names_in(inputs.folder.path());
+  // Seconds of resampling, before anything can be solved.
+  const ProgramResult result =
+      inputs.run(SmallInputs::plan({"--max-solve", "0.5", "--map-steps", "resample:pitch=0.0025"}));
+  EXPECT_EQ(result.exit_code, 3) << result.err;
+  expect_has(result.err, "limit reached: --max-solve of 1 s was over before the solve, at \"map");
+  expect_has(result.err, "nothing was written");
+  EXPECT_EQ(result.out, "");
+  EXPECT_EQ(names_in(inputs.folder.path()), before);
 }
 
 TEST(PlanCommand, InterruptedLeavesTheEarlierResultAndNothingElse) {

@@ -1,5 +1,11 @@
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <csignal>
+#include <cstdio>
+
+#include "core/base/utf8_text.h"
 #include "core/base/whole_file.h"
 #include "tests/cli/small_inputs.h"
 
@@ -28,6 +34,44 @@ TEST(StandardStreams, ThatAreClosedTakeNothingFromTheFilesThatAreWritten) {
   EXPECT_EQ(read_whole_file(inputs / "b.npy"), read_whole_file(inputs / "a.npy"));
   // A fault that nobody reads of is still told by the exit code.
   EXPECT_EQ(inputs.exit_of("map none.csv --map-pixel 0.5 2>&-"), 2);
+}
+
+TEST(StandardStreams, ShowBytesThatAreNoUtf8Escaped) {
+  const SmallInputs inputs;
+  std::filesystem::rename(inputs / "map.csv", inputs / "m\xE9.csv");
+  const test::ProgramResult read = inputs.run({"map", "m\xE9.csv", "--map-pixel", "0.5"});
+  EXPECT_EQ(read.exit_code, 0);
+  expect_has(read.out, "file      m\\xE9.csv");
+  EXPECT_TRUE(is_utf8(read.out));
+  const test::ProgramResult refused = inputs.run({"map", "n\xE9.csv", "--map-pixel", "0.5"});
+  EXPECT_EQ(refused.exit_code, 2);
+  expect_has(refused.err, "cannot read 'n\\xE9.csv'");
+}
+
+TEST(StandardStreams, InterruptAtTheVeryBeginningIsSaid) {
+  const SmallInputs inputs;
+  const std::string said = inputs / "said.txt", program = DWELL_PROGRAM;
+  std::vector<std::string> words = SmallInputs::plan();
+  std::vector<char*> arguments{const_cast<char*>(program.c_str())};
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  const pid_t child = fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {  // the interrupt is there before the program is
+    sigset_t set;
+    sigemptyset(&set);
+    sigaddset(&set, SIGINT);
+    sigprocmask(SIG_BLOCK, &set, nullptr);
+    raise(SIGINT);
+    if (!freopen(said.c_str(), "w", stderr)) _exit(99);
+    if (chdir(inputs.folder.path().c_str()) != 0) _exit(97);
+    execv(program.c_str(), arguments.data());
+    _exit(98);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 130) << status;
+  expect_has(read_whole_file(said), "dwell: interrupted; nothing was written");
 }
 
 TEST(StandardStreams, ThatNobodyReadsEndNothing) {

@@ -200,13 +200,15 @@ TEST(WrongInputWithoutOption, NamesTheOptionThatIsMissing) {
   };
   refused({"plan"}, {"--out", "required"});
   refused({"plan", "--out", "plan"}, {"--map", "required"});
-  refused({"plan", "--out", "plan", "--map", "map.csv"}, {"map.csv", "no pixel pitch", "--map-pixel"});
+  const std::vector<std::string> others{"--tif", "tif.csv", "--path", "raster:pitch=1"};
+  refused(test::with({"plan", "--out", "plan", "--map", "map.csv"}, others),
+          {"map.csv", "no pixel pitch", "--map-pixel"});
   refused({"plan", "--out", "plan", "--map", "map.csv", "--map-pixel", "0.5"}, {"--tif", "required"});
-  refused({"plan", "--out", "plan", "--map", "map.csv", "--map-pixel", "0.5", "--tif", "tif.csv"},
+  refused(test::with({"plan", "--out", "plan", "--map", "map.csv", "--map-pixel", "0.5"}, others),
           {"tif.csv", "no pixel pitch", "--tif-pixel"});
   refused({"plan", "--out", "plan", "--map", "map.csv", "--map-pixel", "0.5", "--tif", "gaussian:peak=1,fwhm=2"},
           {"--path", "required"});
-  refused({"pareto"}, {"--out", "required", "pareto"});
+  refused({"pareto"}, {"--map, --tif, --path, --out: required"});
   refused({"pareto", "--out", "sweep"}, {"--map", "required"});
   refused({"simulate"}, {"--program", "required"});
   refused({"map"}, {"file", "required"});
@@ -236,6 +238,29 @@ TEST(WrongProgram, IsRefusedBySimulate) {
     expect_has(result.err, word);
   }
   EXPECT_EQ(everything_in(inputs.folder.path()), before);
+}
+
+TEST(WrongWords, AreAnsweredWithTheOptionAndAllThatIsMissing) {
+  const test::SmallInputs inputs;
+  const struct {
+    std::vector<std::string> words;
+    const char* said;
+  } kCases[] = {
+      {{"plan", "--map", "map.csv"}, "--tif, --path, --out: required"},
+      {{"paths", "--paths", "raster"}, "--map, --tif, --out: required"},
+      {{"simulate", "--program", "x.nc"}, "--map, --tif: required"},
+      {{"example", "--out", "e", "--hole", "500"}, "--hole = 500 mm; required from 0 to the width"},
+      {{"example", "--out", "e", "--height", "50"}, "--height 50: of a rectangle only"},
+      {{"example", "--out", "e", "--pitch", "90"}, "--pitch = 90 mm; required such that both edges"},
+      {{"map", "map.csv", "--map-pixel", "0.5", "--limit", "radial:1,-2"}, "a limit that rises"},
+      {{"map", "map.csv", "--map-pixel", "0.5", "--map-unit", "um/s"}, "--map-unit: 'um/s' is a rate, not a height"},
+      {{"tif", "tif.csv", "--tif-pixel", "0.5", "--tif-unit", "um"}, "--tif-unit: 'um' is a height, not a rate"},
+  };
+  for (const auto& [words, said] : kCases) {
+    const test::ProgramResult result = inputs.run(words);
+    EXPECT_EQ(result.exit_code, 2) << words.back();
+    test::expect_has(result.err, said);
+  }
 }
 
 }  // namespace

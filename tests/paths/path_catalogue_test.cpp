@@ -226,9 +226,10 @@ TEST(PathSpec, SaysOfLongMovesWithTheToolDown) {
   const HeightMap map = test::map_from_picture({"11..........11", "11..........11"});
   const ToolPath path = plan_path(parse_path_spec("nearest:cell=1,lift=inf"), {map, tool(3.0)});
   ASSERT_EQ(path.notes.size(), 1u);
-  EXPECT_EQ(path.notes[0],
-            "1 moves are longer than the removal function is wide and made with the tool down, the longest 12 mm: they "
-            "remove where they pass");
+  EXPECT_EQ(
+      path.notes[0],
+      "1 move is longer than the removal function is wide and made with the tool down, 12 mm: it removes where it "
+      "passes");
   EXPECT_TRUE(plan_path(parse_path_spec("nearest:cell=1"), {map, tool(3.0)}).notes.empty());
 }
 

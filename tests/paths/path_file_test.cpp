@@ -86,15 +86,22 @@ TEST_F(PathFile, RefusesAFileThatIsNotThere) {
 }
 
 TEST_F(PathFile, RefusesACommentThatNamesAnotherUnitOrPlace) {
-  for (const std::string comment :
-       {"# unit: um", "#Units=inch", "# x unit: m", "# origin: 5,5", "# scale_factor = 2"}) {
+  for (const std::string comment : {"# unit: steps", "#Units=pulses", "# origin: 5,5", "# scale_factor = 2"}) {
     EXPECT_EQ(message(comment + "\nx_mm,y_mm\n1,2\n"),
               "line 1: comment \"" + comment.substr(comment[1] == ' ' ? 2 : 1) +
                   "\" may change what the coordinates mean; accepted: mm, in the map's coordinates");
   }
+  for (const std::string comment : {"unit: um", "Units=inch", "x unit: m", "coordinates in um", "x_um y_um", "inch"}) {
+    const std::string text = message("x_mm,y_mm\n# " + comment + "\n1,2\n");
+    EXPECT_TRUE(text.starts_with("line 2: \"")) << text;
+    EXPECT_NE(text.find("in the comment \"" + comment +
+                        "\" looks like another unit; accepted: x_mm and y_mm in mm, or the comment without a unit"),
+              std::string::npos)
+        << text;
+  }
   // The header of a feed table, which may be read as a path, and remarks.
   EXPECT_EQ(read("# unit: mm\n# units: x_mm and y_mm mm, dwell_s s, feed_mm_per_min mm/min\n# made: by hand\n"
-                 "# lines of 2 mm\nx_mm,y_mm\n1,2\n")
+                 "# lines of 2 mm\n# input: map x in um.csv sha256=00\nx_mm,y_mm\n1,2\n")
                 .size(),
             1u);
 }

@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "core/base/memory.h"
 #include "tests/core/base/expect_error.h"
 
 namespace dwell {
@@ -22,6 +23,19 @@ TEST(GridLimit, Takes16384SquareUnlessTheUserSaysOtherwise) {
   refused(0, 3, {}, "268435456");
   refused(std::numeric_limits<double>::quiet_NaN(), 3, {}, "268435456");
   refused(std::numeric_limits<double>::infinity(), 3, {}, "268435456");
+}
+
+TEST(GridLimit, AsksForMemoryBeforeItIsTaken) {
+  const PixelLimit many{kMostPixelsOfAll};
+  try {
+    // 16 GiB: asked of a machine that is known to have less only where it has.
+    limited_grid(46340, 46340, {0.1, 0.1}, {}, "pitch = 0.1 mm", many);
+    EXPECT_GE(memory_to_be_had(), std::size_t{8} * 46340 * 46340 * 9 / 10);
+  } catch (const OutOfMemory& error) {
+    const std::string message = error.what();
+    EXPECT_NE(message.find("pitch = 0.1 mm: a map of 46340 x 46340 pixels takes at least 16.00 GiB"), std::string::npos)
+        << message;
+  }
 }
 
 }  // namespace

@@ -32,6 +32,18 @@ TEST(ParseNumber, KnowsWhatProgramsWriteForNoData) {
   for (const char* text : {"1.#INF", "#REF!", "-", "nothing", "bads"}) EXPECT_FALSE(height_number(text)) << text;
 }
 
+TEST(FewestDigits, UndoWhatAChangeOfUnitsMakesOfANumber) {
+  EXPECT_EQ(fewest_digits(3e-6 * 1e3), 0.003);
+  EXPECT_EQ(fewest_digits(849.3000000000001), 849.3);
+  EXPECT_EQ(fewest_digits(-0.1 - 0.2), -0.3);
+  EXPECT_EQ(fewest_digits(0.0), 0.0);
+  // What is meant to have many digits keeps them.
+  EXPECT_EQ(fewest_digits(1.0 / 3.0), 1.0 / 3.0);
+  EXPECT_EQ(fewest_digits(1.0000000000004), 1.0);
+  EXPECT_EQ(fewest_digits(1.00000000001), 1.00000000001);
+  EXPECT_EQ(fewest_digits(HUGE_VAL), HUGE_VAL);
+}
+
 TEST(ParseNumber, TrimsBothEnds) {
   EXPECT_EQ(trim("\t a b \r"), "a b");
   EXPECT_EQ(trim(" \t"), "");

@@ -57,6 +57,8 @@ TEST(PsdLimit, SaysWhereAndByWhatFactorItIsExceeded) {
 }
 
 TEST(PsdLimit, TextIsRead) {
+  test::expect_input_error([] { parse_psd_limit("radial:1,-2"); },
+                           {"radial:1,-2", "a limit that rises", "from 0 to 20"});
   const PsdLimit lines = parse_psd_limit("0.01, 1.55"), radial = parse_psd_limit("radial:2e-3,2.5");
   EXPECT_FALSE(lines.radial);
   EXPECT_EQ(lines.line.a, 0.01);

@@ -72,11 +72,21 @@ TEST(OutputFolder, TakesAnEmptyFolderAndASlashAtTheEnd) {
 TEST(OutputFolder, MakesParentsAndRemovesThemAgainWithoutCommit) {
   const TemporaryFolder temporary;
   fs::create_directory(temporary.path() / "mine");
-  { OutputFolder abandoned(temporary.path() / "mine/a/b/plan", plan_files()); }
+  { OutputFolder abandoned(temporary.path() / "mine/a/b/plan", plan_files(), MissingParents::MakeAll); }
   EXPECT_TRUE(fs::exists(temporary.path() / "mine"));
   EXPECT_FALSE(fs::exists(temporary.path() / "mine/a"));
-  write_result(temporary.path() / "mine/a/b/plan", "one");
-  EXPECT_EQ(read_whole_file(temporary.path() / "mine/a/b/plan/summary.json"), "one");
+  write_result(temporary.path() / "mine/a/plan", "one");
+  EXPECT_EQ(read_whole_file(temporary.path() / "mine/a/plan/summary.json"), "one");
+}
+
+TEST(OutputFolder, MakesOneParentUnlessAskedForAll) {
+  const TemporaryFolder temporary;
+  expect_input_error([&] { OutputFolder folder(temporary.path() / "a/b/plan", plan_files()); },
+                     {"`out`: neither '", "/a' nor '", "/a/b' is there", "`parents`"});
+  EXPECT_FALSE(fs::exists(temporary.path() / "a"));
+  OutputFolder folder(temporary.path() / "a/b/plan", plan_files(), MissingParents::MakeAll);
+  folder.commit();
+  EXPECT_TRUE(fs::is_directory(temporary.path() / "a/b/plan"));
 }
 
 TEST(OutputFolder, RefusesAFolderThatHoldsOtherThings) {

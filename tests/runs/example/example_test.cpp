@@ -256,13 +256,13 @@ TEST(ExampleMirror, RejectsOptionsByName) {
     return "accepted";
   };
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_NE(message([&](auto& o) { o.pitch = -0.5; }).find("pitch = -0.5; required > 0"), std::string::npos);
+  EXPECT_NE(message([&](auto& o) { o.pitch = -0.5; }).find("`pitch` = -0.5 mm; required > 0"), std::string::npos);
   EXPECT_NE(message([&](auto& o) { o.pitch = 0.001; }).find("4096"), std::string::npos);
   EXPECT_NE(message([&](auto& o) { o.pitch = 80.0; }).find("2 to 4096"), std::string::npos);
-  EXPECT_NE(message([&](auto& o) { o.width = nan; }).find("width = nan"), std::string::npos);
+  EXPECT_NE(message([&](auto& o) { o.width = nan; }).find("`width` = nan mm"), std::string::npos);
   EXPECT_NE(message([&](auto& o) { o.coma_x = nan; }).find("coma_x = nan"), std::string::npos);
   EXPECT_NE(message([&](auto& o) { o.noise_rms = -1.0; }).find("noise_rms = -1"), std::string::npos);
-  EXPECT_NE(message([&](auto& o) { o.hole = 100.0; }).find("hole = 100"), std::string::npos);
+  EXPECT_NE(message([&](auto& o) { o.hole = 100.0; }).find("`hole` = 100 mm"), std::string::npos);
   EXPECT_NE(message([&](auto& o) { o.roughness_slope = 1.0; }).find("roughness_slope = 1"), std::string::npos);
   EXPECT_NE(message([&](auto& o) { o.edge_width = 0.0; }).find("edge_width = 0"), std::string::npos);
 }

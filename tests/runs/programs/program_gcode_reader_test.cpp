@@ -222,6 +222,21 @@ TEST(GcodeReader, RefusesACommentInAComment) {
                   "line 1: comment \"" + nested + "\" holds another: controllers disagree on where it ends");
 }
 
+TEST(GcodeReader, RefusesACommentThatNamesAnotherUnit) {
+  for (const std::string comment : {"(all dimensions in inches)", "(F in mm/s)", "(units: inch)", "; x in um",
+                                    "(units: X Y Z mm, F mm/s, P seconds)", "(P in ms)", "(IN)"}) {
+    const std::string message = input_error([&] { read(kAtWork + comment + "\nG1 X1\nM2\n"); });
+    expect_contains(message, "part.nc, line 4: \"");
+    expect_contains(message, "looks like another unit; accepted: X, Y, Z in mm and F in mm/min");
+  }
+  for (const std::string comment :
+       {"(units: X Y Z mm, F mm/min, P seconds)", "(all dimensions in mm)", "(begins in the middle)",
+        "(tool of 0.25 in)", "(input: map x in um.csv sha256=00)", "; F in mm/min"}) {
+    EXPECT_EQ(read(kAtWork + comment + "\nG1 X1\nM2\n").steps.size(), 2u) << comment;
+  }
+  EXPECT_EQ(read(kAtWork + "(P in ms)\nG1 X1\nM2\n", std::nullopt, HaltUnit::Milliseconds).steps.size(), 2u);
+}
+
 TEST(GcodeReader, KnowsOneStateOfTheToolAtWork) {
   const std::string start = "T1 M6\nS1000 M3\nM8\n" + kAtWork + "G1 X1 F60\n";  // to line 7
   const auto refused = [&](const std::string& lines, const std::string& what) {

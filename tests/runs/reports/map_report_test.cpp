@@ -93,6 +93,7 @@ TEST(MapReport, SaysWhichTermsWereDropped) {
   EXPECT_NE(text.find("depend on the others here: tilt y"), std::string::npos) << text;
   EXPECT_NE(text.find("none in y"), std::string::npos) << text;
   EXPECT_NE(text.find("PVr       too few pixels: 6 with data"), std::string::npos) << text;
+  EXPECT_EQ(text.find("none urad"), std::string::npos) << text;
   const json j = json::parse(json_text(map_report(row, o), row));
   EXPECT_TRUE(j["figure"]["pvr_nm"].is_null());
 }

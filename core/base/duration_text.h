@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+namespace dwell {
+
+/// Seconds for people: "425.07 s", and from ten minutes on also in hours, "7661.32 s (2:07:41)", or days,
+/// "4147200.00 s (48 d 0:00:00)".
+std::string duration_text(double seconds);
+
+/// The brackets of the above alone, "2:07:41"; empty under ten minutes.
+std::string clock_text(double seconds);
+
+}  // namespace dwell
