@@ -87,7 +87,8 @@ bool is_own_unit(std::string_view unit, bool milliseconds) {
 bool is_quotient_of_length(std::string_view word) {
   const std::size_t slash = word.find('/');
   if (slash == std::string_view::npos || slash == 0 || slash + 1 == word.size()) return false;
-  return known_rate_unit(word) || (known_length_unit(word.substr(0, slash)) && word.find('/', slash + 1) == word.npos);
+  return known_rate_unit(word) ||
+         (known_length_unit(word.substr(0, slash)) && word.find('/', slash + 1) == std::string_view::npos);
 }
 
 bool is_any_unit(std::string_view word) {
@@ -122,7 +123,7 @@ class OtherUnit {
   std::optional<std::string> find() const {
     for (std::size_t i = 0; i < words_.size(); ++i) {
       if (speaks_of_heights(i)) continue;
-      if (const auto found = phrase_at(i)) return found;
+      if (auto found = phrase_at(i)) return found;
       if (is_other(i)) return std::string(words_[i].shown);
     }
     return std::nullopt;

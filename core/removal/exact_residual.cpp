@@ -186,10 +186,10 @@ class ResidualCheck {
     constexpr int kParts = 4;
     const Grid& g = map_.grid;
     std::array<std::array<double, 3>, 3> means{};
-    for (int r = -1; r <= 1; ++r) {
-      for (int c = -1; c <= 1; ++c) {
-        means[static_cast<std::size_t>(r + 1)][static_cast<std::size_t>(c + 1)] =
-            probe_.mean_over_pixel(centre + Point{c * g.pitch_x, r * g.pitch_y});
+    for (std::size_t r = 0; r < 3; ++r) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        const Point beside{(static_cast<double>(c) - 1.0) * g.pitch_x, (static_cast<double>(r) - 1.0) * g.pitch_y};
+        means[r][c] = probe_.mean_over_pixel(centre + beside);
       }
     }
     std::mt19937_64 random(static_cast<std::uint64_t>(seed));
