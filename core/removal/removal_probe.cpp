@@ -71,8 +71,9 @@ RemovalProbe::RemovalProbe(const Grid& map, const PixelMeanTable& table, const s
     : map_(map), table_(table) {
   if (seconds.size() != strokes.size()) throw std::invalid_argument("RemovalProbe: one time a stroke is required");
   const Grid& g = table.mean.grid();
-  low_ = g.centre(1, 1);
-  high_ = g.centre(g.rows - 2, g.cols - 2);
+  // The two outermost nodes of either side are zeros; so near to them rounding leads to no node beyond.
+  low_ = g.centre(2, 2);
+  high_ = g.centre(g.rows - 3, g.cols - 3);
   std::vector<Visit> visits;
   for (std::size_t j = 0; j < strokes.size(); ++j) {
     const Stroke& s = strokes[j];

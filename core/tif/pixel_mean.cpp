@@ -71,20 +71,22 @@ double mean_within_circle(const LineIntegral& along_x, double radius, Point cent
 }
 
 std::function<double(Point)> mean_of_disc(const RemovalFunction& tif, double hx, double hy) {
-  return [&tif, hx, hy](Point p) { return tif.slope * mean_within_circle(distance_along_line, tif.radius, p, hx, hy); };
+  return [slope = tif.slope, radius = tif.radius, hx, hy](Point p) {
+    return slope * mean_within_circle(distance_along_line, radius, p, hx, hy);
+  };
 }
 
 std::function<double(Point)> mean_of_gaussian(const RemovalFunction& tif, double hx, double hy) {
-  return [&tif, hx, hy](Point p) {
+  return [peak = tif.peak, sigma = tif.sigma, radius = tif.radius, hx, hy](Point p) {
     const double far = std::hypot(std::abs(p.x) + 0.5 * hx, std::abs(p.y) + 0.5 * hy);
-    if (far <= tif.radius) {
-      return tif.peak / (hx * hy) * gaussian_along(p.x - 0.5 * hx, p.x + 0.5 * hx, tif.sigma) *
-             gaussian_along(p.y - 0.5 * hy, p.y + 0.5 * hy, tif.sigma);
+    if (far <= radius) {
+      return peak / (hx * hy) * gaussian_along(p.x - 0.5 * hx, p.x + 0.5 * hx, sigma) *
+             gaussian_along(p.y - 0.5 * hy, p.y + 0.5 * hy, sigma);
     }
-    const LineIntegral along_x = [&tif](double x0, double x1, double y) {
-      return std::exp(-0.5 * y * y / (tif.sigma * tif.sigma)) * gaussian_along(x0, x1, tif.sigma);
+    const LineIntegral along_x = [sigma](double x0, double x1, double y) {
+      return std::exp(-0.5 * y * y / (sigma * sigma)) * gaussian_along(x0, x1, sigma);
     };
-    return tif.peak * mean_within_circle(along_x, tif.radius, p, hx, hy);
+    return peak * mean_within_circle(along_x, radius, p, hx, hy);
   };
 }
 
