@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/base/errors.h"
+#include "core/base/number_text.h"
 #include "core/base/poll.h"
 #include "core/base/text_lines.h"
 #include "core/base/units.h"
