@@ -10,6 +10,7 @@
 #include "cli/result_folder.h"
 #include "cli/terminal.h"
 #include "runs/campaigns/pareto_output.h"
+#include "runs/reports/tool_sheet.h"
 
 namespace dwell::cli {
 namespace {
@@ -22,7 +23,7 @@ struct ParetoArguments {
 
 /// The text for people: the front of the sweep.
 std::string front_text(const ParetoSweep& sweep) {
-  std::string text;
+  std::string text = tool_lines(tool_sheet(sweep.job.part->tif));
   const auto on_front =
       std::count_if(sweep.points.begin(), sweep.points.end(), [](const auto& p) { return p.on_front; });
   long applications = 0;

@@ -14,6 +14,7 @@
 #include "core/base/errors.h"
 #include "paths/path_catalogue.h"
 #include "runs/campaigns/path_comparison_output.h"
+#include "runs/reports/tool_sheet.h"
 
 namespace dwell::cli {
 namespace {
@@ -47,8 +48,8 @@ int run_paths(const PathsArguments& arguments) {
   const std::string json = write_path_comparison(comparison, folder);
   folder.commit();
   finish_progress();
-  arguments.json.deliver(
-      json, path_comparison_text(comparison) + fmt::format("written   {}, a plan a folder\n", options.out));
+  arguments.json.deliver(json, tool_lines(tool_sheet(comparison.job.part->tif)) + path_comparison_text(comparison) +
+                                   fmt::format("written   {}, a plan a folder\n", options.out));
   return say_limits(comparison.limits);
 }
 

@@ -79,6 +79,7 @@ std::map<std::string, std::vector<Words>> runs_of_commands() {
         with(kMap, {"--form", "legendre:2", "--limit", "radial:1e9,2"})}},
       {"tif",
        {{"tif", "gaussian:peak=2,fwhm=3,radius=4"},
+        {"tif", "tif.csv", "--tif-pixel", "0.5"},
         {"tif", "--spot", "after.csv", "--dwell-time", "4", "--fit", "gaussian", "--threads", "1"},
         {"tif", "--trench", "trench.csv", "--feed", "60"}}},
       {"example", {{"example", "--out", "d", "--width", "20"}}},
