@@ -7,9 +7,21 @@
 #include "core/numerics/dense_solve.h"
 
 namespace dwell {
+namespace {
+
+/// The value of the pixel nearest to a place; 0 off the map.
+double nearest_value(const HeightMap& map, Point p) {
+  const Grid& g = map.grid;
+  const auto row = static_cast<Index>(std::lround((p.y - g.origin.y) / g.pitch_y)),
+             col = static_cast<Index>(std::lround((p.x - g.origin.x) / g.pitch_x));
+  return row < 0 || col < 0 || row >= g.rows || col >= g.cols ? 0.0 : map.at(row, col);
+}
+
+}  // namespace
 
 std::optional<Point> rounded_apex(const HeightMap& map, double peak, Point about, double radius) {
   constexpr double kLevel = 0.7;
+  constexpr double kLeastAtApex = 0.5;
   constexpr int kFewest = 9;
   Eigen::Matrix<double, 6, 6> normal = Eigen::Matrix<double, 6, 6>::Zero();
   Eigen::Matrix<double, 6, 1> right = Eigen::Matrix<double, 6, 1>::Zero();
@@ -30,7 +42,9 @@ std::optional<Point> rounded_apex(const HeightMap& map, double peak, Point about
   curvature << 2.0 * c[3], c[4], c[4], 2.0 * c[5];
   const Eigen::Vector2d at = -curvature.inverse() * Eigen::Vector2d(c[1], c[2]);
   if (!(curvature.determinant() > 0.0 && c[3] < 0.0 && at.norm() <= 1.0)) return std::nullopt;
-  return about + Point{radius * at.x(), radius * at.y()};
+  const Point apex = about + Point{radius * at.x(), radius * at.y()};
+  if (nearest_value(map, apex) < kLeastAtApex * peak) return std::nullopt;  // the middle of a ring
+  return apex;
 }
 
 }  // namespace dwell

@@ -45,7 +45,8 @@ void check_tool_fits(const RemovalFunction& tif, const Grid& map) {
 }
 
 std::optional<std::string> wider_than_map(const RemovalFunction& tif, const Grid& map) {
-  const double diameter = 2.0 * tif.radius;
+  constexpr double kReachInFwhm = 3.0;  // what is farther is the noise of a file
+  const double diameter = std::min(2.0 * tif.radius, kReachInFwhm * tif.fwhm);
   if (!(diameter > map.width() && diameter > map.height())) return std::nullopt;
   return fmt::format(
       "the tool, {:.4g} mm in diameter (FWHM {:.4g} mm), is larger than the map of {:.4g} x {:.4g} mm both ways",

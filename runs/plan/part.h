@@ -37,7 +37,8 @@ Part make_part(HeightMap map, RemovalFunction tif, const FormTerms& form, int th
 /// business.
 void check_tool_fits(const RemovalFunction& tif, const Grid& map);
 
-/// A sentence if the tool is wider than the map in x and in y.
+/// A sentence if the tool, which is taken to reach no farther than three times its FWHM across, is wider than the map
+/// in x and in y.
 std::optional<std::string> wider_than_map(const RemovalFunction& tif, const Grid& map);
 
 }  // namespace dwell

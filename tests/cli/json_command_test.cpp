@@ -68,6 +68,7 @@ std::map<std::string, std::vector<Words>> runs_of_commands() {
       {"paths",
        {{"paths", "--map", "wide.csv", "--tif", "gaussian:peak=10,fwhm=3,radius=4", "--threads", "1", "--paths",
          "raster:pitch=2;nearest:critical=1e9", "--out", "b"},
+        as("paths", {"--path", "--out"}, {"--paths", "raster:pitch=2", "--out", "g"}),
         as("paths", {"--path", "--tif", "--tif-pixel", "--out"},
            {"--tif", "gaussian:peak=10,fwhm=5,radius=5", "--paths", "raster:pitch=2", "--out", "b", "--aperture",
             "rect:0,0,14,1.2"})}},
