@@ -15,6 +15,7 @@
 #include "paths/path_catalogue.h"
 #include "runs/campaigns/path_comparison_output.h"
 #include "runs/job/path_list.h"
+#include "runs/reports/tool_sheet.h"
 
 namespace dwell::cli {
 namespace {
@@ -55,8 +56,8 @@ int run_paths(const PathsArguments& arguments) {
   const std::string json = write_path_comparison(comparison, folder);
   folder.commit();
   finish_progress();
-  arguments.json.deliver(
-      json, path_comparison_text(comparison) + fmt::format("written   {}, a plan a folder\n", options.out));
+  arguments.json.deliver(json, tool_lines(tool_sheet(comparison.job.part->tif)) + path_comparison_text(comparison) +
+                                   fmt::format("written   {}, a plan a folder\n", options.out));
   return say_limits(comparison.limits);
 }
 

@@ -15,6 +15,7 @@
 #include "runs/reports/exact_lines.h"
 #include "runs/reports/plan_files.h"
 #include "runs/reports/plan_output.h"
+#include "runs/reports/tool_sheet.h"
 #include "solvers/solver_catalogue.h"
 
 namespace dwell::cli {
@@ -34,9 +35,7 @@ std::string plan_text(const PlannedJob& plan, const WrittenPlan& written) {
   text += fmt::format("map       {} rows x {} columns of {:.6g} mm, {} pixels in the aperture\n", g.rows, g.cols,
                       g.pitch_x, plan.part().before.valid_pixels);
   text += fmt::format("before    {} ({} removed)\n", in_words(plan.part().before), to_string(plan.part().form));
-  text += fmt::format("tool      {}, peak {:.4g} nm/s, volume {:.4g} nm mm^2/s, FWHM {:.4g} mm, radius {:.4g} mm\n",
-                      kind_of(plan.part().tif), plan.part().tif.peak, plan.part().tif.volume, plan.part().tif.fwhm,
-                      plan.part().tif.radius);
+  text += tool_lines(tool_sheet(plan.part().tif));
   text += fmt::format("path      {}, {} points, {:.6g} mm, longest jump {:.4g} mm, {} lifts\n", plan.laid.path.kind,
                       plan.laid.metrics.points, plan.laid.metrics.length, plan.laid.metrics.longest_jump,
                       plan.laid.metrics.lifts);

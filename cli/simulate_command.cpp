@@ -14,6 +14,7 @@
 #include "runs/programs/program_formats.h"
 #include "runs/reports/exact_lines.h"
 #include "runs/reports/simulation.h"
+#include "runs/reports/tool_sheet.h"
 
 namespace dwell::cli {
 namespace {
@@ -38,7 +39,7 @@ std::string simulation_text(const Simulation& s) {
   for (const std::string& note : s.program.notes) notes += fmt::format("          {}\n", note);
   return fmt::format("program   {}: {} steps, {:.6g} mm with removal, {}\n", s.program.file, s.program.steps.size(),
                      s.program.removing_length(), duration_text(s.program.total_seconds())) +
-         notes +
+         notes + tool_lines(tool_sheet(s.tif)) +
          fmt::format("before    {} ({} removed, {} pixels)\n", in_words(s.before), to_string(s.terms),
                      s.before.valid_pixels) +
          fmt::format("after     {} ({} removed)\n", in_words(s.after.statistics), to_string(s.terms)) +
@@ -82,11 +83,11 @@ void add_simulate_command(CLI::App& program, int& exit_code) {
       program.add_subcommand("simulate", "predict the surface that a feed table or G-code program leaves");
   auto arguments = std::make_shared<SimulateArguments>();
   command->add_option("--program", arguments->program, program_files())->type_name("FILE")->required();
-  const std::vector<std::string> flags{"map",        "map-pixel", "map-unit",  "map-origin",     "map-no-data",
-                                       "map-max-pv", "map-table", "map-rows",  "map-grid",       "map-steps",
-                                       "max-pixels", "tif",       "tif-pixel", "tif-no-data",    "tif-table",
-                                       "tif-rows",   "tif-grid",  "tif-unit",  "tif-dwell-time", "tif-centre",
-                                       "tif-angle",  "tif-flip",  "remove",    "aperture",       "threads"};
+  const std::vector<std::string> flags{
+      "map",      "map-pixel", "map-unit",       "map-origin", "map-no-data",  "map-max-pv",  "map-table", "map-rows",
+      "map-grid", "map-steps", "max-pixels",     "tif",        "tif-pixel",    "tif-no-data", "tif-table", "tif-rows",
+      "tif-grid", "tif-unit",  "tif-dwell-time", "tif-steps",  "tif-pedestal", "tif-centre",  "tif-angle", "tif-flip",
+      "remove",   "aperture",  "threads"};
   arguments->job = std::make_unique<JobArguments>(*command, flags, false);
   command
       ->add_option("--gcode", arguments->gcode,

@@ -76,7 +76,8 @@ void add_inputs(CLI::App& command, TifArguments& arguments) {
   command.add_option("--feed", job.feed_mm_per_min, "speed along the trench in mm/min")->type_name("MM/MIN");
   command
       .add_option("--direction", job.direction_deg,
-                  "direction of the trench in degrees, counter-clockwise from +x (default 0)")
+                  "direction of the trench in degrees, counter-clockwise from +x (default: as fitted; a given one must "
+                  "agree)")
       ->type_name("DEG");
   command.add_option("--at", job.at, "where a spot is in mm; once for each (default: all that are found)")
       ->type_name("X,Y")
@@ -135,10 +136,10 @@ void add_tif_command(CLI::App& program, int& exit_code) {
   auto arguments = std::make_shared<TifArguments>();
   add_inputs(*command, *arguments);
   add_outputs(*command, *arguments);
-  const std::vector<std::string> flags{"map-pixel", "map-unit",    "map-origin", "map-no-data", "map-max-pv",
-                                       "map-table", "map-rows",    "map-grid",   "map-steps",   "max-pixels",
-                                       "tif-pixel", "tif-no-data", "tif-table",  "tif-rows",    "tif-grid",
-                                       "tif-unit",  "tif-centre",  "tif-angle",  "tif-flip",    "threads"};
+  const std::vector<std::string> flags{
+      "map-pixel", "map-unit",     "map-origin", "map-no-data", "map-max-pv", "map-table", "map-rows", "map-grid",
+      "map-steps", "max-pixels",   "tif-pixel",  "tif-no-data", "tif-table",  "tif-rows",  "tif-grid", "tif-unit",
+      "tif-steps", "tif-pedestal", "tif-centre", "tif-angle",   "tif-flip",   "threads"};
   arguments->options = std::make_unique<JobArguments>(*command, flags, false);
   command->footer(
       "Example:\n"

@@ -97,7 +97,7 @@ double asymmetry_of(const HeightMap& rates, const SplineSurface& surface, Point 
 
 }  // namespace
 
-RemovalAnalysis analyse_removal(const HeightMap& given, int threads) {
+RemovalAnalysis analyse_shape(const HeightMap& given) {
   // Checks the samples, and takes missing ones as zero.
   const RemovalFunction tif = measured_removal(given, {TifCentre::Kind::Given, {}});
   const HeightMap& rates = tif.samples;
@@ -111,7 +111,12 @@ RemovalAnalysis analyse_removal(const HeightMap& given, int threads) {
   a.fwhm_y = width(surface, a, {0.0, 1.0}, reach);
   a.radius = radius_of_share(rates, a.centroid, 0.99);
   a.asymmetry = asymmetry_of(rates, surface, a.centroid);
-  a.transfer = transfer_function(rates, threads);
+  return a;
+}
+
+RemovalAnalysis analyse_removal(const HeightMap& rates, int threads) {
+  RemovalAnalysis a = analyse_shape(rates);
+  a.transfer = transfer_function(measured_removal(rates, {TifCentre::Kind::Given, {}}).samples, threads);
   const auto waves = [&](double share) {
     const TransferFunction& t = a.transfer;
     return RemovalAnalysis::Waves{shortest_wave(t.frequency, t.along_x, share),

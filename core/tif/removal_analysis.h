@@ -32,4 +32,8 @@ struct RemovalAnalysis {
 /// Cost: that of transfer_function.
 RemovalAnalysis analyse_removal(const HeightMap& rates, int threads = 1);
 
+/// The same without the transfer function and its waves. Cost O(samples), and 180 places of a spline for every half
+/// pitch of radius.
+RemovalAnalysis analyse_shape(const HeightMap& rates);
+
 }  // namespace dwell

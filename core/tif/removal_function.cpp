@@ -7,7 +7,9 @@
 #include <numbers>
 
 #include "core/base/errors.h"
+#include "core/base/grid_limit.h"
 #include "core/base/value_range.h"
+#include "core/tif/removal_apex.h"
 
 namespace dwell {
 namespace {
@@ -34,18 +36,28 @@ Point centroid(const HeightMap& rates) {
   return (1.0 / sum) * moment;
 }
 
-Point axis_of(const HeightMap& rates, const TifCentre& centre) {
+Point top_of(const HeightMap& rates) {
   const Grid& g = rates.grid;
+  const double peak = *std::max_element(rates.values.begin(), rates.values.end());
+  if (const auto found = rounded_apex(rates, peak, middle_of(g), std::hypot(g.width(), g.height()))) return *found;
+  throw InputError(
+      "removal function: `tif centre` peak: its top is not rounded (a ring, several peaks, or noise), or has fewer "
+      "than "
+      "9 samples above 70 % of the peak; accepted: middle, centroid or x,y");
+}
+
+Point axis_of(const HeightMap& rates, const TifCentre& centre) {
   switch (centre.kind) {
     case TifCentre::Kind::Centroid:
       return centroid(rates);
+    case TifCentre::Kind::Peak:
+      return top_of(rates);
     case TifCentre::Kind::Given:
       return centre.given;
     case TifCentre::Kind::Middle:
       break;
   }
-  return {g.origin.x + 0.5 * g.pitch_x * static_cast<double>(g.cols - 1),
-          g.origin.y + 0.5 * g.pitch_y * static_cast<double>(g.rows - 1)};
+  return middle_of(rates.grid);
 }
 
 /// Half the side of the smallest square about the axis that holds every sample which is not zero [mm].

@@ -139,6 +139,8 @@ RemovalFunction oriented(const RemovalFunction& tif, const ToolOrientation& orie
   RemovalFunction result = measured_removal(rates, {TifCentre::Kind::Given, {}});
   result.kind = tif.kind;
   result.model = tif.model;
+  result.file = tif.file;
+  result.notes = tif.notes;
   return result;
 }
 

@@ -10,6 +10,7 @@
 #include "runs/reports/figure_output.h"
 #include "runs/reports/options_json.h"
 #include "runs/reports/plan_blocks.h"
+#include "runs/reports/tool_sheet.h"
 
 namespace dwell {
 
@@ -39,6 +40,7 @@ std::string pareto_json_text(const ParetoSweep& sweep) {
   Json summary = json_of_command("pareto");
   summary.update({{"map", plan_map_block(sweep.job)},
                   {"tif", plan_tif_block(sweep.job)},
+                  {"tool", tool_block(tool_sheet(sweep.job.part->tif))},
                   {"path", plan_path_block(sweep.laid)},
                   {"points", points},
                   {"wall_s", sweep.seconds},

@@ -14,6 +14,7 @@
 #include "runs/reports/options_json.h"
 #include "runs/reports/plan_blocks.h"
 #include "runs/reports/plan_files.h"
+#include "runs/reports/tool_sheet.h"
 
 namespace dwell {
 namespace {
@@ -217,6 +218,7 @@ std::string path_comparison_json(const PathComparison& comparison) {
   Json summary = json_of_command("paths");
   summary.update({{"map", plan_map_block(comparison.job)},
                   {"tif", plan_tif_block(comparison.job)},
+                  {"tool", tool_block(tool_sheet(comparison.job.part->tif))},
                   {"pitch_mm", comparison.pitch},
                   {"pitch_given", comparison.pitch_given},
                   {"paths", paths},

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "core/base/errors.h"
@@ -14,7 +15,11 @@
 #include "core/map/value_units.h"
 #include "core/tif/calibration/spot_calibration.h"
 #include "core/tif/models/removal_models.h"
+#include "core/tif/rate_rim.h"
 #include "core/tif/removal_orientation.h"
+#include "core/tif/tool_questions.h"
+#include "runs/job/option_flags.h"
+#include "runs/job/place_option.h"
 #include "runs/map_steps/map_steps.h"
 
 namespace dwell {
@@ -101,21 +106,57 @@ RemovalFunction removal_of_spots(const JobOptions& options) {
   return measured_removal(calibrate_spots(depth, spots).rates, {TifCentre::Kind::Given, {}});
 }
 
-TifCentre centre_of(const HeightMap& rates, const std::optional<TifCentre>& wanted) {
-  if (wanted) return *wanted;
-  const bool made_here =
-      std::find(rates.history.begin(), rates.history.end(), kToolAxisAtOrigin) != rates.history.end();
-  return made_here ? TifCentre{TifCentre::Kind::Given, {}} : TifCentre{};
+bool made_by_dwell_tif(const HeightMap& rates) {
+  return std::find(rates.history.begin(), rates.history.end(), kToolAxisAtOrigin) != rates.history.end();
 }
 
-RemovalFunction removal_of_rates(const JobOptions& options) {
-  const HeightMap rates = read_map(options.tif, tif_reading(options, MapQuantity::Rate));
-  return measured_removal(rates, centre_of(rates, options.tif_centre));
+/// Where the axis comes from, for people.
+std::string axis_source(const JobOptions& options, bool made_here) {
+  if (options.tif_centre) return "--tif-centre " + to_string(options.tif_centre);
+  return made_here ? "0,0 of a file of dwell tif" : "the middle of its grid";
+}
+
+/// The rates as the file has them, prepared by the job's steps.
+HeightMap load_rates(const JobOptions& options, std::vector<InputFile>& inputs, const Progress& progress) {
+  const MapReadOptions read = tif_reading(options, MapQuantity::Rate);
+  HeightMap rates = read_map(options.tif, read);
+  MapStepContext context{read, &inputs, thread_count(options.threads), progress.of_part("tif")};
+  apply_map_steps(rates, parse_map_steps(options.tif_steps), context);
+  return rates;
+}
+
+RemovalFunction removal_of_rates(const JobOptions& options, std::vector<InputFile>& inputs, const Progress& progress) {
+  const HeightMap rates = load_rates(options, inputs, progress);
+  const bool made_here = made_by_dwell_tif(rates);
+  const TifCentre centre = options.tif_centre.value_or(made_here ? TifCentre{TifCentre::Kind::Given, {}}
+                                                                 : TifCentre{TifCentre::Kind::Middle, {}});
+  HeightMap mended = rates;
+  if (options.tif_pedestal) mend_pedestal(mended, *options.tif_pedestal);
+  RemovalFunction tif = measured_removal(mended, centre);
+  const RateRim rim = rate_rim(rates);
+  const RemovalFunction as_read = measured_removal(rates, {TifCentre::Kind::Given, {}});
+  tif.file = {rates.grid.origin - tif.samples.grid.origin,
+              axis_source(options, made_here),
+              as_read.peak,
+              rim.mean,
+              rim.largest,
+              rim.scatter};
+  tif.notes = notes_of(question_tool({rates, tif, !options.tif_centre && !made_here, options.tif_pedestal}));
+  for (std::string& note : tif.notes) note = with_option_names(note, flag_of);
+  return tif;
+}
+
+/// Options that prepare a file of rates mean nothing elsewhere.
+void refuse_file_options(const JobOptions& options, const std::string& why) {
+  if (!options.tif_steps.empty()) throw InputError(fmt::format("--tif-steps {}: {}", options.tif_steps, why));
+  if (options.tif_pedestal)
+    throw InputError(fmt::format("--tif-pedestal {}: {}", to_string(*options.tif_pedestal), why));
 }
 
 }  // namespace
 
-RemovalFunction load_removal_function(const JobOptions& options, std::vector<InputFile>& inputs) {
+RemovalFunction load_removal_function(const JobOptions& options, std::vector<InputFile>& inputs,
+                                      const Progress& progress) {
   if (options.tif.empty()) throw InputError("--tif: required; a file of rates, or gaussian:peak=1,fwhm=2.8,radius=5");
   const ToolOrientation orientation{options.tif_angle_deg, options.tif_flip};
   if (is_removal_model(split_kind(options.tif).first)) {
@@ -124,20 +165,25 @@ RemovalFunction load_removal_function(const JobOptions& options, std::vector<Inp
           fmt::format("--tif-dwell-time {}: for the file of a surface that spots left, not for the formula {}",
                       *options.tif_dwell_time_s, options.tif));
     }
+    refuse_file_options(options, "for a file of rates, not for the formula " + options.tif);
     return oriented(removal_of_spec(parse_spec_text(options.tif, "tif")), orientation);
   }
   const std::filesystem::path file = split_map_name(options.tif).file;
   if (options.tif.find(':') != std::string::npos && !std::filesystem::exists(file)) {
     removal_model(split_kind(options.tif).first);  // a misspelt model: says which there are
   }
+  if (options.tif_dwell_time_s) refuse_file_options(options, "for a file of rates, not for a surface that spots left");
   RemovalFunction tif;
+  std::vector<InputFile> of_steps;
   try {
-    tif = oriented(options.tif_dwell_time_s ? removal_of_spots(options) : removal_of_rates(options), orientation);
+    tif = oriented(options.tif_dwell_time_s ? removal_of_spots(options) : removal_of_rates(options, of_steps, progress),
+                   orientation);
   } catch (const InputError& error) {
     const std::string what = error.what();
     throw InputError(what.find(options.tif) == std::string::npos ? fmt::format("{}: {}", options.tif, what) : what);
   }
   inputs.push_back({"tif", options.tif, sha256_of_file(file)});
+  inputs.insert(inputs.end(), of_steps.begin(), of_steps.end());
   return tif;
 }
 

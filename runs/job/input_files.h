@@ -14,7 +14,10 @@ namespace dwell {
 /// `inputs`. Throws InputError, Interrupted.
 HeightMap load_map(const JobOptions& options, std::vector<InputFile>& inputs, const Progress& progress = {});
 
-/// Reads or makes the removal function of a job; a file is appended to `inputs`. Throws InputError.
-RemovalFunction load_removal_function(const JobOptions& options, std::vector<InputFile>& inputs);
+/// Reads or makes the removal function of a job; all files read are appended to `inputs`. A file of rates is prepared
+/// by the job's steps, and questioned (core/tif/tool_questions.h): what is doubtful is refused unless an option answers
+/// it. Throws InputError, Interrupted.
+RemovalFunction load_removal_function(const JobOptions& options, std::vector<InputFile>& inputs,
+                                      const Progress& progress = {});
 
 }  // namespace dwell

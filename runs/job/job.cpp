@@ -32,7 +32,7 @@ Job load_job(const JobOptions& options, const Progress& progress) {
   job.map_pixels = map.valid_pixels();
   map = within(std::move(map), options.aperture, progress);
   progress.check();
-  RemovalFunction tif = load_removal_function(options, job.inputs);
+  RemovalFunction tif = load_removal_function(options, job.inputs, progress);
   job.part = std::make_shared<const Part>(
       make_part(std::move(map), std::move(tif), options.remove, options.threads, progress));
   return job;

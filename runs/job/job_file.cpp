@@ -83,7 +83,7 @@ std::string rebased(const JobOptionRecord& record, const std::string& value, con
                     const std::string& source) {
   if (value.empty()) return value;
   if (record.is_file && names_a_file(value)) return (folder / value).lexically_normal().string();
-  if (record.key == "map_steps") {
+  if (record.key == "map_steps" || record.key == "tif_steps") {
     try {
       return rebased_map_steps(value, folder);
     } catch (const InputError& error) {

@@ -152,6 +152,18 @@ std::vector<JobOptionRecord> make_table() {
       {"tif-grid", "tif_grid", "pitch=MM[,reach=MM]", "the same as --map-grid for the removal function's file", false,
        false, [](Options& o, const std::string& t) { o.tif_grid = parse_scatter_options(t); },
        [](const Options& o) { return to_string(o.tif_grid); }},
+      {"tif-steps", "tif_steps", "STEPS",
+       "how to prepare the removal function's file, before all else: steps as of --map-steps, for instance "
+       "fill:harmonic",
+       false, false, [](Options& o, const std::string& t) { parse_map_steps(t), o.tif_steps = t; },
+       [](const Options& o) { return o.tif_steps; }, false, true},
+      {"tif-pedestal", "tif_pedestal", "HOW",
+       "what is done about a removal function that still removes at the rim of its file: subtract (the rim's mean is "
+       "taken off), taper (a cosine takes the outer part to zero) or accept; required where the rim's mean is 5 % of "
+       "the "
+       "peak or more",
+       false, false, [](Options& o, const std::string& t) { o.tif_pedestal = parse_tif_pedestal(t); },
+       [](const Options& o) { return o.tif_pedestal ? to_string(*o.tif_pedestal) : std::string(); }},
       {"tif-dwell-time", "tif_dwell_time_s", "SECONDS",
        "the removal function's file is a surface, flat before, after the tool stood on it for so many seconds at one "
        "or "
@@ -159,9 +171,8 @@ std::vector<JobOptionRecord> make_table() {
        false, true, [](Options& o, const std::string& t) { o.tif_dwell_time_s = number(t, ranges::kTime); },
        [](const Options& o) { return shown(o.tif_dwell_time_s); }},
       {"tif-centre", "tif_centre", "WHERE",
-       "the tool axis in the removal function's file: middle (of its grid), centroid, X,Y in mm, or auto: 0,0 of a "
-       "file "
-       "that dwell tif wrote, the centroid of a spot, the middle of others",
+       "the tool axis in the removal function's file: middle (of its grid), centroid, peak, X,Y in mm, or auto: "
+       "0,0 of a file that dwell tif wrote, the centroid of a spot, the middle of others, if centroid or peak is there",
        false, false, [](Options& o, const std::string& t) { o.tif_centre = parse_tif_centre(t); },
        [](const Options& o) { return to_string(o.tif_centre); }},
       {"tif-angle", "tif_angle_deg", "DEG",

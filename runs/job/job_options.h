@@ -14,6 +14,7 @@
 #include "core/motion/motion.h"
 #include "core/tif/removal_function.h"
 #include "core/tif/removal_orientation.h"
+#include "core/tif/tif_pedestal.h"
 #include "paths/path_catalogue.h"
 #include "runs/drawing/figure_format.h"
 #include "runs/programs/gcode_dialect.h"
@@ -43,6 +44,8 @@ struct JobOptions {
   std::optional<MatrixTable> tif_table;
   std::optional<MapRows> tif_rows;
   std::optional<ScatterOptions> tif_grid;
+  std::string tif_steps;
+  std::optional<TifPedestal> tif_pedestal;  // nothing: not answered
   std::optional<double> tif_dwell_time_s;
   std::optional<TifCentre> tif_centre;  // nothing: as the file says
   double tif_angle_deg = 0.0;

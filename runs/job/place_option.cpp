@@ -23,10 +23,11 @@ std::optional<TifCentre> parse_tif_centre(const std::string& text) {
   if (text == "auto") return std::nullopt;
   if (text == "middle") return TifCentre{TifCentre::Kind::Middle, {}};
   if (text == "centroid") return TifCentre{TifCentre::Kind::Centroid, {}};
+  if (text == "peak") return TifCentre{TifCentre::Kind::Peak, {}};
   try {
     return TifCentre{TifCentre::Kind::Given, parse_point(text)};
   } catch (const InputError&) {
-    throw InputError(fmt::format("'{}'; accepted: auto, middle, centroid, or X,Y in mm", text));
+    throw InputError(fmt::format("'{}'; accepted: auto, middle, centroid, peak, or X,Y in mm", text));
   }
 }
 
@@ -37,6 +38,8 @@ std::string to_string(const std::optional<TifCentre>& centre) {
       return "middle";
     case TifCentre::Kind::Centroid:
       return "centroid";
+    case TifCentre::Kind::Peak:
+      return "peak";
     default:
       return to_string(centre->given);
   }

@@ -13,8 +13,8 @@ Point parse_point(const std::string& text);
 /// A text that reads back equal.
 std::string to_string(const Point& point);
 
-/// Where the tool axis lies in the file of a removal function: "middle", "centroid" or "X,Y" [mm]. Nothing for "auto":
-/// then the file says it, or its kind. Throws InputError naming the text and what is accepted.
+/// Where the tool axis lies in the file of a removal function: "middle", "centroid", "peak" or "X,Y" [mm]. Nothing for
+/// "auto": then the file says it, or its kind. Throws InputError naming the text and what is accepted.
 std::optional<TifCentre> parse_tif_centre(const std::string& text);
 std::string to_string(const std::optional<TifCentre>& centre);
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "core/base/errors.h"
@@ -22,6 +23,7 @@ Part make_part(HeightMap map, RemovalFunction tif, const FormTerms& form, int th
   progress.step(fmt::format("map: {} x {} pixels of {:.4g} mm, {} in the aperture, RMS {:.4g} nm", grid.rows, grid.cols,
                             grid.pitch_x, part.before.valid_pixels, part.before.rms));
   part.tif = std::move(tif);
+  if (const auto note = wider_than_map(part.tif, grid)) part.tif.notes.push_back(*note);
   part.kernel = pixel_kernel(part.tif, grid.pitch_x, grid.pitch_y);
   progress.check();
   part.exact = tabulate_pixel_mean(part.tif, grid);
@@ -30,15 +32,25 @@ Part make_part(HeightMap map, RemovalFunction tif, const FormTerms& form, int th
 }
 
 void check_tool_fits(const RemovalFunction& tif, const Grid& map) {
-  const double diameter = 2.0 * tif.radius;
-  if (!(diameter > map.width() && diameter > map.height())) return;
+  constexpr double kTimesTheMap = 3.0;
+  if (tif.fwhm <= kTimesTheMap * std::max(map.width(), map.height())) return;
   const bool measured = tif.kind == RemovalFunction::Kind::Measured;
   throw InputError(fmt::format(
-      "removal function of {:.4g} mm diameter is larger than the map of {:.4g} x {:.4g} mm both ways; check {} and "
-      "`map pixel` (the map has {:.6g} mm)",
-      diameter, map.width(), map.height(),
-      measured ? fmt::format("`tif pixel` (the file has {:.6g} mm)", tif.samples.grid.pitch_x) : "`tif` (its radius)",
+      "removal function with a FWHM of {:.4g} mm, over {:g} times the map of {:.4g} x {:.4g} mm; check {} and `map "
+      "pixel` "
+      "(the map has {:.6g} mm)",
+      tif.fwhm, kTimesTheMap, map.width(), map.height(),
+      measured ? fmt::format("`tif pixel` (the file has {:.6g} mm)", tif.samples.grid.pitch_x) : "`tif` (its size)",
       map.pitch_x));
+}
+
+std::optional<std::string> wider_than_map(const RemovalFunction& tif, const Grid& map) {
+  constexpr double kReachInFwhm = 3.0;  // what is farther is the noise of a file
+  const double diameter = std::min(2.0 * tif.radius, kReachInFwhm * tif.fwhm);
+  if (!(diameter > map.width() && diameter > map.height())) return std::nullopt;
+  return fmt::format(
+      "the tool, {:.4g} mm in diameter (FWHM {:.4g} mm), is larger than the map of {:.4g} x {:.4g} mm both ways",
+      diameter, tif.fwhm, map.width(), map.height());
 }
 
 }  // namespace dwell

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "core/base/progress.h"
 #include "core/form/form_terms.h"
 #include "core/form/map_statistics.h"
@@ -29,8 +32,13 @@ struct Part {
 Part make_part(HeightMap map, RemovalFunction tif, const FormTerms& form, int threads = 0,
                const Progress& progress = {});
 
-/// Throws InputError if the tool is wider than the map in x and in y, which nearly always means a wrong pitch or unit
-/// of length.
+/// Throws InputError if half of the peak of the tool spans more than three times the longer side of the map, which no
+/// tool for the part does: a wrong pitch or unit of length. A tool that only reaches over the part is the path's
+/// business.
 void check_tool_fits(const RemovalFunction& tif, const Grid& map);
+
+/// A sentence if the tool, which is taken to reach no farther than three times its FWHM across, is wider than the map
+/// in x and in y.
+std::optional<std::string> wider_than_map(const RemovalFunction& tif, const Grid& map);
 
 }  // namespace dwell

@@ -9,6 +9,7 @@
 #include "runs/base/inputs_json.h"
 #include "runs/reports/options_json.h"
 #include "runs/reports/plan_blocks.h"
+#include "runs/reports/tool_sheet.h"
 
 namespace dwell {
 namespace {
@@ -62,6 +63,7 @@ std::string plan_summary_text(const PlannedJob& plan, const WrittenPlan& written
   Json summary = json_of_command("plan");
   summary.update({{"map", plan_map_block(plan.job)},
                   {"tif", plan_tif_block(plan.job)},
+                  {"tool", tool_block(tool_sheet(plan.part().tif))},
                   {"path", plan_path_block(plan.laid)},
                   {"weights", weights_json(plan.dwell)},
                   {"solve", solve_json(plan.dwell)},

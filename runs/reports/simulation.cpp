@@ -12,6 +12,7 @@
 #include "runs/job/job.h"
 #include "runs/plan/program_prediction.h"
 #include "runs/programs/program_reader.h"
+#include "runs/reports/tool_sheet.h"
 
 namespace dwell {
 namespace {
@@ -63,6 +64,7 @@ std::string simulation_json(const Simulation& s) {
   nlohmann::ordered_json json = json_of_command("simulate");
   json["map"] = map_block(s.map);
   json["tif"] = tif_block(s.tif, kind_of(s.tif), s.tif.samples.history, s.volume_factor);
+  json["tool"] = tool_block(tool_sheet(s.tif));
   json["program"] = program_block(program_figures(s.program, s.after, to_string(s.terms)));
   json["inputs"] = inputs_json(s.inputs);
   return json_text(std::move(json));

@@ -8,6 +8,7 @@
 
 #include "runs/base/inputs_json.h"
 #include "runs/base/json_blocks.h"
+#include "runs/reports/tool_sheet.h"
 
 namespace dwell {
 namespace {
@@ -39,10 +40,14 @@ std::string spots_text(const SpotCalibration& c) {
 }
 
 std::string trench_text(const TrenchCalibration& t) {
+  const std::string fitted =
+      t.fitted ? fmt::format("fitted {:.4g} +- {:.2g} deg", t.fitted->degrees, t.fitted->standard_error)
+               : std::string("not checked: the map does not show it");
   return fmt::format(
       "trench    {:.4g} nm deep, mean from {:.4g} to {:.4g} mm along it, radius {:.4g} mm, scatter {:.2g} nm\n"
+      "          along {:.6g} deg ({})\n"
       "          asymmetry across {:.2g} (0 = symmetric); taken as rotationally symmetric\n",
-      t.depth, t.from, t.to, t.radius, t.scatter, t.asymmetry);
+      t.depth, t.from, t.to, t.radius, t.scatter, t.direction, fitted, t.asymmetry);
 }
 
 std::string fit_text(const RemovalFit& f, double least_bic) {
@@ -80,9 +85,17 @@ Json spots_json(const SpotCalibration& c) {
 Json trench_json(const TrenchCalibration& t) {
   auto section = Json::array();
   for (const LineIntegral& s : t.section) section.push_back({s.offset, s.value});
-  return {
-      {"depth_nm", t.depth}, {"radius_mm", t.radius},   {"middle_mm", t.middle},    {"from_mm", t.from},
-      {"to_mm", t.to},       {"scatter_nm", t.scatter}, {"asymmetry", t.asymmetry}, {"section_nm_mm_per_s", section}};
+  return {{"depth_nm", t.depth},
+          {"radius_mm", t.radius},
+          {"middle_mm", t.middle},
+          {"from_mm", t.from},
+          {"to_mm", t.to},
+          {"scatter_nm", t.scatter},
+          {"asymmetry", t.asymmetry},
+          {"section_nm_mm_per_s", section},
+          {"direction_deg", t.direction},
+          {"fitted_direction_deg", t.fitted ? Json(t.fitted->degrees) : Json(nullptr)},
+          {"fitted_direction_standard_error_deg", t.fitted ? finite_or_null(t.fitted->standard_error) : Json(nullptr)}};
 }
 
 Json waves_json(const RemovalAnalysis::Waves& w) {
@@ -110,6 +123,9 @@ Json fit_json(const RemovalFit& f) {
           {"tif", f.spec}};
 }
 
+/// The sheet of the result, from the analysis that it already has.
+ToolSheet sheet_of(const TifResult& r) { return {r.source, r.tif.radius, r.analysis, r.tif.file, r.tif.notes}; }
+
 }  // namespace
 
 std::string tif_text(const TifResult& r) {
@@ -126,6 +142,8 @@ std::string tif_text(const TifResult& r) {
   text += fmt::format("volume    {:.6g} nm mm^2/s, 99 % of it within {:.4g} mm\n", a.volume, a.radius);
   text += fmt::format("FWHM      {:.4g} mm along x, {:.4g} mm along y, {:.4g} mm of equal area\n", a.fwhm_x, a.fwhm_y,
                       a.fwhm);
+  const ToolSheet sheet = sheet_of(r);
+  if (sheet.file) text += tool_file_line("file", sheet);
   text += fmt::format("centroid  ({:.4g}, {:.4g}) mm from the tool axis\n", a.centroid.x, a.centroid.y);
   text += fmt::format(
       "symmetry  asymmetry {:.3g} (RMS off the mean over all directions / RMS); main axes {:.4g} x {:.4g} mm "
@@ -133,6 +151,7 @@ std::string tif_text(const TifResult& r) {
       a.asymmetry, a.sigma_major, a.sigma_minor, a.angle);
   text += fmt::format("corrects  wavelengths down to {} at 10 % response (x {}, y {}); 50 % at {}\n",
                       wave(a.at_tenth.radial), wave(a.at_tenth.x), wave(a.at_tenth.y), wave(a.at_half.radial));
+  for (const std::string& note : sheet.notes) text += fmt::format("note      {}\n", note);
   for (const RemovalFit& f : r.fits) text += fit_text(f, r.fits.front().bic);
   return text;
 }
@@ -141,6 +160,7 @@ std::string tif_json(const TifResult& r) {
   const RemovalAnalysis& a = r.analysis;
   Json json = json_of_command("tif");
   json["tif"] = tif_block(r.tif, r.source, r.rates.history);
+  json["tool"] = tool_block(sheet_of(r));
   json["grid"] = grid_block(r.rates.grid);
   json["analysis"] = {{"peak_at_mm", {a.peak_at.x, a.peak_at.y}},
                       {"fwhm_x_mm", a.fwhm_x},

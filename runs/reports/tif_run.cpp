@@ -50,6 +50,8 @@ void refuse_unused(const TifJob& job) {
        "--spot or --trench (for a file of rates: --tif-no-data, --tif-table, --tif-rows, --tif-grid)");
   only(o.tif_pixel_mm || !o.tif_unit.empty() || o.tif_centre, !measured, "--tif-pixel, --tif-unit or --tif-centre",
        "a file of rates (for --spot and --trench: --map-pixel, --map-unit, --centre)");
+  only(!o.tif_steps.empty() || o.tif_pedestal, !measured, "--tif-steps or --tif-pedestal",
+       "a file of rates (for --spot and --trench: --map-steps, --baseline)");
   only(o.tif_no_data || o.tif_table || o.tif_rows || o.tif_grid, !measured,
        "--tif-no-data, --tif-table, --tif-rows or --tif-grid",
        "a file of rates (for --spot and --trench: --map-no-data, --map-table, --map-rows, --map-grid)");
@@ -114,7 +116,7 @@ TrenchOptions trench_options(const TifJob& job) {
   if (!job.feed_mm_per_min) throw InputError("--feed: required with --trench; the speed along the track [mm/min]");
   TrenchOptions options;
   options.feed = units::mm_per_s(*job.feed_mm_per_min);
-  options.direction = job.direction_deg.value_or(0.0);
+  options.direction = job.direction_deg;
   options.radius = job.radius_mm;
   options.noise_cut = job.noise_cut.value_or(options.noise_cut);
   return options;
@@ -191,7 +193,7 @@ TifResult make_tif(const TifJob& job, const Progress& progress) {
     result.tif = oriented(tif, {job.job.tif_angle_deg, job.job.tif_flip});
     result.rates = result.tif.samples;
   } else {
-    result.tif = load_removal_function(job.job, result.inputs);
+    result.tif = load_removal_function(job.job, result.inputs, progress);
     result.source = kind_of(result.tif);
     result.rates = removal_samples(result.tif);
   }

@@ -21,7 +21,7 @@ struct TifJob {
   std::string before;  // map before; empty: it was flat
   std::optional<double> dwell_time_s;
   std::optional<double> feed_mm_per_min;
-  std::optional<double> direction_deg;  // of the trench; default 0
+  std::optional<double> direction_deg;  // of the trench; default: fitted
   std::vector<std::string> at;          // X,Y [mm], for each spot
   std::optional<double> radius_mm;
   std::optional<double> noise_cut, noise_sigmas;

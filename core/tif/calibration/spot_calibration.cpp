@@ -1,6 +1,5 @@
 #include "core/tif/calibration/spot_calibration.h"
 
-#include <Eigen/LU>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,8 +8,8 @@
 
 #include "core/base/errors.h"
 #include "core/base/value_range.h"
-#include "core/numerics/dense_solve.h"
 #include "core/tif/calibration/spot_finder.h"
+#include "core/tif/removal_apex.h"
 
 namespace dwell {
 namespace {
@@ -114,33 +113,16 @@ void refuse_jumps(const std::vector<SpotPatch>& patches, double radius, const st
   }
 }
 
-/// The apex of the paraboloid through the values above 70 % of the peak, each weighted by its excess over that level.
-Point apex(const HeightMap& map, double peak, double radius) {
-  Eigen::Matrix<double, 6, 6> normal = Eigen::Matrix<double, 6, 6>::Zero();
-  Eigen::Matrix<double, 6, 1> right = Eigen::Matrix<double, 6, 1>::Zero();
-  for (Index i = 0; i < map.grid.size(); ++i) {
-    const Point p = (1.0 / radius) * map.grid.centre(i);
-    const double v = map.values[static_cast<std::size_t>(i)] / peak;
-    if (v < 0.7 || length(p) > 1.0) continue;
-    Eigen::Matrix<double, 6, 1> row;
-    row << 1.0, p.x, p.y, p.x * p.x, p.x * p.y, p.y * p.y;
-    normal += (v - 0.7) * row * row.transpose();
-    right += (v - 0.7) * v * row;
-  }
-  const Eigen::VectorXd c = least_squares(normal, right).x;
-  Eigen::Matrix2d curvature;
-  curvature << 2.0 * c[3], c[4], c[4], 2.0 * c[5];
-  const Eigen::Vector2d at = -curvature.inverse() * Eigen::Vector2d(c[1], c[2]);
-  if (!(curvature.determinant() > 0.0 && c[3] < 0.0 && at.norm() <= 1.0)) {
-    throw InputError(
-        "`centre` peak: the top of the spot is not rounded (a ring, several peaks, or noise); use centroid or at");
-  }
-  return {radius * at.x(), radius * at.y()};
+Point apex_of_spot(const HeightMap& map, double peak, double radius) {
+  if (const auto apex = rounded_apex(map, peak, {}, radius)) return *apex;
+  throw InputError(
+      "`centre` peak: the top of the spot is not rounded (a ring, several peaks, or noise), or has fewer than 9 pixels "
+      "above 70 %; use centroid or at");
 }
 
 Point axis_of(const SpotPatch& mean, const std::vector<SpotPatch>& patches, double peak, double radius,
               const SpotOptions& options) {
-  if (options.centre == SpotCentre::Peak) return apex(mean.depth, peak, radius);
+  if (options.centre == SpotCentre::Peak) return apex_of_spot(mean.depth, peak, radius);
   if (options.centre == SpotCentre::Centroid) return spot_centroid(mean, {}, radius, 0.1);
   Point sum;
   for (std::size_t k = 0; k < patches.size(); ++k) sum = sum + options.at[k] - patches[k].centre;

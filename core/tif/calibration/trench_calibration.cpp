@@ -46,26 +46,65 @@ struct Bins {
 
 void check(const TrenchOptions& o) {
   check_range("feed", units::mm_per_min(o.feed), ranges::kFeed);
-  check_range("direction", o.direction, ranges::kAngle);
+  if (o.direction) check_range("direction", *o.direction, ranges::kAngle);
   if (o.radius) check_range("radius", *o.radius, ranges::kSize);
   if (!(o.noise_cut >= 0.0 && o.noise_cut <= 0.5)) {
     throw InputError("noise cut", fmt::format("{}", o.noise_cut), "a share of the peak from 0 to 0.5");
   }
 }
 
-std::vector<TrackPixel> in_track_frame(const HeightMap& depth, double direction) {
+/// The depth less the robust plane of the map.
+HeightMap without_plane(const HeightMap& depth) {
   const std::vector<Index> pixels = finite_pixels(depth);
   if (pixels.size() < 100) {
     throw InputError(fmt::format("{} pixels with data; at least 100 are required for a trench", pixels.size()));
   }
   const Plane plane = robust_plane(depth, pixels, true);
+  HeightMap result = depth;
+  for (const Index i : pixels) result.values[static_cast<std::size_t>(i)] -= plane.at(depth.grid.centre(i));
+  return result;
+}
+
+std::vector<TrackPixel> in_track_frame(const HeightMap& depth, double direction) {
   const Rotation turn(direction);
   std::vector<TrackPixel> result;
-  for (const Index i : pixels) {
-    const Point p = depth.grid.centre(i), q = turn.back(p);
-    result.push_back({q.x, q.y, depth.values[static_cast<std::size_t>(i)] - plane.at(p)});
+  for (const Index i : finite_pixels(depth)) {
+    const Point q = turn.back(depth.grid.centre(i));
+    result.push_back({q.x, q.y, depth.values[static_cast<std::size_t>(i)]});
   }
   return result;
+}
+
+/// Refuses what is higher after than before, by the extremes that one pixel in 200 exceeds.
+void refuse_risen_trench(const HeightMap& depth) {
+  constexpr std::size_t kOneIn = 200;
+  std::vector<double> values;
+  for (const Index i : finite_pixels(depth)) values.push_back(depth.values[static_cast<std::size_t>(i)]);
+  const std::size_t away = values.size() / kOneIn;
+  std::sort(values.begin(), values.end());
+  const double rise = -values[away], fall = values[values.size() - 1 - away];
+  if (rise > 2.0 * fall) refuse_rise(rise, fall);
+  if (!(fall > 0.0)) throw InputError("no trench found: the map is flat");
+}
+
+/// The direction to work with: the fitted one, or a given one that agrees with it.
+void choose_direction(const HeightMap& depth, const TrenchOptions& options, TrenchCalibration& trench) {
+  trench.fitted = fit_trench_direction(depth);
+  if (!trench.fitted && !options.direction) {
+    throw InputError(
+        "the map does not show the direction of the trench: what is deep is not longer than it is wide, or the map "
+        "shows "
+        "too little around it; give `direction` in degrees, counter-clockwise from +x");
+  }
+  trench.direction = options.direction ? *options.direction : trench.fitted->degrees;
+  if (!trench.fitted || !options.direction) return;
+  const double off = angle_between_tracks(*options.direction, trench.fitted->degrees),
+               most = direction_tolerance(*trench.fitted);
+  if (off <= most) return;
+  throw InputError(
+      fmt::format("`direction` = {:g} deg disagrees with the trench in the map, which runs at {:.4g} +- {:.2g} deg, by "
+                  "{:.3g} deg; at most {:.2g} deg is accepted, or no `direction`: then the fitted one is taken",
+                  *options.direction, trench.fitted->degrees, trench.fitted->standard_error, off, most));
 }
 
 /// Middle and half width of what is deeper than 30 % of the deepest, of the mean across all of the track.
@@ -138,8 +177,19 @@ void choose_stretch(const std::vector<TrackPixel>& pixels, TrenchCalibration& tr
   }
 }
 
-/// The mean cross-section over the stretch, less the line through its surroundings, times the feed.
-void cut_section(const std::vector<TrackPixel>& pixels, TrenchCalibration& trench, double pitch, double feed) {
+/// The means of the bins, less a line, times the feed.
+std::vector<LineIntegral> section_of(const Bins& across, const Plane& line, double feed) {
+  std::vector<LineIntegral> section;
+  for (std::size_t i = 0; i < across.sum.size(); ++i) {
+    if (across.count[i] < 3) continue;
+    const double v = across.at(i);
+    section.push_back({v, feed * (across.mean(i) - line.at({v, 0.0})), static_cast<double>(across.count[i])});
+  }
+  return section;
+}
+
+/// The mean cross-section over the stretch, less the line through its surroundings, which it returns, times the feed.
+Plane cut_section(const std::vector<TrackPixel>& pixels, TrenchCalibration& trench, double pitch, double feed) {
   const double outer = kTrenchRing * trench.radius;
   Bins across(trench.middle - outer, trench.middle + outer, pitch);
   for (const TrackPixel& p : pixels) {
@@ -165,15 +215,21 @@ void cut_section(const std::vector<TrackPixel>& pixels, TrenchCalibration& trenc
   }
   const Plane line = robust_plane(ring, ring_pixels, true);
   trench.scatter = std::sqrt(std::max(0.0, square / static_cast<double>(count)));
-  for (std::size_t i = 0; i < across.sum.size(); ++i) {
-    if (across.count[i] < 3) continue;
-    const double v = across.at(i), depth = across.mean(i) - line.at({v, 0.0});
-    trench.depth = std::max(trench.depth, depth);
-    trench.section.push_back({v, feed * depth, static_cast<double>(across.count[i])});
-  }
+  trench.section = section_of(across, line, feed);
+  for (const LineIntegral& s : trench.section) trench.depth = std::max(trench.depth, s.value / feed);
+  return line;
 }
 
-/// Moves the middle to the centroid of the section and finds how odd it is about that.
+/// A section's value at a place between its own; 0 beyond.
+double value_at(const std::vector<LineIntegral>& section, double v) {
+  for (std::size_t i = 1; i < section.size(); ++i) {
+    const LineIntegral &a = section[i - 1], &b = section[i];
+    if (a.offset <= v && v <= b.offset) return a.value + (b.value - a.value) * (v - a.offset) / (b.offset - a.offset);
+  }
+  return 0.0;
+}
+
+/// Moves the middle to the centroid of the section.
 void centre_section(TrenchCalibration& trench, double feed) {
   double sum = 0.0, moment = 0.0;
   for (const LineIntegral& s : trench.section) {
@@ -183,19 +239,26 @@ void centre_section(TrenchCalibration& trench, double feed) {
   }
   trench.middle = moment / sum;
   for (LineIntegral& s : trench.section) s.offset -= trench.middle;
-  const auto at = [&](double v) {
-    for (std::size_t i = 1; i < trench.section.size(); ++i) {
-      const LineIntegral &a = trench.section[i - 1], &b = trench.section[i];
-      if (a.offset <= v && v <= b.offset) return a.value + (b.value - a.value) * (v - a.offset) / (b.offset - a.offset);
-    }
-    return 0.0;
-  };
+}
+
+/// How odd the sections of both halves of the stretch are about the middle of the whole.
+double asymmetry_of_halves(const std::vector<TrackPixel>& pixels, const TrenchCalibration& trench, const Plane& line,
+                           double pitch, double feed) {
+  const double outer = kTrenchRing * trench.radius, half = 0.5 * (trench.from + trench.to);
   double odd = 0.0, even = 0.0;
-  for (const LineIntegral& s : trench.section) {
-    const double mirror = at(-s.offset);
-    odd += std::pow(s.value - mirror, 2), even += std::pow(s.value + mirror, 2);
+  for (const auto& [from, to] : {std::pair{trench.from, half}, {half, trench.to}}) {
+    Bins across(trench.middle - outer, trench.middle + outer, pitch);
+    for (const TrackPixel& p : pixels) {
+      if (p.u >= from && p.u <= to) across.add(p.v, p.depth);
+    }
+    const std::vector<LineIntegral> section = section_of(across, line, feed);
+    for (const LineIntegral& s : section) {
+      if (std::abs(s.offset - trench.middle) > trench.radius) continue;
+      const double mirror = value_at(section, 2.0 * trench.middle - s.offset);
+      odd += std::pow(s.value - mirror, 2), even += std::pow(s.value + mirror, 2);
+    }
   }
-  trench.asymmetry = std::sqrt(odd / even);
+  return std::sqrt(odd / even);
 }
 
 HeightMap radial_map(const RadialProfile& profile, double radius, double pitch, double noise_cut) {
@@ -220,22 +283,28 @@ HeightMap radial_map(const RadialProfile& profile, double radius, double pitch, 
 
 TrenchCalibration calibrate_trench(const HeightMap& depth, const TrenchOptions& options) {
   check(options);
-  const std::vector<TrackPixel> pixels = in_track_frame(depth, options.direction);
+  const HeightMap flat = without_plane(depth);
+  refuse_risen_trench(flat);
   const double pitch = std::max(depth.grid.pitch_x, depth.grid.pitch_y);
   TrenchCalibration trench;
+  choose_direction(flat, options, trench);
+  const std::vector<TrackPixel> pixels = in_track_frame(flat, trench.direction);
   double extent = 0.0;
   locate(pixels, pitch, trench, extent);
   trench.radius = options.radius.value_or(kTrenchRadiusInExtents * extent);
   choose_stretch(pixels, trench, pitch);
-  cut_section(pixels, trench, pitch, options.feed);
+  const Plane line = cut_section(pixels, trench, pitch, options.feed);
   centre_section(trench, options.feed);
+  trench.asymmetry = asymmetry_of_halves(pixels, trench, line, pitch, options.feed);
   const int steps = static_cast<int>(std::clamp(trench.radius / pitch, 8.0, 80.0));
   trench.profile = abel_inversion(trench.section, trench.radius, steps);
   trench.rates = radial_map(trench.profile, trench.radius, pitch, options.noise_cut);
   trench.rates.history = depth.history;
-  trench.rates.history.push_back(fmt::format(
-      "tif: trench at {} mm/s along {} deg, mean over {:.4g} mm, inverse Abel transform on {} radii to {:.4g} mm",
-      options.feed, options.direction, trench.to - trench.from, steps, trench.radius));
+  trench.rates.history.push_back(
+      fmt::format("tif: trench at {} mm/s along {:.6g} deg ({}), mean over {:.4g} mm, inverse Abel transform on {} "
+                  "radii to {:.4g} mm",
+                  options.feed, trench.direction, options.direction ? "given" : "fitted", trench.to - trench.from,
+                  steps, trench.radius));
   return trench;
 }
 

@@ -13,6 +13,7 @@
 #include "runs/plan/part.h"
 #include "tests/core/base/expect_error.h"
 #include "tests/core/base/temporary_folder.h"
+#include "tests/core/tif/measured_tool.h"
 
 namespace dwell {
 namespace {
@@ -86,21 +87,22 @@ TEST(LoadRemovalFunction, RefusesBadFormulas) {
 TEST(LoadRemovalFunction, ReadsAFileWithItsUnitPitchAndAxis) {
   const TemporaryFolder folder;
   JobOptions options;
-  options.tif = folder.file("spot.csv", "0,0,0\n0,6,3\n0,0,0\n").string();
+  options.tif = folder.file("spot.csv", "0,0,0,0,0\n0,0,0,0,0\n0,0,6,3,0\n0,0,0,0,0\n0,0,0,0,0\n").string();
   options.tif_pixel_mm = 0.5;
   options.tif_unit = "um/min";
+  options.tif_centre = parse_tif_centre("middle");
   std::vector<InputFile> inputs;
   const RemovalFunction middle = load_removal_function(options, inputs);
   EXPECT_EQ(middle.kind, RemovalFunction::Kind::Measured);
   EXPECT_DOUBLE_EQ(middle.peak, 100.0);           // 6 um/min
   EXPECT_DOUBLE_EQ(middle.volume, 150.0 * 0.25);  // 9 um/min over pixels of 0.25 mm^2
-  EXPECT_DOUBLE_EQ(middle.samples.grid.origin.x, -0.5);
+  EXPECT_DOUBLE_EQ(middle.samples.grid.origin.x, -1.0);
   ASSERT_EQ(inputs.size(), 1u);
   EXPECT_EQ(inputs[0].role, "tif");
   EXPECT_EQ(inputs[0].sha256, sha256_of_file(options.tif));
 
   options.tif_centre = parse_tif_centre("centroid");
-  EXPECT_NEAR(load_removal_function(options, inputs).samples.grid.origin.x, -2.0 / 3.0, 1e-14);
+  EXPECT_NEAR(load_removal_function(options, inputs).samples.grid.origin.x, -7.0 / 6.0, 1e-14);
   options.tif_centre = parse_tif_centre("0.75,0.25");
   EXPECT_DOUBLE_EQ(load_removal_function(options, inputs).samples.grid.origin.x, -0.75);
   EXPECT_DOUBLE_EQ(load_removal_function(options, inputs).samples.grid.origin.y, -0.25);
@@ -110,7 +112,7 @@ TEST(LoadRemovalFunction, ReadsAFileWithItsUnitPitchAndAxis) {
 // given as a place in the file.
 TEST(LoadRemovalFunction, NeedsAClearOriginOnlyForAnAxisThatIsGiven) {
   const TemporaryFolder folder;
-  const HeightMap rates(Grid{3, 3, 0.5, 0.5, {}}, {0, 0, 0, 0, 6, 3, 0, 0, 0});
+  const HeightMap rates(Grid{3, 3, 0.5, 0.5, {}}, {0, 0, 0, 0, 6, 0.1, 0, 0, 0});
   const auto file = folder.path() / "spot.npy";
   write_whole_file(file, npy_bytes(rates));
   write_whole_file(npy_sidecar_name(file),
@@ -182,15 +184,75 @@ TEST(LoadRemovalFunction, RefusesASpotThatRemovesNothing) {
   }
 }
 
-TEST(CheckToolFits, AllowsAStripNarrowerThanTheToolButNoMapSmallerBothWays) {
+TEST(CheckToolFits, RefusesOnlyWhatNoToolForThePartIs) {
   const RemovalFunction tif = gaussian_removal(1.0, 2.0, 3.0);
   EXPECT_NO_THROW(check_tool_fits(tif, Grid{4, 40, 0.5, 0.5, {}}));
-  EXPECT_NO_THROW(check_tool_fits(tif, Grid{40, 4, 0.5, 0.5, {}}));
+  EXPECT_NO_THROW(check_tool_fits(tif, Grid{11, 9, 0.5, 0.5, {}}));
   expect_input_error(
       [&] {
-        check_tool_fits(tif, Grid{11, 11, 0.5, 0.5, {}});
+        check_tool_fits(gaussian_removal(1.0, 20.0, 30.0), Grid{9, 12, 0.5, 0.5, {}});
       },
-      {"6 mm", "5.5 x 5.5 mm", "`tif` (its radius)", "`map pixel`"});
+      {"FWHM of 20 mm", "3 times the map of 6 x 4.5 mm", "`tif` (its size)", "`map pixel`"});
+}
+
+TEST(WiderThanMap, SaysAToolThatIsLargerBothWays) {
+  const RemovalFunction tif = gaussian_removal(1.0, 2.0, 3.0);
+  EXPECT_FALSE(wider_than_map(tif, Grid{4, 40, 0.5, 0.5, {}}).has_value());
+  EXPECT_FALSE(wider_than_map(tif, Grid{40, 4, 0.5, 0.5, {}}).has_value());
+  EXPECT_NE(wider_than_map(tif, Grid{9, 11, 0.5, 0.5, {}}).value().find("6 mm in diameter"), std::string::npos);
+}
+
+// A file of rates with an offset, its axis off the middle, and a dead sample.
+TEST(LoadRemovalFunction, QuestionsAFileAndTakesTheAnswers) {
+  const TemporaryFolder folder;
+  HeightMap rates = test::measured_tool({0.9, -0.4});
+  for (double& v : rates.values) v += 0.4;
+  rates.at(23, 32) = std::nan("");
+  write_map(folder.path() / "tool.csv", rates);
+  JobOptions options;
+  options.tif = (folder.path() / "tool.csv").string();
+  std::vector<InputFile> inputs;
+  expect_input_error([&] { load_removal_function(options, inputs); },
+                     {"tool.csv", "1 sample without data", "`tif steps`", "`tif pedestal`", "`tif centre`"});
+  options.tif_steps = "fill:harmonic";
+  options.tif_pedestal = TifPedestal::Subtract;
+  options.tif_centre = parse_tif_centre("peak");
+  const RemovalFunction tif = load_removal_function(options, inputs);
+  ASSERT_TRUE(tif.file.has_value());
+  EXPECT_NEAR(tif.file->axis.x, 40.9, 0.15);
+  EXPECT_NEAR(tif.file->axis.y, -30.4, 0.02);
+  EXPECT_NEAR(tif.file->rim, 0.4, 0.01);
+  EXPECT_NEAR(tif.file->peak, 4.4, 0.02);
+  EXPECT_NEAR(tif.peak, 4.0, 0.02);
+  ASSERT_EQ(tif.notes.size(), 1U);
+  EXPECT_NE(tif.notes[0].find("taken off"), std::string::npos);
+  ASSERT_EQ(tif.samples.history.size(), 2U);
+  EXPECT_NE(tif.samples.history[0].find("fill:how=harmonic (1 holes of 1 pixels filled)"), std::string::npos);
+  EXPECT_NE(tif.samples.history[1].find("pedestal subtract"), std::string::npos);
+  options.tif_angle_deg = 30.0;
+  const RemovalFunction turned = load_removal_function(options, inputs);
+  EXPECT_TRUE(turned.file.has_value());
+  EXPECT_EQ(turned.notes, tif.notes);
+  options.tif_angle_deg = 0.0;
+  options.tif = "gaussian:peak=8,fwhm=2";
+  expect_input_error([&] { load_removal_function(options, inputs); }, {"--tif-steps fill:harmonic", "formula"});
+  options.tif_steps.clear();
+  expect_input_error([&] { load_removal_function(options, inputs); }, {"--tif-pedestal subtract", "formula"});
+}
+
+// What dwell tif wrote says its axis; nobody is asked again.
+TEST(LoadRemovalFunction, AsksNotForTheAxisOfAFileOfDwellTif) {
+  const TemporaryFolder folder;
+  HeightMap rates = test::measured_tool({0.9, -0.4});
+  rates.grid.origin = rates.grid.origin - Point{40.2, -30.7};
+  rates.history.emplace_back(kToolAxisAtOrigin);
+  write_map(folder.path() / "tool.csv", rates);
+  JobOptions options;
+  options.tif = (folder.path() / "tool.csv").string();
+  std::vector<InputFile> inputs;
+  const RemovalFunction tif = load_removal_function(options, inputs);
+  EXPECT_NEAR(tif.file->axis.x, 0.0, 1e-12);
+  EXPECT_TRUE(tif.notes.empty());
 }
 
 }  // namespace

@@ -39,6 +39,8 @@ JobOptions unusual() {
   o.tif_table = parse_matrix_table("index");
   o.tif_rows = MapRows::Bottom;
   o.tif_grid = ScatterOptions{0.2, {}};
+  o.tif_steps = "fill:how=harmonic; subtract:file=/data/dark.csv,how=resample";
+  o.tif_pedestal = TifPedestal::Taper;
   o.tif_dwell_time_s = 4.5;
   o.tif_centre = parse_tif_centre("0.5,-0.25");
   o.tif_angle_deg = -37.5;

@@ -100,7 +100,7 @@ TEST(CalibrateTrench, RefusesWhatItCannotUse) {
   };
   expect_input_error(with(0.0, 0.0), {"`feed` = 0 mm/min", "from 0.01"});
   expect_input_error(with(std::nan(""), 0.0), {"`feed` = nan"});
-  expect_input_error(with(1.0, 90.0), {"no trench found", "`direction`"});
+  expect_input_error(with(1.0, 90.0), {"`direction` = 90 deg", "runs at"});
   HeightMap swapped = depth;
   for (double& v : swapped.values) v = -v;
   TrenchOptions options;
