@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <string_view>
+#include <utility>
 
 #include "runs/job/job_file.h"
 #include "runs/map_steps/map_steps.h"
@@ -33,11 +34,23 @@ JobArguments::JobArguments(CLI::App& command, const std::vector<std::string>& fl
 JobOptions JobArguments::options() const {
   JobOptions options;
   if (!job_.empty()) read_job_file(job_, options);
+  return options_over(std::move(options));
+}
+
+JobOptions JobArguments::options_over(JobOptions options) const {
   for (const Given& given : given_) {
     if (given.option->count() == 0) continue;
     set_job_option(options, *given.record, given.option->results().back(), "--" + given.record->flag);
   }
   return options;
+}
+
+std::vector<const JobOptionRecord*> JobArguments::given() const {
+  std::vector<const JobOptionRecord*> records;
+  for (const Given& given : given_) {
+    if (given.option->count() > 0) records.push_back(given.record);
+  }
+  return records;
 }
 
 std::vector<ReadFile> JobArguments::files_read(const JobOptions& options) const {

@@ -18,6 +18,10 @@ class JobArguments {
 
   /// The job file, if one is given, then what the command line says over it. Throws InputError.
   JobOptions options() const;
+  /// What the command line says over other options, those of a plan for instance. Throws InputError.
+  JobOptions options_over(JobOptions options) const;
+  /// The options that the command line gives.
+  std::vector<const JobOptionRecord*> given() const;
 
   /// The files that these options name for reading, the job file among them, as check_output_files takes them.
   std::vector<ReadFile> files_read(const JobOptions& options) const;
