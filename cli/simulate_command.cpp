@@ -58,8 +58,8 @@ SimulationRequest request_of_plan(const SimulateArguments& a) {
   for (const JobOptionRecord* record : a.job->given()) {
     flags.insert(record->flag);
     if (record->flag == "threads" || record->flag == "max-pixels") continue;  // change no result
-    request.source.given.push_back(
-        given_sentence(record->flag, record->get(request.options), record->get(plan.options)));
+    const std::string now = record->get(request.options), then = record->get(plan.options);
+    if (now != then) request.source.given.push_back(given_sentence(record->flag, now, then));
   }
   request.source.other.map |= flags.contains("map") || flags.contains("map-steps");
   request.source.other.tif |= flags.contains("tif");
