@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <string_view>
+#include <utility>
 
 #include "core/base/errors.h"
 #include "runs/job/job_file.h"
@@ -34,6 +35,10 @@ JobArguments::JobArguments(CLI::App& command, const std::vector<std::string>& fl
 JobOptions JobArguments::options() const {
   JobOptions options;
   if (!job_.empty()) read_job_file(job_, options);
+  return options_over(std::move(options));
+}
+
+JobOptions JobArguments::options_over(JobOptions options) const {
   for (const Given& given : given_) {
     if (given.option->count() == 0) continue;
     set_job_option(options, *given.record, given.option->results().back(), "--" + given.record->flag);
@@ -49,6 +54,14 @@ void JobArguments::require(const JobOptions& options, const std::vector<std::str
   }
   if (missing.size() < 2) return;
   throw InputError(fmt::format("{}: required; --help says what each is", fmt::join(missing, ", ")));
+}
+
+std::vector<const JobOptionRecord*> JobArguments::given() const {
+  std::vector<const JobOptionRecord*> records;
+  for (const Given& given : given_) {
+    if (given.option->count() > 0) records.push_back(given.record);
+  }
+  return records;
 }
 
 std::vector<ReadFile> JobArguments::files_read(const JobOptions& options) const {

@@ -18,6 +18,10 @@ class JobArguments {
 
   /// The job file, if one is given, then what the command line says over it. Throws InputError.
   JobOptions options() const;
+  /// What the command line says over other options, those of a plan for instance. Throws InputError.
+  JobOptions options_over(JobOptions options) const;
+  /// The options that the command line gives.
+  std::vector<const JobOptionRecord*> given() const;
 
   /// Throws InputError that names all of the flags whose option is not given, if these are two or more: whoever lacks
   /// one is told better by what reads it.

@@ -1,6 +1,10 @@
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <memory>
+#include <set>
+#include <string>
+#include <vector>
 
 #include "cli/commands.h"
 #include "cli/job_arguments.h"
@@ -9,10 +13,12 @@
 #include "cli/progress_line.h"
 #include "cli/terminal.h"
 #include "core/base/duration_text.h"
+#include "core/base/errors.h"
 #include "core/formats/map_formats.h"
 #include "runs/drawing/picture.h"
 #include "runs/programs/program_formats.h"
 #include "runs/reports/exact_lines.h"
+#include "runs/reports/recorded_plan.h"
 #include "runs/reports/simulation.h"
 #include "runs/reports/tool_sheet.h"
 
@@ -21,14 +27,67 @@ namespace {
 
 struct SimulateArguments {
   std::unique_ptr<JobArguments> job;
-  std::string program, gcode, g4, residual, png;
+  std::string plan, program, gcode, g4, residual, png;
   JsonOption json;
   bool exact = false;
+  OtherInputs other;
 };
 
-void check_outputs(const SimulateArguments& a, const JobOptions& options) {
+/// "feed.csv or program.nc".
+std::string program_files() {
+  std::string names;
+  for (const ProgramFormat& format : program_formats()) names += (names.empty() ? "" : " or ") + format.file;
+  return names;
+}
+
+/// What is simulated, on what, and how that is other than in the plan.
+struct SimulationRequest {
+  std::string program;
+  JobOptions options;
+  SimulationSource source;
+};
+
+/// "map given instead of the plan's: second.csv, the plan's is map.csv".
+std::string given_sentence(const std::string& flag, const std::string& now, const std::string& then) {
+  return fmt::format("{} given instead of the plan's: {}; the plan's is {}", flag, now.empty() ? "none" : now,
+                     then.empty() ? "none" : then);
+}
+
+SimulationRequest request_of_plan(const SimulateArguments& a) {
+  const RecordedPlan plan = read_recorded_plan(a.plan);
+  std::set<std::string> flags;
+  SimulationRequest request{plan.program().string(), a.job->options_over(plan.options), {a.plan, {}, a.other}};
+  for (const JobOptionRecord* record : a.job->given()) {
+    flags.insert(record->flag);
+    if (record->flag == "threads" || record->flag == "max-pixels") continue;  // change no result
+    const std::string now = record->get(request.options), then = record->get(plan.options);
+    if (now != then) request.source.given.push_back(given_sentence(record->flag, now, then));
+  }
+  request.source.other.map |= flags.contains("map") || flags.contains("map-steps");
+  request.source.other.tif |= flags.contains("tif");
+  if (!a.program.empty()) {
+    request.source.given.push_back(given_sentence("program", a.program, request.program));
+    request.program = a.program;
+  }
+  check_recorded_inputs(plan, flags);
+  return request;
+}
+
+SimulationRequest request_of(const SimulateArguments& a) {
+  if (!a.plan.empty()) return request_of_plan(a);
+  if (a.program.empty()) {
+    throw InputError("PLAN or --program: required; the folder of a plan, or a program alone (" + program_files() + ")");
+  }
+  const JobOptions options = a.job->options();
+  JobArguments::require(options, {"map", "tif"});
+  return {a.program, options, {"", {}, a.other}};
+}
+
+void check_outputs(const SimulateArguments& a, const JobOptions& options, const std::string& program) {
   std::vector<ReadFile> read = a.job->files_read(options);
-  read.push_back({"the program", a.program});
+  read.push_back({"the program", program});
+  if (!a.plan.empty())
+    read.push_back({"the plan's summary", (std::filesystem::path(a.plan) / "summary.json").string()});
   check_output_files(
       {{OutputFile::Kind::Map, "--residual", a.residual}, {OutputFile::Kind::Figure, "--png", a.png}, a.json.output()},
       read);
@@ -37,7 +96,10 @@ void check_outputs(const SimulateArguments& a, const JobOptions& options) {
 std::string simulation_text(const Simulation& s) {
   std::string notes;
   for (const std::string& note : s.program.notes) notes += fmt::format("          {}\n", note);
-  return fmt::format("program   {}: {} steps, {:.6g} mm with removal, {}\n", s.program.file, s.program.steps.size(),
+  std::string origin = s.plan.empty() ? "" : fmt::format("plan      {}\n", s.plan);
+  for (const std::string& difference : s.differences) origin += fmt::format("differs   {}\n", difference);
+  return origin +
+         fmt::format("program   {}: {} steps, {:.6g} mm with removal, {}\n", s.program.file, s.program.steps.size(),
                      s.program.removing_length(), duration_text(s.program.total_seconds())) +
          notes + tool_lines(tool_sheet(s.tif)) +
          fmt::format("before    {} ({} removed, {} pixels)\n", in_words(s.before), to_string(s.terms),
@@ -50,11 +112,11 @@ int run_simulate(const SimulateArguments& arguments) {
   GcodeReading reading;
   if (!arguments.gcode.empty()) reading.dialect = parse_gcode_dialect(arguments.gcode);
   if (!arguments.g4.empty()) reading.halts = parse_halt_unit(arguments.g4);
-  const JobOptions options = arguments.job->options();
-  JobArguments::require(options, {"map", "tif"});
-  check_outputs(arguments, options);
+  const SimulationRequest request = request_of(arguments);
+  check_outputs(arguments, request.options, request.program);
   const Progress progress = terminal_progress();
-  const Simulation s = simulate_file(arguments.program, reading, options, progress, arguments.exact);
+  const Simulation s =
+      simulate_file(request.program, reading, request.options, progress, arguments.exact, request.source);
   progress.step("writing");
   PendingFiles files;
   files.add_map(arguments.residual, s.after.surface);
@@ -66,14 +128,7 @@ int run_simulate(const SimulateArguments& arguments) {
   files.write();
   finish_progress();
   arguments.json.deliver(simulation_json(s), simulation_text(s));
-  return kDone;
-}
-
-/// "feed.csv or program.nc".
-std::string program_files() {
-  std::string names;
-  for (const ProgramFormat& format : program_formats()) names += (names.empty() ? "" : " or ") + format.file;
-  return names;
+  return say_limits(s.limits);
 }
 
 }  // namespace
@@ -82,12 +137,17 @@ void add_simulate_command(CLI::App& program, int& exit_code) {
   CLI::App* command =
       program.add_subcommand("simulate", "predict the surface that a feed table or G-code program leaves");
   auto arguments = std::make_shared<SimulateArguments>();
-  command->add_option("--program", arguments->program, program_files())->type_name("FILE")->required();
   const std::vector<std::string> flags{
       "map",      "map-pixel", "map-unit",       "map-origin", "map-no-data",  "map-max-pv",  "map-table", "map-rows",
       "map-grid", "map-steps", "max-pixels",     "tif",        "tif-pixel",    "tif-no-data", "tif-table", "tif-rows",
       "tif-grid", "tif-unit",  "tif-dwell-time", "tif-steps",  "tif-pedestal", "tif-centre",  "tif-angle", "tif-flip",
       "remove",   "aperture",  "threads"};
+  command
+      ->add_option("plan", arguments->plan,
+                   "folder of a plan: its program, with the map, the removal function and all options that it was made "
+                   "with; what is given beside it comes in their place")
+      ->type_name("PLAN");
+  command->add_option("--program", arguments->program, program_files() + ": a program alone")->type_name("FILE");
   arguments->job = std::make_unique<JobArguments>(*command, flags, false);
   command
       ->add_option("--gcode", arguments->gcode,
@@ -104,9 +164,14 @@ void add_simulate_command(CLI::App& program, int& exit_code) {
   command->add_flag("--exact", arguments->exact,
                     "integrate the removal function itself at every pixel, not only at as many as the stated figure "
                     "needs: the residual map is then exact everywhere; takes longer");
+  command->add_flag("--other-map", arguments->other.map,
+                    "the map is meant to be another than the one that the program was made for");
+  command->add_flag("--other-tif", arguments->other.tif,
+                    "the removal function is meant to be another than the one that the program was made with");
   arguments->json.add_to(*command);
   command->footer(
-      "Example:\n  dwell simulate --program plan/program.nc --map mirror.csv --map-pixel 0.0938 --tif spot.csv "
+      "Examples:\n  dwell simulate plan/\n  dwell simulate plan/ --map measured_again.csv\n  dwell simulate --program "
+      "plan/program.nc --map mirror.csv --map-pixel 0.0938 --tif spot.csv "
       "--tif-pixel 0.0938");
   command->callback([arguments, &exit_code] { exit_code = run_simulate(*arguments); });
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +20,30 @@ struct ProgramStep {
   double length() const { return distance(start, finish); }
 };
 
+/// How the machine runs the ends of moves, as a program asks for it (G61, G61.1, G64).
+struct PathMode {
+  enum class Kind {
+    ExactPath,  // through the programmed points, slowing down as far as that needs (G61)
+    ExactStop,  // with a stop at the end of every move (G61.1)
+    Blended,    // rounded, so that the speed is kept (G64)
+  };
+  Kind kind = Kind::ExactPath;
+  /// Of Blended: how far the tool may run beside the programmed path [mm] (P); nothing: as far as the machine likes.
+  std::optional<double> tolerance_mm{};
+  /// Of Blended: how far a row of short moves may lie beside the one that replaces them [mm] (Q).
+  std::optional<double> merging_mm{};
+
+  bool operator==(const PathMode&) const = default;
+};
+
+/// A path mode holds from one step on until the next change, or the end.
+struct PathModeChange {
+  std::size_t first_step = 0;  // index into the program's steps; may be their number, where no step follows
+  PathMode mode;
+
+  bool operator==(const PathModeChange&) const = default;
+};
+
 /// A machine program as read back from disk. Steps that remove nothing and whose duration the program does not say
 /// (rapids) have seconds = 0.
 struct Program {
@@ -25,6 +51,9 @@ struct Program {
   std::vector<ProgramStep> steps;
   /// What the file left open and how it was read, a sentence each.
   std::vector<std::string> notes{};
+  /// In the order of their steps, none for steps before the first change: there the machine's own setting holds. What a
+  /// program removes is computed from its steps as written, whatever the mode.
+  std::vector<PathModeChange> path_modes{};
 
   double total_seconds() const;    // all steps [s]
   double removing_length() const;  // [mm]

@@ -74,6 +74,9 @@ std::string feed_table_text(const FeedTable& table, const Progress& progress) {
   for (const auto& [name, hash] : table.inputs) {
     fmt::format_to(out, "# input: {} sha256={}\n", one_line(name), one_line(hash));
   }
+  for (const auto& [key, value] : table.options) {
+    fmt::format_to(out, "# option: {} = {}\n", one_line(key), one_line(value));
+  }
   fmt::format_to(out, "sequence,x_mm,y_mm,dwell_s,feed_mm_per_min,lift\n");
   Poll poll(progress);
   for (std::size_t j = 0; j < n; ++j) {

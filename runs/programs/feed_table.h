@@ -23,14 +23,15 @@ struct FeedTable {
   std::vector<double> feed_mm_per_min;  // Moving: stroke length / dwell, 0 for halts; Stop: maximum feed
   Motion motion = Motion::Moving;
   double max_feed_mm_per_min = 0.0;
-  std::string version;                                      // of the program that wrote the table
-  std::vector<std::pair<std::string, std::string>> inputs;  // ("map mirror.csv", SHA-256 in hexadecimal)
+  std::string version;                                       // of the program that wrote the table
+  std::vector<std::pair<std::string, std::string>> inputs;   // ("map mirror.csv", SHA-256 in hexadecimal)
+  std::vector<std::pair<std::string, std::string>> options;  // that the removal hangs on: ("tif_centre", "centroid")
 };
 
 /// A table whose every number is what feed.csv will hold, so that it reads back equal: coordinates rounded to 1e-6 mm,
 /// dwells to 9 significant digits (up where the rounded stroke would else be faster than the maximum feed), feeds
-/// computed from these and rounded down. lifted[0] is set. `version` and `inputs` are left to the caller. Throws
-/// InputError as program_of(path, dwell_s, motion, max_feed) does.
+/// computed from these and rounded down. lifted[0] is set. `version`, `inputs` and `options` are left to the caller.
+/// Throws InputError as program_of(path, dwell_s, motion, max_feed) does.
 FeedTable feed_table_of(const ToolPath& path, const std::vector<double>& dwell_s, Motion motion,
                         double max_feed_mm_per_min, const Progress& progress = {});
 

@@ -18,6 +18,7 @@
 #include "core/map/unit_mention.h"
 #include "paths/feed/plan_program.h"
 #include "runs/programs/feed_table.h"
+#include "runs/programs/recorded_option.h"
 
 namespace dwell {
 namespace {
@@ -87,6 +88,7 @@ class FeedTableReader {
     const std::string_view key = trim(line.substr(0, colon));
     const std::string_view value = trim(line.substr(colon + 1));
     if (key == "input") return read_input(value);
+    if (is_record(line)) return read_option(value);
     if (key == "path" || is_quantity(key)) return read_quantity(key, value);
     check_remark(line);
   }
@@ -158,6 +160,11 @@ class FeedTableReader {
     const std::size_t at = value.rfind(" sha256=");
     if (at == std::string_view::npos) fail(fmt::format("input = {}; required NAME sha256=HASH", value));
     table_.inputs.emplace_back(value.substr(0, at), value.substr(at + 8));
+  }
+
+  void read_option(std::string_view value) {
+    const std::size_t equals = value.find('=');
+    table_.options.emplace_back(trim(value.substr(0, equals)), trim(value.substr(equals + 1)));
   }
 
   void check_header() const {

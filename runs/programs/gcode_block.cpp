@@ -8,6 +8,12 @@
 namespace dwell {
 namespace {
 
+PathMode::Kind path_mode_of(const GcodeCode& code) {
+  constexpr int kExactPath = 610, kExactStop = 611;
+  if (code.tenths == kExactPath) return PathMode::Kind::ExactPath;
+  return code.tenths == kExactStop ? PathMode::Kind::ExactStop : PathMode::Kind::Blended;
+}
+
 // Collects one line.
 class BlockCollector {
  public:
@@ -22,6 +28,7 @@ class BlockCollector {
       }
     }
     check_company(line);
+    take_tolerances();
     return block_;
   }
 
@@ -94,9 +101,8 @@ class BlockCollector {
         return;
       case GcodeEffect::WorkOffset:
         return once(block_.work_offset, code->tenths, word);
-      case GcodeEffect::Blending:
-        block_.blending = true;
-        return;
+      case GcodeEffect::PathMode:
+        return once(block_.path_mode, PathMode{path_mode_of(*code)}, word);
       default:
         take_machine_code(*code, number, word);
     }
@@ -134,11 +140,24 @@ class BlockCollector {
     if (cancels_ && block_.has_axes()) {
       refuse(*cancels_, "beside X, Y or Z controllers disagree on it; required on a line of its own");
     }
-    if (block_.p && !block_.halt && !block_.blending) {
+    const bool blended = block_.path_mode && block_.path_mode->kind == PathMode::Kind::Blended;
+    if (block_.p && !block_.halt && !blended) {
       refuse(*block_.p, "P without G4; accepted only as the time of a halt (G4 P0.5) and the tolerance of G64");
     }
-    if (q_ && !block_.blending) refuse(*q_, "Q is accepted only as a tolerance of G64");
+    if (q_ && !blended) refuse(*q_, "Q is accepted only as a tolerance of G64");
     if (block_.halt) check_halt();
+  }
+
+  // P and Q of G64 in millimetres, the only unit of length that is accepted.
+  void take_tolerances() {
+    if (!block_.path_mode || block_.halt) return;
+    const auto tolerance = [this](const std::optional<GcodeWord>& word) -> std::optional<double> {
+      if (!word) return std::nullopt;
+      if (!(word->value >= 0.0)) refuse(*word, "a tolerance of G64; required >= 0 mm");
+      return word->value;
+    };
+    block_.path_mode->tolerance_mm = tolerance(block_.p);
+    block_.path_mode->merging_mm = tolerance(q_);
   }
 
   void check_halt() const {
@@ -148,7 +167,7 @@ class BlockCollector {
     if (block_.f || block_.s) {
       fail("G4 with F or S: a time or a number of turns on some controllers; required G4 P");
     }
-    if (block_.blending) fail("G4 together with G61 or G64, whose P it would be; required on a line of its own");
+    if (block_.path_mode) fail("G4 together with G61 or G64, whose P it would be; required on a line of its own");
   }
 
   const GcodePlace& where_;

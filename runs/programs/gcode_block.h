@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/motion/program.h"
 #include "runs/programs/gcode_words.h"
 
 namespace dwell {
@@ -20,7 +21,8 @@ struct GcodeBlock {
   std::optional<int> spindle;  // 3, 4 or 5
   bool mist = false, flood = false, coolants_off = false;
   bool numbered = false;  // O, the program's number
-  bool change_tool = false, halt = false, pause = false, end = false, millimetres = false, blending = false;
+  bool change_tool = false, halt = false, pause = false, end = false, millimetres = false;
+  std::optional<PathMode> path_mode;
 
   bool has_axes() const { return x || y || z; }
 };

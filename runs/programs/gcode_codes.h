@@ -16,7 +16,7 @@ enum class GcodeEffect {
   FeedMode,     // G93, G94
   Millimetres,  // G21 and its like
   WorkOffset,   // G54 and its like: one of them a program
-  Blending,     // how corners are run, with P and Q
+  PathMode,     // how the ends of moves are run, G64 with P and Q
   Pause,        // the machine waits for its operator
   End,          // of the program
   Spindle,      // on, off, its sense

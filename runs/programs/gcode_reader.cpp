@@ -16,6 +16,7 @@
 #include "runs/programs/gcode_block.h"
 #include "runs/programs/gcode_tool.h"
 #include "runs/programs/gcode_words.h"
+#include "runs/programs/recorded_option.h"
 
 namespace dwell {
 namespace {
@@ -66,7 +67,7 @@ class GcodeInterpreter {
     begun_ = true;
     tool_.take(block);
     if (block.millimetres) says_millimetres_ = true;
-    if (block.blending) blends_ = true;
+    if (block.path_mode) set_path_mode(*block.path_mode);
     if (block.feed_mode) set_feed_mode(*block.feed_mode);
     if (block.f) set_feed(*block.f);
     if (block.work_offset) set_work_offset(*block.work_offset);
@@ -102,10 +103,9 @@ class GcodeInterpreter {
     }
   }
 
-  /// A comment that names another unit than the program is read in is not skipped. In what our own programs say of
-  /// their input, the words are those of a file's name.
+  /// A comment that names another unit than the program is read in is not skipped.
   void check_units(std::string_view comment) const {
-    if (comment.starts_with("input: ") && comment.find(" sha256=") != std::string_view::npos) return;
+    if (is_record(comment)) return;
     const auto unit = find_other_unit(comment, reading_.halts == HaltUnit::Milliseconds);
     if (!unit) return;
     fail(
@@ -180,6 +180,15 @@ class GcodeInterpreter {
                       offset / 10.0, *work_offset_ / 10.0));
     }
     work_offset_ = offset;
+    says_work_offset_ = true;
+  }
+
+  // Two changes before the same step: the second holds.
+  void set_path_mode(const PathMode& mode) {
+    std::vector<PathModeChange>& modes = program_.path_modes;
+    const std::size_t first = program_.steps.size();
+    if (!modes.empty() && modes.back().first_step == first) modes.pop_back();
+    modes.push_back({first, mode});
   }
 
   // Stops, and changes of the tool, take a time that the program does not say.
@@ -318,9 +327,20 @@ class GcodeInterpreter {
   void add_notes() {
     if (!says_millimetres_) program_.notes.emplace_back("the program names no unit (G21): read as millimetres");
     if (reads_halts_as_seconds_) program_.notes.emplace_back("P of G4, with a decimal point, read as seconds");
-    if (blends_)
+    if (says_work_offset_) {
+      program_.notes.push_back(fmt::format(
+          "G{}: the offset of its origin, which the program does not say, is taken as zero: X and Y are the "
+          "map's",
+          *work_offset_ / 10.0));
+    }
+    if (tool_.number || tool_.changes > 0) {
+      program_.notes.emplace_back("T, M6: the tool's offset is taken as zero, and the removal function as this tool's");
+    }
+    if (!program_.path_modes.empty()) {
       program_.notes.emplace_back(
-          "G61, G64: moves are taken as written, their corners neither rounded nor slowed down");
+          "G61, G61.1, G64: kept, but they do not change this simulation: moves are taken as written, their corners "
+          "neither rounded nor slowed down");
+    }
   }
 
   std::string file_;
@@ -329,7 +349,7 @@ class GcodeInterpreter {
   std::size_t line_number_ = 0;
   GcodeLine parts_;                      // of the line
   bool begun_ = false, framed_ = false;  // by a word, by a %
-  bool says_millimetres_ = false, blends_ = false, reads_halts_as_seconds_ = false;
+  bool says_millimetres_ = false, says_work_offset_ = false, reads_halts_as_seconds_ = false;
   GcodeTool tool_;
   std::optional<GcodeTool> at_work_;  // the tool when it was first at work
   std::optional<double> x_, y_, z_;

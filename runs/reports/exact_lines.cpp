@@ -15,4 +15,10 @@ std::string exact_lines(const ExactResidual& e) {
                      e.ripple, e.total());
 }
 
+std::optional<std::string> more_than_before(const ExactResidual& exact, const MapStatistics& before) {
+  const double left = exact.statistics.rms_about_zero(), was = before.rms_about_zero();
+  if (left <= was) return std::nullopt;
+  return fmt::format("the program leaves more than there was: {:.4g} nm RMS, before {:.4g} nm", left, was);
+}
+
 }  // namespace dwell

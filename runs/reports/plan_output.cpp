@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/base/errors.h"
 #include "core/base/units.h"
@@ -16,9 +17,11 @@
 #include "runs/plan/program_prediction.h"
 #include "runs/programs/program_formats.h"
 #include "runs/programs/program_reader.h"
+#include "runs/reports/exact_lines.h"
 #include "runs/reports/figure_output.h"
 #include "runs/reports/plan_summary.h"
 #include "runs/reports/plan_warnings.h"
+#include "runs/reports/program_record.h"
 
 namespace dwell {
 namespace {
@@ -32,6 +35,8 @@ void write_program(const PlannedJob& plan, const OutputFolder& folder, const Pro
     header.push_back(fmt::format("input: {} {} sha256={}", input.role, input.file, input.sha256));
   }
   const JobOptions& options = plan.job.options;
+  table.options = options_of_record(options);
+  for (const auto& [key, value] : table.options) header.push_back(fmt::format("option: {} = {}", key, value));
   for (const WrittenProgram& program :
        written_programs(table, {options.gcode, options.lift_height_mm, header}, progress)) {
     folder.write(program.file, program.bytes);
@@ -91,16 +96,12 @@ void compare_with_table(const PlannedJob& plan, const Program& program, const Pr
 
 /// About zero, since a piston counts where it is not removed.
 void compare_with_solver(const PlannedJob& plan, WrittenPlan& written) {
-  const double left = written.exact.lattice_rms, expected = plan.dwell.residual.rms_about_zero(),
-               before = plan.part().before.rms_about_zero();
+  const double left = written.exact.lattice_rms, expected = plan.dwell.residual.rms_about_zero();
   if (differs(left, expected, kSimulationTolerance)) {
     written.limits.push_back(
         fmt::format("the simulated program leaves {:.4g} nm RMS, the solver expected {:.4g} nm", left, expected));
   }
-  if (const double exact = written.exact.statistics.rms_about_zero(); !(exact <= before)) {
-    written.limits.push_back(
-        fmt::format("the program leaves more than there was: {:.4g} nm RMS, before {:.4g} nm", exact, before));
-  }
+  if (auto limit = more_than_before(written.exact, plan.part().before)) written.limits.push_back(std::move(*limit));
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "runs/job/job.h"
 #include "runs/plan/program_prediction.h"
 #include "runs/programs/program_reader.h"
+#include "runs/reports/exact_lines.h"
 #include "runs/reports/tool_sheet.h"
 
 namespace dwell {
@@ -34,13 +35,19 @@ void check_steps(const Program& program, const Part& part) {
 }  // namespace
 
 Simulation simulate_file(const std::filesystem::path& program, const GcodeReading& reading, const JobOptions& options,
-                         const Progress& progress, bool every_pixel) {
+                         const Progress& progress, bool every_pixel, const SimulationSource& source) {
   Simulation s;
   progress.report("read: program, map and removal function");
   s.program = read_program(program, reading, progress);
   s.inputs.push_back({"program", program.string(), sha256_of_file(program)});
   const Job job = load_job(options, progress);
   const Part& part = *job.part;
+  s.plan = source.plan;
+  s.differences = source.given;
+  for (std::string& difference :
+       differences_from_record(read_program_record(program), program.string(), job, source.other, s.plan.empty())) {
+    s.differences.push_back(std::move(difference));
+  }
   s.inputs.insert(s.inputs.end(), job.inputs.begin(), job.inputs.end());
   s.terms = part.form;
   s.before = part.before;
@@ -57,6 +64,7 @@ Simulation simulate_file(const std::filesystem::path& program, const GcodeReadin
     s.after = predict_program(part, s.program, lattice.kernel, simulating);
   }
   s.lattice = lattice.kernel.division;
+  if (auto limit = more_than_before(s.after, s.before)) s.limits.push_back(std::move(*limit));
   return s;
 }
 
@@ -66,6 +74,9 @@ std::string simulation_json(const Simulation& s) {
   json["tif"] = tif_block(s.tif, kind_of(s.tif), s.tif.samples.history, s.volume_factor);
   json["tool"] = tool_block(tool_sheet(s.tif));
   json["program"] = program_block(program_figures(s.program, s.after, to_string(s.terms)));
+  if (!s.plan.empty()) json["plan"] = s.plan;
+  json["differences"] = s.differences;
+  json["limits"] = s.limits;
   json["inputs"] = inputs_json(s.inputs);
   return json_text(std::move(json));
 }

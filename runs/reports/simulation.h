@@ -13,8 +13,16 @@
 #include "runs/base/json_blocks.h"
 #include "runs/job/job_options.h"
 #include "runs/programs/gcode_reading.h"
+#include "runs/reports/program_record.h"
 
 namespace dwell {
+
+/// Where a simulation's options come from, and what may be other than when the program was made.
+struct SimulationSource {
+  std::string plan;                // folder of the plan whose options these are; empty: the program stands alone
+  std::vector<std::string> given;  // a sentence for each option that is given in the place of the plan's
+  OtherInputs other;               // inputs that are meant to be others than the program's header says
+};
 
 /// The effect of a program on disk on a map.
 struct Simulation {
@@ -27,14 +35,18 @@ struct Simulation {
   PixelDivision lattice;       // on which the removal was a spline where it was not integrated exactly
   MapStatistics before;
   ExactResidual after;
+  std::string plan;                      // as SimulationSource
+  std::vector<std::string> differences;  // from the plan that the program was made by, a sentence each
+  std::vector<std::string> limits;       // that were reached, a sentence each
 };
 
 /// Simulates a program file (feed.csv or G-code) on the job's map with the job's removal function; the tool moves
 /// continuously. `every_pixel`: the exact figure from every pixel (exact_residual), which takes longer. `reading`: for
-/// G-code that leaves something to its controller. Of the job it uses map, tif, remove, aperture and threads. Throws
-/// InputError, Interrupted.
+/// G-code that leaves something to its controller. Of the job it uses map, tif, remove, aperture and threads.
+/// Map and removal function are held to what the program's header says of them (program_record.h). Throws InputError,
+/// Interrupted.
 Simulation simulate_file(const std::filesystem::path& program, const GcodeReading& reading, const JobOptions& options,
-                         const Progress& progress, bool every_pixel = false);
+                         const Progress& progress, bool every_pixel = false, const SimulationSource& source = {});
 
 /// The simulation as JSON text (docs/json.md), units in the keys.
 std::string simulation_json(const Simulation& simulation);

@@ -73,7 +73,7 @@ std::map<std::string, std::vector<Words>> runs_of_commands() {
            {"--tif", "gaussian:peak=10,fwhm=5,radius=5", "--paths", "raster:pitch=2", "--out", "b", "--aperture",
             "rect:0,0,14,1.2"})}},
       {"pareto", {as("pareto", {"--out"}, {"--smoothnesses", "0.1,1", "--time-prices", "0", "--out", "c"})}},
-      {"simulate", {kSimulate, with(kSimulate, {"--exact"})}},
+      {"simulate", {kSimulate, with(kSimulate, {"--exact"}), {"simulate", "plan"}}},
       {"map",
        {kMap,
         with(kMap, {"--form", "zernike-noll:1-6", "--remove", "legendre:1", "--limit", "1e-9,2", "--profile", "y=3"}),

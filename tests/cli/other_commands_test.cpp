@@ -211,7 +211,7 @@ TEST(SimulateCommand, StatesTheExactFigureAndHowItWasFound) {
   ASSERT_EQ(inputs.run(SmallInputs::plan()).exit_code, 0);
   const auto simulate = [&](const std::string& tif, std::vector<std::string> more) {
     std::vector<std::string> words{"simulate",    "--program", "plan/program.nc", "--map", "map.csv",
-                                   "--map-pixel", "0.5",       "--tif",           tif};
+                                   "--map-pixel", "0.5",       "--tif",           tif,     "--other-tif"};
     words.insert(words.end(), more.begin(), more.end());
     return inputs.run(words);
   };

@@ -171,9 +171,13 @@ TEST(GcodeReader, ReadsAFrameAndWordsThatMoveNothing) {
       "G0 X-5 Y0\nG1 Z0 F3000\nG1 X5 Y0 F60\nG0 Z10\nM5 M9\n%\nG1 this is never read\n");
   ASSERT_EQ(program.steps.size(), 2u);
   expect_step(program.steps[1], {-5, 0}, {5, 0}, 10.0, true);
-  EXPECT_EQ(program.notes,
-            std::vector<std::string>{"G61, G64: moves are taken as written, their corners neither rounded nor slowed "
-                                     "down"});
+  EXPECT_EQ(
+      program.notes,
+      (std::vector<std::string>{
+          "G54: the offset of its origin, which the program does not say, is taken as zero: X and Y are the map's",
+          "T, M6: the tool's offset is taken as zero, and the removal function as this tool's",
+          "G61, G61.1, G64: kept, but they do not change this simulation: moves are taken as written, their "
+          "corners neither rounded nor slowed down"}));
   EXPECT_EQ(read("G0 X0 Y0 Z0\nG1 X1 F60\nM2\n").notes,
             std::vector<std::string>{"the program names no unit (G21): read as millimetres"});
   const auto message = [](const std::string& text) { return input_error([&] { read(text); }); };
@@ -181,6 +185,31 @@ TEST(GcodeReader, ReadsAFrameAndWordsThatMoveNothing) {
   expect_contains(message(kAtWork + "G1 X1 F60\n%\n"), "line 5: % after a program that does not begin with one");
   expect_contains(message("%_N_PART_MPF\n" + kAtWork + "M2\n"), "names behind % are not accepted");
   expect_contains(message(kAtWork + "O2000\nM2\n"), "line 4: O: another program begins");
+}
+
+TEST(GcodeReader, KeepsThePathModes) {
+  using Kind = PathMode::Kind;
+  const Program program = read("G21\nG64\nG61\nG0 Z10\nG0 X0 Y0\nG1 Z0 F600\nG1 X5 F60\nG61.1\nG1 Y2\n" +
+                               std::string("G64 P0.05 Q0.02\nG1 X0\nG64 P0\nM2\n"));
+  ASSERT_EQ(program.steps.size(), 4u);  // coming down to work is the first
+  EXPECT_EQ(program.path_modes, (std::vector<PathModeChange>{{0, {Kind::ExactPath, {}, {}}},
+                                                             {2, {Kind::ExactStop, {}, {}}},
+                                                             {3, {Kind::Blended, 0.05, 0.02}},
+                                                             {4, {Kind::Blended, 0.0, {}}}}));
+  EXPECT_TRUE(read("G0 X0 Y0 Z0\nG1 X1 F60\nM2\n").path_modes.empty());
+  const auto message = [](const std::string& text) { return input_error([&] { read(text); }); };
+  expect_contains(message(kAtWork + "G64 P-1\nM2\n"), "\"P-1\": a tolerance of G64; required >= 0 mm");
+  expect_contains(message(kAtWork + "G61 P0.1\nM2\n"), "P without G4");
+  expect_contains(message(kAtWork + "G61 G64\nM2\n"), "G64\": is the second word of its kind");
+}
+
+TEST(GcodeReader, SaysThatTheOffsetOfAnOriginIsTakenAsZero) {
+  for (const char* offset : {"G54", "G55", "G56", "G57", "G58", "G59", "G59.1"}) {
+    const Program program = read("G21\n" + std::string(offset) + "\n" + kAtWork + "G1 X1 F60\nM2\n");
+    ASSERT_FALSE(program.notes.empty()) << offset;
+    expect_contains(program.notes.front(), std::string(offset) + ": the offset of its origin");
+  }
+  expect_contains(read("G21\nT2 M6\n" + kAtWork + "G1 X1 F60\nM2\n").notes.front(), "T, M6: the tool's offset");
 }
 
 TEST(GcodeReader, AsksForTheUnitOfAWholeNumberOfP) {

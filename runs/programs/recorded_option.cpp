@@ -1,0 +1,20 @@
+#include "runs/programs/recorded_option.h"
+
+namespace dwell {
+
+bool is_recorded_option(std::string_view key) {
+  // The limit of a map's heights only refuses maps; what passes it is the same map.
+  if (key == "map_max_pv_mm") return false;
+  return key == "remove" || key == "aperture" || key.starts_with("map_") || key.starts_with("tif");
+}
+
+bool is_record(std::string_view comment) {
+  constexpr std::string_view kInput = "input: ", kHash = " sha256=", kOption = "option: ", kEquals = " = ";
+  if (comment.starts_with(kInput)) return comment.find(kHash) != std::string_view::npos;
+  if (!comment.starts_with(kOption)) return false;
+  comment.remove_prefix(kOption.size());
+  const std::size_t equals = comment.find(kEquals);
+  return equals != std::string_view::npos && is_recorded_option(comment.substr(0, equals));
+}
+
+}  // namespace dwell

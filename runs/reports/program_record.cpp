@@ -1,0 +1,164 @@
+#include "runs/reports/program_record.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <string_view>
+
+#include "core/base/errors.h"
+#include "core/base/number_text.h"
+#include "core/base/spec_text.h"
+#include "core/base/text_lines.h"
+#include "core/base/utf8_text.h"
+#include "core/base/whole_file.h"
+#include "core/tif/models/removal_models.h"
+#include "runs/programs/recorded_option.h"
+
+namespace dwell {
+namespace {
+
+/// The text as a comment of G-code holds it (runs/programs/gcode.cpp).
+std::string in_comment(std::string text) {
+  constexpr unsigned char kFirstPrinted = 0x20, kDelete = 0x7f;
+  for (char& c : text) {
+    if (c == '(') c = '[';
+    if (c == ')') c = ']';
+    if (static_cast<unsigned char>(c) < kFirstPrinted || static_cast<unsigned char>(c) == kDelete) c = '?';
+  }
+  return with_escaped_bytes(text);
+}
+
+/// The text of a line that holds a comment and nothing else; nothing for any other line.
+std::optional<std::string_view> comment_of(std::string_view line) {
+  line = trim(line);
+  if (line.starts_with('#')) return trim(line.substr(1));
+  if (line.starts_with('(') && line.ends_with(')')) return trim(line.substr(1, line.size() - 2));
+  return std::nullopt;
+}
+
+InputFile input_of(std::string_view text, const std::string& program) {
+  constexpr std::string_view kHash = " sha256=";
+  const std::size_t hash = text.rfind(kHash), role = text.find(' ');
+  if (hash == std::string_view::npos || role >= hash) {
+    throw InputError(fmt::format("{}: \"input: {}\" in its header; required ROLE FILE sha256=HASH", program, text));
+  }
+  return {std::string(text.substr(0, role)), std::string(text.substr(role + 1, hash - role - 1)),
+          std::string(text.substr(hash + kHash.size()))};
+}
+
+void take_comment(std::string_view comment, const std::string& program, ProgramRecord& record) {
+  constexpr std::string_view kInput = "input: ", kOption = "option: ", kEquals = " = ";
+  if (comment.starts_with(kInput)) {
+    record.inputs.push_back(input_of(comment.substr(kInput.size()), program));
+  } else if (comment.starts_with(kOption)) {
+    comment.remove_prefix(kOption.size());
+    const std::size_t equals = comment.find(kEquals);
+    if (equals == std::string_view::npos) return;
+    record.options[std::string(comment.substr(0, equals))] = comment.substr(equals + kEquals.size());
+  }
+}
+
+bool is_formula(const std::string& tif) { return is_removal_model(split_kind(tif).first); }
+
+/// Those of one kind: the removal function, or the map and the maps of its steps.
+std::vector<InputFile> inputs_of(const std::vector<InputFile>& inputs, bool tif) {
+  std::vector<InputFile> some;
+  for (const InputFile& input : inputs) {
+    if (input.role != "path" && (input.role == "tif") == tif) some.push_back(input);
+  }
+  return some;
+}
+
+std::string with_hashes(const std::vector<InputFile>& inputs, const std::string& none) {
+  std::string words;
+  for (const InputFile& input : inputs) {
+    words += fmt::format("{}{} (SHA-256 {})", words.empty() ? "" : ", ", input.file, short_hash(input.sha256));
+  }
+  return words.empty() ? none : words;
+}
+
+bool same_files(const std::vector<InputFile>& a, const std::vector<InputFile>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const InputFile& x, const InputFile& y) { return x.sha256 == y.sha256; });
+}
+
+/// The formula of the plan, if its header states one.
+std::string formula_of(const ProgramRecord& record) {
+  const auto tif = record.options.find("tif");
+  return tif == record.options.end() || !is_formula(tif->second) ? "a formula" : tif->second;
+}
+
+/// The difference of one kind of inputs, in words; empty if there is none.
+std::string difference_of_inputs(const ProgramRecord& record, const Job& job, bool tif) {
+  const std::vector<InputFile> then = inputs_of(record.inputs, tif), now = inputs_of(job.inputs, tif);
+  const std::string formula = tif ? formula_of(record) : "";
+  const bool same_formula =
+      !then.empty() || !now.empty() || formula == "a formula" || !tif || formula == in_comment(job.options.tif);
+  if (same_files(then, now) && same_formula) return "";
+  return fmt::format("was made with the {} {}, and is simulated with {}", tif ? "removal function" : "map",
+                     with_hashes(then, formula), with_hashes(now, job.options.tif));
+}
+
+}  // namespace
+
+std::string short_hash(const std::string& sha256) {
+  constexpr std::size_t kDigits = 12;
+  return sha256.size() <= kDigits ? sha256 : sha256.substr(0, kDigits) + "...";
+}
+
+ProgramRecord read_program_record(const std::filesystem::path& program) {
+  const std::string text = read_whole_file(program);
+  std::string_view rest = without_byte_order_mark(text);
+  ProgramRecord record;
+  while (!rest.empty()) {
+    const std::size_t newline = rest.find('\n');
+    const std::string_view line = rest.substr(0, newline);
+    rest.remove_prefix(newline == std::string_view::npos ? rest.size() : newline + 1);
+    if (const auto comment = comment_of(line)) {
+      take_comment(*comment, program.string(), record);
+    } else if (!trim(line).empty() && trim(line) != "%") {
+      break;
+    }
+  }
+  return record;
+}
+
+std::vector<std::pair<std::string, std::string>> options_of_record(const JobOptions& options) {
+  std::vector<std::pair<std::string, std::string>> recorded;
+  for (const JobOptionRecord& option : job_option_table()) {
+    if (!is_recorded_option(option.key)) continue;
+    const std::string value = option.get(options);
+    if (!value.empty()) recorded.emplace_back(option.key, value);
+  }
+  return recorded;
+}
+
+std::vector<std::string> differences_from_record(const ProgramRecord& record, const std::string& program,
+                                                 const Job& job, const OtherInputs& meant, bool compare_options) {
+  std::vector<std::string> differences;
+  if (record.inputs.empty()) return differences;
+  for (const bool tif : {false, true}) {
+    const std::string difference = difference_of_inputs(record, job, tif);
+    if (difference.empty()) continue;
+    if (!(tif ? meant.tif : meant.map)) {
+      throw InputError(fmt::format("{}: {}; required the same, or {} where another is meant", program, difference,
+                                   tif ? "--other-tif" : "--other-map"));
+    }
+    differences.push_back("the program " + difference);
+  }
+  if (!compare_options || record.options.empty()) return differences;
+  for (const JobOptionRecord& option : job_option_table()) {
+    if (!is_recorded_option(option.key)) continue;
+    if (option.key == "tif") continue;
+    const auto found = record.options.find(option.key);
+    const std::string then = found == record.options.end() ? "" : in_comment(found->second),
+                      now = in_comment(option.get(job.options));
+    if (then == now) continue;
+    differences.push_back(fmt::format("--{} is {}, but was {} when the program was made", option.flag,
+                                      now.empty() ? "not given" : now, then.empty() ? "not given" : then));
+  }
+  return differences;
+}
+
+}  // namespace dwell

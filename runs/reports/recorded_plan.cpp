@@ -1,0 +1,112 @@
+#include "runs/reports/recorded_plan.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+#include "core/base/errors.h"
+#include "core/base/whole_file.h"
+#include "core/formats/map_name.h"
+#include "runs/reports/program_record.h"
+
+namespace dwell {
+namespace {
+
+/// The summary, which must be one of `dwell plan`.
+nlohmann::json summary_of(const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / "summary.json";
+  const std::string name = folder.string();
+  if (!std::filesystem::exists(folder)) {
+    throw InputError(
+        fmt::format("{}: there is no such folder; required the folder of a plan (dwell plan --out)", name));
+  }
+  if (!std::filesystem::is_directory(folder)) {
+    throw InputError(
+        fmt::format("{}: is a file; required the folder of a plan (dwell plan --out), or --program for a "
+                    "program alone",
+                    name));
+  }
+  if (!std::filesystem::exists(file)) {
+    throw InputError(
+        fmt::format("{}: is not the folder of a plan, since it holds no summary.json; required a folder "
+                    "that dwell plan --out has written",
+                    name));
+  }
+  const nlohmann::json summary = nlohmann::json::parse(read_whole_file(file), nullptr, false);
+  if (!summary.is_object() || !summary.contains("command") || !summary["command"].is_string()) {
+    throw InputError(
+        fmt::format("{}: is not a summary of dwell plan; required one, of version 0.2 or later", file.string()));
+  }
+  if (const std::string command = summary["command"]; command != "plan") {
+    throw InputError(fmt::format("{}: is the result of dwell {}; required that of dwell plan", name, command));
+  }
+  return summary;
+}
+
+std::string text_of(const nlohmann::json& object, const std::string& key, const std::string& file) {
+  const auto found = object.find(key);
+  if (found != object.end() && found->is_string()) return *found;
+  throw InputError(fmt::format("{}: {} is missing or no text; required it in a plan's summary", file, key));
+}
+
+JobOptions options_of(const nlohmann::json& summary, const std::string& file) {
+  JobOptions options;
+  const auto recorded = summary.find("options");
+  if (recorded == summary.end() || !recorded->is_object()) {
+    throw InputError(fmt::format("{}: holds no options; required them in a plan's summary", file));
+  }
+  for (const auto& [key, value] : recorded->items()) {
+    const auto& table = job_option_table();
+    const auto record = std::find_if(table.begin(), table.end(), [&](const auto& row) { return row.key == key; });
+    if (record == table.end()) {
+      throw InputError(
+          fmt::format("{}: options.{} is not known to this version of dwell, and may change the result; "
+                      "required the version that made the plan",
+                      file, key));
+    }
+    set_job_option(options, *record, text_of(*recorded, key, file), fmt::format("{}: options.{}", file, key));
+  }
+  return options;
+}
+
+std::string flag_of_role(const std::string& role) { return role == "map" || role == "tif" ? role : "map-steps"; }
+
+}  // namespace
+
+RecordedPlan read_recorded_plan(const std::filesystem::path& folder) {
+  const nlohmann::json summary = summary_of(folder);
+  const std::string file = (folder / "summary.json").string();
+  RecordedPlan plan{folder, options_of(summary, file), {}};
+  const auto inputs = summary.find("inputs");
+  if (inputs == summary.end() || !inputs->is_array()) {
+    throw InputError(fmt::format("{}: holds no inputs; required them in a plan's summary", file));
+  }
+  for (const nlohmann::json& input : *inputs) {
+    plan.inputs.push_back({text_of(input, "role", file), text_of(input, "file", file), text_of(input, "sha256", file)});
+  }
+  return plan;
+}
+
+void check_recorded_inputs(const RecordedPlan& plan, const std::set<std::string>& given) {
+  for (const InputFile& input : plan.inputs) {
+    const std::string flag = flag_of_role(input.role);
+    if (input.role == "path" || given.contains(flag)) continue;
+    const std::filesystem::path file = split_map_name(input.file).file;
+    if (!std::filesystem::exists(file)) {
+      throw InputError(
+          fmt::format("{}: the file of the plan's --{} is not there (the plan names it {} the folder in "
+                      "which dwell plan ran); required it, or --{} with the file to take in its place",
+                      input.file, flag, file.is_absolute() ? "in full, whatever" : "as seen from", flag));
+    }
+    const std::string now = sha256_of_file(file);
+    if (now == input.sha256) continue;
+    throw InputError(
+        fmt::format("{}: has changed since the plan {} was made: its SHA-256 is {}, and was {}; required "
+                    "the same file, or --{} {} to take it as it is now",
+                    input.file, plan.folder.string(), short_hash(now), short_hash(input.sha256), flag,
+                    flag == "map-steps" ? "with the steps" : input.file));
+  }
+}
+
+}  // namespace dwell
