@@ -170,7 +170,7 @@ void add_simulate_command(CLI::App& program, int& exit_code) {
                     "the removal function is meant to be another than the one that the program was made with");
   arguments->json.add_to(*command);
   command->footer(
-      "Examples:\n  dwell simulate plan/\n  dwell simulate plan/ --map measured_again.csv\n  dwell simulate --program "
+      "Example:\n  dwell simulate plan/\n  dwell simulate plan/ --map measured_again.csv\n  dwell simulate --program "
       "plan/program.nc --map mirror.csv --map-pixel 0.0938 --tif spot.csv "
       "--tif-pixel 0.0938");
   command->callback([arguments, &exit_code] { exit_code = run_simulate(*arguments); });

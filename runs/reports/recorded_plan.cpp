@@ -19,7 +19,7 @@ nlohmann::json summary_of(const std::filesystem::path& folder) {
   const std::string name = folder.string();
   if (!std::filesystem::exists(folder)) {
     throw InputError(
-        fmt::format("{}: there is no such folder; required the folder of a plan (dwell plan --out)", name));
+        fmt::format("{}: No such file or directory; required the folder of a plan (dwell plan --out)", name));
   }
   if (!std::filesystem::is_directory(folder)) {
     throw InputError(

@@ -26,7 +26,7 @@ struct PlanInputs : SmallInputs {
     std::string tif;
     for (int r = -6; r <= 6; ++r) {
       for (int c = -6; c <= 6; ++c)
-        tif += std::to_string(10.0 * std::exp(-0.09 * ((r - 0.6) * (r - 0.6) + (c + 0.3) * (c + 0.3)))) +
+        tif += std::to_string(10.0 * std::exp(-0.09 * ((r - 0.3) * (r - 0.3) + (c + 0.2) * (c + 0.2)))) +
                (c < 6 ? "," : "\n");
     }
     folder.file("tif.csv", tif);
@@ -117,7 +117,7 @@ TEST(SimulatePlan, RefusesAFolderThatIsNoPlan) {
   inputs.refused({"simulate", "other"}, {"the result of dwell pareto"});
   inputs.refused({"simulate", "broken"}, {"broken/summary.json: is not a summary of dwell plan"});
   inputs.refused({"simulate", "future"}, {"options.tif_tilt_deg is not known"});
-  inputs.refused({"simulate", "absent"}, {"absent: there is no such folder"});
+  inputs.refused({"simulate", "absent"}, {"absent: No such file or directory"});
   inputs.refused({"simulate", "map.csv"}, {"map.csv: is a file", "--program"});
   inputs.refused({"simulate"}, {"PLAN or --program: required"});
   inputs.refused({"simulate", "plan", "--json=plan/summary.json"}, {"summary"});
