@@ -4,29 +4,16 @@
 #include <array>
 #include <cmath>
 #include <memory>
-#include <numbers>
 #include <vector>
 
 #include "core/numerics/spline_surface.h"
+#include "core/tif/line_integrals.h"
 
 namespace dwell {
 namespace {
 
 /// Integral of a function of r over the line from (x0, y) to (x1, y).
 using LineIntegral = std::function<double(double x0, double x1, double y)>;
-
-double distance_along_line(double x0, double x1, double y) {
-  const auto primitive = [y](double x) {
-    const double r = std::hypot(x, y);
-    return 0.5 * (x * r + (y == 0.0 ? 0.0 : y * y * std::asinh(x / std::abs(y))));
-  };
-  return primitive(x1) - primitive(x0);
-}
-
-double gaussian_along(double u0, double u1, double sigma) {
-  const double scale = 1.0 / (sigma * std::numbers::sqrt2);
-  return sigma * std::sqrt(0.5 * std::numbers::pi) * (std::erf(u1 * scale) - std::erf(u0 * scale));
-}
 
 /// Where, between y0 and y1, the circle of this radius begins and ends, and crosses the lines x0 and x1: between two of
 /// these the integral along the line is smooth in y. So it is on either side of the axis.
@@ -72,7 +59,10 @@ double mean_within_circle(const LineIntegral& along_x, double radius, Point cent
 
 std::function<double(Point)> mean_of_disc(const RemovalFunction& tif, double hx, double hy) {
   return [slope = tif.slope, radius = tif.radius, hx, hy](Point p) {
-    return slope * mean_within_circle(distance_along_line, radius, p, hx, hy);
+    const LineIntegral along_x = [](double x0, double x1, double y) {
+      return integral_of_distance(std::abs(y), x0, x1, x1 - x0);
+    };
+    return slope * mean_within_circle(along_x, radius, p, hx, hy);
   };
 }
 
@@ -80,11 +70,11 @@ std::function<double(Point)> mean_of_gaussian(const RemovalFunction& tif, double
   return [peak = tif.peak, sigma = tif.sigma, radius = tif.radius, hx, hy](Point p) {
     const double far = std::hypot(std::abs(p.x) + 0.5 * hx, std::abs(p.y) + 0.5 * hy);
     if (far <= radius) {
-      return peak / (hx * hy) * gaussian_along(p.x - 0.5 * hx, p.x + 0.5 * hx, sigma) *
-             gaussian_along(p.y - 0.5 * hy, p.y + 0.5 * hy, sigma);
+      return peak / (hx * hy) * integral_of_gaussian(sigma, p.x - 0.5 * hx, p.x + 0.5 * hx, hx) *
+             integral_of_gaussian(sigma, p.y - 0.5 * hy, p.y + 0.5 * hy, hy);
     }
     const LineIntegral along_x = [sigma](double x0, double x1, double y) {
-      return std::exp(-0.5 * y * y / (sigma * sigma)) * gaussian_along(x0, x1, sigma);
+      return std::exp(-0.5 * y * y / (sigma * sigma)) * integral_of_gaussian(sigma, x0, x1, x1 - x0);
     };
     return peak * mean_within_circle(along_x, radius, p, hx, hy);
   };
