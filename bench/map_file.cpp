@@ -9,11 +9,11 @@
 #include <stdexcept>
 #include <vector>
 
+#include "core/base/random_numbers.h"
 #include "core/base/whole_file.h"
 #include "core/formats/hdf5_file.h"
 #include "core/formats/map_io.h"
 #include "core/formats/npy.h"
-#include "runs/example/random_numbers.h"
 
 namespace dwell::bench {
 namespace {

@@ -11,6 +11,7 @@
 
 #include "bench/map_file.h"
 #include "bench/single_fft.h"
+#include "core/base/random_numbers.h"
 #include "core/form/polynomial_fit.h"
 #include "core/numerics/fft.h"
 #include "core/removal/lattice_removal.h"
@@ -18,7 +19,6 @@
 #include "core/removal/sparse_removal.h"
 #include "core/spectra/psd.h"
 #include "paths/tours/nearest_neighbour.h"
-#include "runs/example/random_numbers.h"
 
 namespace dwell::bench {
 namespace {

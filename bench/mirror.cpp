@@ -5,8 +5,8 @@
 #include <limits>
 #include <numeric>
 
+#include "core/base/random_numbers.h"
 #include "core/numerics/fft.h"
-#include "runs/example/random_numbers.h"
 
 namespace dwell::bench {
 namespace {

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "bench/json_access.h"
+#include "core/base/random_numbers.h"
 #include "paths/metrics/path_metrics.h"
 #include "paths/path_catalogue.h"
-#include "runs/example/random_numbers.h"
 
 namespace dwell::bench {
 namespace {

@@ -83,6 +83,9 @@ double SplineSurface::operator()(Point p) const {
         v < static_cast<double>(grid_.rows) + 1.0)) {
     return 0.0;
   }
+  if (u >= 1.0 && v >= 1.0 && u < static_cast<double>(grid_.cols - 2) && v < static_cast<double>(grid_.rows - 2)) {
+    return value_inside(p);
+  }
   const double fu = std::floor(u), fv = std::floor(v);
   const auto wx = bspline_weights(u - fu), wy = bspline_weights(v - fv);
   const Index col = static_cast<Index>(fu) - 1, row = static_cast<Index>(fv) - 1;

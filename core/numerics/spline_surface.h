@@ -1,8 +1,10 @@
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "core/base/grid.h"
+#include "core/numerics/bspline.h"
 
 namespace dwell {
 
@@ -22,6 +24,18 @@ class SplineSurface {
 
   /// The surface at p, in the units of the samples. Cost O(1).
   double operator()(Point p) const;
+  /// The same where all 4 x 4 coefficients about p lie on the grid: from node 1 to the last but two along both axes.
+  /// Outside of that it reads beyond the coefficients.
+  double value_inside(Point p) const {
+    const double u = (p.x - grid_.origin.x) / grid_.pitch_x, v = (p.y - grid_.origin.y) / grid_.pitch_y;
+    const double fu = std::floor(u), fv = std::floor(v);
+    const auto wx = bspline_weights(u - fu), wy = bspline_weights(v - fv);
+    const double* c = c_.data() + grid_.index(static_cast<Index>(fv) - 1, static_cast<Index>(fu) - 1);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < 4; ++i, c += grid_.cols)
+      sum += wy[i] * (wx[0] * c[0] + wx[1] * c[1] + wx[2] * c[2] + wx[3] * c[3]);
+    return sum;
+  }
 
   /// The surface and its slopes at p.
   struct Jet {

@@ -5,90 +5,118 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
-#include <random>
 #include <vector>
 
+#include "core/base/random_numbers.h"
 #include "core/form/form.h"
 
 namespace dwell {
 namespace {
 
-constexpr double kCheap = 6e7;  // Gauss points of a check of every pixel: half a second
+// Gauss points of a check of every pixel: half a second, and for the lattice alone a twentieth.
+constexpr double kCheap = 6e7, kCheapForLattice = 6e6;
 constexpr double kEnough = 0.01;
-constexpr Index kFirstBatch = 128, kFewestLargest = 64, kMostLargest = 256;
+constexpr Index kFirstBatch = 64, kForLattice = 256;  // at random
+constexpr Index kFewestLargest = 64, kMostLargest = 256;
+
+/// So many of the largest residuals are looked at.
+Index largest_of(Index pixels, ExactCheck check) {
+  return check == ExactCheck::Lattice ? kFewestLargest : std::clamp(pixels / 2000, kFewestLargest, kMostLargest);
+}
 
 /// The pixels in the order in which they are looked at: the largest residuals, then the others at random.
-struct LookOrder {
-  std::vector<Index> pixels;  // places in the list of valid pixels
-  Index largest = 0;          // so many of them
+class LookOrder {
+ public:
+  LookOrder(const Vector& residual, Index largest) : largest_(std::min(largest, residual.size())) {
+    const auto count = static_cast<std::size_t>(residual.size());
+    const double mean = count > 0 ? residual.mean() : 0.0;
+    places_.resize(count);
+    std::iota(places_.begin(), places_.end(), Index{0});
+    const auto end = places_.begin() + largest_;
+    if (end == places_.end()) return;
+    std::vector<double> sizes(count);
+    for (std::size_t i = 0; i < count; ++i) sizes[i] = std::abs(residual[static_cast<Index>(i)] - mean);
+    std::vector<double> in_order = sizes;
+    std::nth_element(in_order.begin(), in_order.begin() + largest_, in_order.end(), std::greater<>());
+    const double least = in_order[static_cast<std::size_t>(largest_)];
+    // Those above come first, then as many equal ones as there is room for, so that the order is the same everywhere.
+    const auto equal =
+        std::stable_partition(places_.begin(), places_.end(), [&](Index i) { return at(sizes, i) > least; });
+    std::stable_partition(equal, places_.end(), [&](Index i) { return at(sizes, i) == least; });
+  }
+
+  Index largest() const { return largest_; }
+  /// The k-th place in the list of pixels; to be asked for in order.
+  Index next(Index k) {
+    if (k >= largest_) random_.draw(places_, static_cast<std::size_t>(k));
+    return (*this)[k];
+  }
+  Index operator[](Index k) const { return places_[static_cast<std::size_t>(k)]; }
+
+ private:
+  static double at(const std::vector<double>& values, Index i) { return values[static_cast<std::size_t>(i)]; }
+
+  std::vector<Index> places_;
+  Index largest_;
+  RandomNumbers random_{1};
 };
 
-LookOrder order_of(const Vector& residual) {
-  LookOrder order;
-  const Index count = residual.size();
-  order.pixels.resize(static_cast<std::size_t>(count));
-  std::iota(order.pixels.begin(), order.pixels.end(), Index{0});
-  order.largest = std::min(count, std::clamp(count / 500, kFewestLargest, kMostLargest));
-  const auto middle = order.pixels.begin() + order.largest;
-  const double mean = count > 0 ? residual.mean() : 0.0;
-  const auto larger = [&](Index a, Index b) {
-    const double at_a = std::abs(residual[a] - mean), at_b = std::abs(residual[b] - mean);
-    return at_a != at_b ? at_a > at_b : a < b;
-  };
-  std::nth_element(order.pixels.begin(), order.largest == count ? order.pixels.end() - 1 : middle, order.pixels.end(),
-                   larger);
-  std::sort(order.pixels.begin(), middle);
-  std::sort(middle, order.pixels.end());
-  // Fisher and Yates' shuffle with this generator gives the same order everywhere, which std::shuffle does not promise.
-  std::mt19937_64 random(1);
-  for (Index k = count - order.largest; k > 1; --k)
-    std::swap(middle[k - 1], middle[static_cast<Index>(random() % static_cast<std::uint64_t>(k))]);
-  return order;
+/// The values of a map at these pixels, the form terms of the basis removed.
+Vector without_form(const HeightMap& map, const std::vector<Index>& pixels, const Eigen::MatrixXd& basis) {
+  Vector values(static_cast<Index>(pixels.size()));
+  for (std::size_t i = 0; i < pixels.size(); ++i)
+    values[static_cast<Index>(i)] = map.values[static_cast<std::size_t>(pixels[i])];
+  remove_form(basis, values);
+  return values;
 }
 
 /// What is known of the pixels looked at so far.
 class ResidualCheck {
  public:
   ResidualCheck(const RemovalProbe& probe, const HeightMap& map, const HeightMap& left, const FormTerms& form,
-                int threads)
+                int threads, ExactCheck check)
       : probe_(probe),
         map_(map),
         left_(left),
         threads_(threads),
+        check_(check),
         pixels_(finite_pixels(map)),
         basis_(form_basis(map.grid, pixels_, form, {}, threads)),
-        residual_(static_cast<Index>(pixels_.size())) {
-    for (std::size_t i = 0; i < pixels_.size(); ++i)
-      residual_[static_cast<Index>(i)] = left.values[static_cast<std::size_t>(pixels_[i])];
-    remove_form(basis_, residual_);
-    order_ = order_of(residual_);
-  }
+        residual_(without_form(left, pixels_, basis_)),
+        order_(residual_, largest_of(residual_.size(), check)) {}
 
-  ExactResidual run(const Progress& progress, bool every_pixel) {
-    const Index count = residual_.size();
-    const bool cheap = static_cast<double>(count) * probe_.points_under_tool() <= kCheap;
-    Index next = cheap || every_pixel ? count : std::min(count, order_.largest + kFirstBatch);
-    look_at(next, progress);
+  ExactResidual run(const Progress& progress) {
+    look_at(first_look(), progress);
     ExactResidual result = estimate();
-    while (looked() < count && !(result.standard_error <= kEnough * result.statistics.rms)) {
-      next = std::min(count, order_.largest + 2 * (looked() - order_.largest));
-      look_at(next, progress);
+    const auto enough = [&] { return result.all || result.standard_error <= kEnough * result.statistics.rms; };
+    while (check_ != ExactCheck::Lattice && !enough()) {
+      look_at(order_.largest() + 2 * (looked() - order_.largest()), progress);
       result = estimate();
     }
     result.surface = surface();
-    result.ripple = ripple();
+    if (check_ != ExactCheck::Lattice) result.ripple = ripple();
     return result;
   }
 
  private:
   Index looked() const { return static_cast<Index>(difference_.size()); }
 
-  /// Looks at pixels in order until there are so many.
+  /// How many pixels are looked at before the first estimate.
+  Index first_look() const {
+    const bool lattice = check_ == ExactCheck::Lattice;
+    const double points = static_cast<double>(residual_.size()) * probe_.points_under_tool();
+    if (check_ == ExactCheck::EveryPixel || points <= (lattice ? kCheapForLattice : kCheap)) return residual_.size();
+    return order_.largest() + (lattice ? kForLattice : kFirstBatch);
+  }
+
+  /// Looks at pixels in order until there are so many, or all.
   void look_at(Index count, const Progress& progress) {
     std::vector<Index> next;
-    for (Index k = looked(); k < count; ++k) next.push_back(pixel_at(k));
+    for (Index k = looked(); k < std::min(count, residual_.size()); ++k)
+      next.push_back(pixels_[static_cast<std::size_t>(order_.next(k))]);
     const Vector removal = mean_removal(probe_, map_.grid, next, threads_, progress);
     for (std::size_t k = 0; k < next.size(); ++k) {
       const auto i = static_cast<std::size_t>(next[k]);
@@ -98,12 +126,11 @@ class ResidualCheck {
 
   /// How many pixels one of those looked at stands for.
   double weight(Index k) const {
-    if (k < order_.largest) return 1.0;
-    return static_cast<double>(residual_.size() - order_.largest) / static_cast<double>(looked() - order_.largest);
+    if (k < order_.largest()) return 1.0;
+    return static_cast<double>(residual_.size() - order_.largest()) / static_cast<double>(looked() - order_.largest());
   }
 
-  Index place(Index k) const { return order_.pixels[static_cast<std::size_t>(k)]; }
-  Index pixel_at(Index k) const { return pixels_[static_cast<std::size_t>(place(k))]; }
+  Index pixel_at(Index k) const { return pixels_[static_cast<std::size_t>(order_[k])]; }
 
   /// The differences without the form terms that they hold, by weighted least squares over the pixels looked at.
   Vector differences_without_form() const {
@@ -113,11 +140,11 @@ class ResidualCheck {
     Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(terms, terms);
     Vector moments = Vector::Zero(terms);
     for (Index k = 0; k < looked(); ++k) {
-      gram += weight(k) * basis_.row(place(k)).transpose() * basis_.row(place(k));
-      moments += weight(k) * d[k] * basis_.row(place(k)).transpose();
+      gram += weight(k) * basis_.row(order_[k]).transpose() * basis_.row(order_[k]);
+      moments += weight(k) * d[k] * basis_.row(order_[k]).transpose();
     }
     const Vector coefficients = gram.ldlt().solve(moments);
-    for (Index k = 0; k < looked(); ++k) d[k] -= basis_.row(place(k)).dot(coefficients);
+    for (Index k = 0; k < looked(); ++k) d[k] -= basis_.row(order_[k]).dot(coefficients);
     return d;
   }
 
@@ -127,15 +154,15 @@ class ResidualCheck {
     double squares = residual_.squaredNorm(), sum = residual_.sum(), errors = 0.0;
     double mean = 0.0, scatter = 0.0, low = std::numeric_limits<double>::infinity(), high = -low;
     for (Index k = 0; k < looked(); ++k) {
-      const double before = residual_[place(k)], after = before + d[k];
+      const double before = residual_[order_[k]], after = before + d[k];
       const double change = after * after - before * before;
       squares += weight(k) * change;
       sum += weight(k) * d[k];
       errors += weight(k) * d[k] * d[k];
       low = std::min(low, after);
       high = std::max(high, after);
-      if (k < order_.largest) continue;
-      const double n = static_cast<double>(k - order_.largest + 1), step = change - mean;  // Welford
+      if (k < order_.largest()) continue;
+      const double n = static_cast<double>(k - order_.largest() + 1), step = change - mean;  // Welford
       mean += step / n;
       scatter += step * (change - mean);
     }
@@ -151,8 +178,8 @@ class ResidualCheck {
     result.lattice_rms = std::sqrt(residual_.squaredNorm() / count);
     result.lattice_error = std::sqrt(errors / count);
     if (!result.all) {
-      const double others = count - static_cast<double>(order_.largest),
-                   n = static_cast<double>(looked() - order_.largest);
+      const double others = count - static_cast<double>(order_.largest()),
+                   n = static_cast<double>(looked() - order_.largest());
       const double deviation = std::sqrt(scatter / (n - 1.0) / n * (1.0 - n / others)) * others / count;
       result.standard_error = about_zero > 0.0 ? 0.5 * deviation / about_zero : deviation;
     }
@@ -172,8 +199,8 @@ class ResidualCheck {
   /// pixels at random.
   double ripple() const {
     constexpr Index kPixels = 24;
-    const Index last = std::min(looked(), order_.largest + kPixels);
-    const Index first = last > order_.largest ? order_.largest : 0;
+    const Index last = std::min(looked(), order_.largest() + kPixels);
+    const Index first = last > order_.largest() ? order_.largest() : 0;
     std::vector<double> squares(static_cast<std::size_t>(last - first));
 #pragma omp parallel for num_threads(threads_) schedule(dynamic, 1)
     for (Index k = first; k < last; ++k)
@@ -192,12 +219,11 @@ class ResidualCheck {
         means[r][c] = probe_.mean_over_pixel(centre + beside);
       }
     }
-    std::mt19937_64 random(static_cast<std::uint64_t>(seed));
-    const auto uniform = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
+    RandomNumbers random(static_cast<std::uint64_t>(seed));
     double sum = 0.0;
     for (int i = 0; i < kParts; ++i) {
       for (int j = 0; j < kParts; ++j) {
-        const double u = (j + uniform()) / kParts - 0.5, v = (i + uniform()) / kParts - 0.5;
+        const double u = (j + random.uniform()) / kParts - 0.5, v = (i + random.uniform()) / kParts - 0.5;
         const auto wx = parabola_weights(u), wy = parabola_weights(v);
         double smooth = 0.0;
         for (std::size_t r = 0; r < 3; ++r)
@@ -219,6 +245,7 @@ class ResidualCheck {
   const HeightMap& map_;
   const HeightMap& left_;
   int threads_;
+  ExactCheck check_;
   std::vector<Index> pixels_;
   Eigen::MatrixXd basis_;
   Vector residual_;  // by the lattice, form terms removed
@@ -231,8 +258,8 @@ class ResidualCheck {
 double ExactResidual::total() const { return std::hypot(statistics.rms_about_zero(), ripple); }
 
 ExactResidual exact_residual(const RemovalProbe& probe, const HeightMap& map, const HeightMap& left,
-                             const FormTerms& form, int threads, const Progress& progress, bool every_pixel) {
-  return ResidualCheck(probe, map, left, form, threads).run(progress, every_pixel);
+                             const FormTerms& form, int threads, const Progress& progress, ExactCheck check) {
+  return ResidualCheck(probe, map, left, form, threads, check).run(progress);
 }
 
 }  // namespace dwell

@@ -22,13 +22,19 @@ struct ExactResidual {
   double total() const;
 };
 
+/// How many pixels are looked at.
+enum class ExactCheck {
+  Lattice,    // some, by which `lattice_error` is known to a tenth of itself; no ripple
+  Figure,     // as many as bring the standard error of `statistics.rms` below 1 % of it, or all where that is cheap
+  EveryPixel  // all
+};
+
 /// `map` is the surface before, `left` what the lattice says that the program leaves of it, form terms included [nm].
 /// Only the difference between the lattice and the probe is estimated, so few pixels do: those with the largest
-/// residuals and as many at random as bring the standard error below 1 % of the RMS, or all where that is cheap. The
-/// largest and smallest residual are among the former. `every_pixel` looks at all. `progress` shows the share done;
-/// throws Interrupted. The same input gives the same bytes. Cost: mean_removal of the pixels.
+/// residuals, and others at random. The largest and smallest residual are among the former. `progress` shows the share
+/// done; throws Interrupted. The same input gives the same bytes. Cost: mean_removal of the pixels.
 ExactResidual exact_residual(const RemovalProbe& probe, const HeightMap& map, const HeightMap& left,
                              const FormTerms& form, int threads, const Progress& progress = {},
-                             bool every_pixel = false);
+                             ExactCheck check = ExactCheck::Figure);
 
 }  // namespace dwell

@@ -8,7 +8,6 @@
 #include <functional>
 #include <stdexcept>
 
-#include "core/numerics/bspline.h"
 #include "core/tif/pixel_mean.h"
 
 namespace dwell {
@@ -31,17 +30,6 @@ double table_error(const RemovalKernel& kernel, const std::function<double(Point
     norm += b * b;
   }
   return norm > 0.0 ? std::sqrt(error / norm) : 0.0;
-}
-
-/// The value of a spline at a place at least two nodes from its edge, in nodes.
-double spline_value(const double* coefficients, Index cols, double u, double v) {
-  const double fu = std::floor(u), fv = std::floor(v);
-  const auto wx = bspline_weights(u - fu), wy = bspline_weights(v - fv);
-  const double* c = coefficients + (static_cast<Index>(fv) - 1) * cols + static_cast<Index>(fu) - 1;
-  double sum = 0.0;
-  for (std::size_t i = 0; i < 4; ++i, c += cols)
-    sum += wy[i] * (wx[0] * c[0] + wx[1] * c[1] + wx[2] * c[2] + wx[3] * c[3]);
-  return sum;
 }
 
 }  // namespace
@@ -167,12 +155,8 @@ void RemovalProbe::for_visits(Point centre, const Take& take) const {
 }
 
 double RemovalProbe::mean_over_pixel(Point centre) const {
-  const Grid& g = table_.mean.grid();
-  const double* coefficients = table_.mean.coefficients().data();
   double sum = 0.0;
-  for_visits(centre, [&](Point d, double seconds) {
-    sum += seconds * spline_value(coefficients, g.cols, (d.x - g.origin.x) / g.pitch_x, (d.y - g.origin.y) / g.pitch_y);
-  });
+  for_visits(centre, [&](Point d, double seconds) { sum += seconds * table_.mean.value_inside(d); });
   return sum;
 }
 

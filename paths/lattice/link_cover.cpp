@@ -111,7 +111,7 @@ class Alternating {
   std::int32_t now_ = 0;
 };
 
-void make_blocks(CellLinks& links, Dice& dice, const Progress& progress) {
+void make_blocks(CellLinks& links, RandomNumbers& dice, const Progress& progress) {
   const Cell step = links.row_step();
   const auto offset = static_cast<Cell>(dice.below(4));
   for (Cell row = links.first() + (offset >> 1) * step; row < links.end(); row += 2 * step) {
@@ -127,7 +127,7 @@ void make_blocks(CellLinks& links, Dice& dice, const Progress& progress) {
 }
 
 /// Kept cells with fewer than two links, in random order.
-std::vector<Cell> open_cells(const CellLinks& links, Dice& dice, const Progress& progress) {
+std::vector<Cell> open_cells(const CellLinks& links, RandomNumbers& dice, const Progress& progress) {
   Poll poll(progress);
   std::vector<Cell> open;
   for (Cell c = links.first(); c < links.end(); ++c) {
@@ -140,7 +140,7 @@ std::vector<Cell> open_cells(const CellLinks& links, Dice& dice, const Progress&
 
 /// Links the end of a chain to a random neighbour and cuts one of the neighbour's other links; the cell cut off is the
 /// new end. This is the "path backtracking" of Zha et al. 2020, section 3.1 (figure 5), for a set of loops and chains.
-void walk_end(CellLinks& links, Cell& end, Dice& dice) {
+void walk_end(CellLinks& links, Cell& end, RandomNumbers& dice) {
   const auto d = static_cast<int>(dice.bits() >> 62);
   const Cell y = links.neighbour(end, d);
   if (!links.kept(y) || links.linked(end, d) || links.degree(y) != 2 || links.degree(end) != 1) return;
@@ -165,7 +165,7 @@ void augment_all(CellLinks& links, const std::vector<Cell>& open, const Progress
 /// Moves the ends of the chains of each piece together until it has two.
 class EndGathering {
  public:
-  EndGathering(CellLinks& links, const LatticePieces& pieces, Dice& dice, const Progress& progress)
+  EndGathering(CellLinks& links, const LatticePieces& pieces, RandomNumbers& dice, const Progress& progress)
       : links_(links),
         pieces_(pieces),
         dice_(dice),
@@ -212,7 +212,7 @@ class EndGathering {
 
   CellLinks& links_;
   const LatticePieces& pieces_;
-  Dice& dice_;
+  RandomNumbers& dice_;
   Poll poll_;
   Alternating search_;
   std::vector<Cell> open_;
@@ -220,7 +220,7 @@ class EndGathering {
   std::int64_t budget_;
 };
 
-void stir(CellLinks& links, std::vector<Cell> ends, Dice& dice, const Progress& progress) {
+void stir(CellLinks& links, std::vector<Cell> ends, RandomNumbers& dice, const Progress& progress) {
   Poll poll(progress);
   for (int pass = 0; pass < kStirs; ++pass) {
     std::uint64_t bits = 0;
@@ -277,7 +277,7 @@ LatticePieces find_pieces(const CellLinks& links, const Progress& progress) {
   return found;
 }
 
-void trim_dead_ends(CellLinks& links, LatticePieces& pieces, Dice& dice, const Progress& progress) {
+void trim_dead_ends(CellLinks& links, LatticePieces& pieces, RandomNumbers& dice, const Progress& progress) {
   Poll poll(progress);
   std::vector<Cell> tips;
   std::vector<std::array<Index, 2>> of_colour(pieces.pieces.size(), {0, 0});
@@ -308,7 +308,7 @@ void trim_dead_ends(CellLinks& links, LatticePieces& pieces, Dice& dice, const P
 }
 
 void thin_corners(CellLinks& links, const LatticePieces& pieces, const std::vector<char>& thinned, unsigned share,
-                  Dice& dice, const Progress& progress) {
+                  RandomNumbers& dice, const Progress& progress) {
   Poll poll(progress);
   for (Cell c = links.first(); c < links.end(); ++c) {
     poll.step();
@@ -322,7 +322,8 @@ void thin_corners(CellLinks& links, const LatticePieces& pieces, const std::vect
   }
 }
 
-void cover_with_loops(CellLinks& links, LatticePieces& pieces, bool peel, Dice& dice, const Progress& progress) {
+void cover_with_loops(CellLinks& links, LatticePieces& pieces, bool peel, RandomNumbers& dice,
+                      const Progress& progress) {
   make_blocks(links, dice, progress);
   augment_all(links, open_cells(links, dice, progress), progress);
   for (const Cell c : open_cells(links, dice, progress)) pieces.of(c).open_ends += 2 - links.degree(c);

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/base/progress.h"
-#include "paths/domain/dice.h"
+#include "core/base/random_numbers.h"
 #include "paths/lattice/cell_links.h"
 
 namespace dwell {
@@ -38,14 +38,14 @@ LatticePieces find_pieces(const CellLinks& links, const Progress& progress = {})
 /// Leaves out dead ends beyond the two that a path can have, but only those whose neighbour has two other neighbours: a
 /// path then passes beside them, and corridors one cell wide stay. Prefers the colour of which there are too many
 /// cells. Counts them in the pieces.
-void trim_dead_ends(CellLinks& links, LatticePieces& pieces, Dice& dice, const Progress& progress = {});
+void trim_dead_ends(CellLinks& links, LatticePieces& pieces, RandomNumbers& dice, const Progress& progress = {});
 
 /// Leaves out cells at the convex corners of the pieces that `thinned` marks, each with the probability share / 256,
 /// unless one of its two neighbours would be left with fewer than two others. On a staircase rim all such corner cells
 /// have one colour. That forces every path along the rim into the same zigzag, row behind row, and leaves no way to
 /// join them.
 void thin_corners(CellLinks& links, const LatticePieces& pieces, const std::vector<char>& thinned, unsigned share,
-                  Dice& dice, const Progress& progress = {});
+                  RandomNumbers& dice, const Progress& progress = {});
 
 /// Links as many neighbours as possible, at most two a cell, so that every piece consists of loops and as few open
 /// chains as possible. Then moves the missing links together, so that wherever possible all but one of a piece's chains
@@ -56,6 +56,7 @@ void thin_corners(CellLinks& links, const LatticePieces& pieces, const std::vect
 /// it can be flipped. On a simply connected lattice this reaches all sets of loops with equal probability (the square
 /// ice model), so that the directions are as even as the shape of the part allows. Cost O(cells), plus that of
 /// augmenting, which searches as far as the next missing link.
-void cover_with_loops(CellLinks& links, LatticePieces& pieces, bool peel, Dice& dice, const Progress& progress = {});
+void cover_with_loops(CellLinks& links, LatticePieces& pieces, bool peel, RandomNumbers& dice,
+                      const Progress& progress = {});
 
 }  // namespace dwell

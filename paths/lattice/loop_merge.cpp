@@ -15,7 +15,7 @@ using Cell = CellLinks::Cell;
 
 class Merger {
  public:
-  Merger(CellLinks& links, const LatticePieces& pieces, Dice& dice, const Progress& progress)
+  Merger(CellLinks& links, const LatticePieces& pieces, RandomNumbers& dice, const Progress& progress)
       : progress_(progress),
         poll_(progress),
         links_(links),
@@ -218,7 +218,7 @@ class Merger {
   mutable Poll poll_;
   CellLinks& links_;
   const LatticePieces& pieces_;
-  Dice& dice_;
+  RandomNumbers& dice_;
   ChainLabels chains_;
   std::int64_t budget_;
   Index joined_ = 0;           // how many chains there are fewer than at the beginning
@@ -227,7 +227,7 @@ class Merger {
 
 }  // namespace
 
-void merge_loops(CellLinks& links, const LatticePieces& pieces, Dice& dice, const Progress& progress) {
+void merge_loops(CellLinks& links, const LatticePieces& pieces, RandomNumbers& dice, const Progress& progress) {
   Merger(links, pieces, dice, progress).run();
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/base/progress.h"
-#include "paths/domain/dice.h"
+#include "core/base/random_numbers.h"
 #include "paths/lattice/link_cover.h"
 
 namespace dwell {
@@ -16,6 +16,6 @@ namespace dwell {
 ///
 /// Cost O(cells), plus that of freeing loops: a split costs the length of the shorter part, and all splits together end
 /// after 30 steps a cell.
-void merge_loops(CellLinks& links, const LatticePieces& pieces, Dice& dice, const Progress& progress = {});
+void merge_loops(CellLinks& links, const LatticePieces& pieces, RandomNumbers& dice, const Progress& progress = {});
 
 }  // namespace dwell

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "core/base/poll.h"
+#include "core/base/random_numbers.h"
 #include "paths/domain/cell_pyramid.h"
-#include "paths/domain/dice.h"
 #include "paths/lattice/cell_links.h"
 #include "paths/lattice/link_cover.h"
 #include "paths/lattice/loop_merge.h"
@@ -63,7 +63,7 @@ struct Cover {
   Index lifts_in_pieces() const { return static_cast<Index>(chains.size() - pieces.pieces.size()); }
 };
 
-void cover(Cover& c, bool peel, Dice& dice, const Progress& progress) {
+void cover(Cover& c, bool peel, RandomNumbers& dice, const Progress& progress) {
   Poll poll(progress);
   CellLinks& links = c.links;
   trim_dead_ends(links, c.pieces, dice, progress);
@@ -93,7 +93,7 @@ std::vector<char> in_parts(const Cover& c) {
 
 /// Tries again where a piece has not become one chain: first with ends peeled off, then with more and more of its
 /// corners left out.
-Cover best_cover(const CellLattice& lattice, Dice& dice, const Progress& progress) {
+Cover best_cover(const CellLattice& lattice, RandomNumbers& dice, const Progress& progress) {
   constexpr Index kPointsForALift = 64;
   const CellLinks bare(lattice);
   const LatticePieces pieces = find_pieces(bare, progress);
@@ -230,7 +230,7 @@ RandomOptions parse_random_options(const SpecText& spec) {
 
 RandomPath random_path(const HeightMap& map, const RandomOptions& options, const Progress& progress) {
   const CellLattice lattice = cell_lattice(map, options.lattice, "random", progress);
-  Dice dice(options.seed);
+  RandomNumbers dice(options.seed);
   const Cover cover = best_cover(lattice, dice, progress);
   RandomPath result;
   result.lattice_points = lattice.kept_cells;

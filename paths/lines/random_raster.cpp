@@ -8,7 +8,7 @@
 
 #include "core/base/errors.h"
 #include "core/base/number_text.h"
-#include "paths/domain/dice.h"
+#include "core/base/random_numbers.h"
 #include "paths/domain/rounding.h"
 #include "paths/lines/corner_rounding.h"
 #include "paths/lines/scan_lines.h"
@@ -39,7 +39,7 @@ double parse_spread(const SpecText& spec, double pitch, double fallback) {
 /// Positions of as many lines as fit into a range; their block lies in the middle of it.
 std::vector<double> draw_positions(const Interval& range, const RandomRasterOptions& options, const ScanOptions& scan,
                                    double points_a_line) {
-  Dice dice(options.seed);
+  RandomNumbers dice(options.seed);
   const double width = range.length() + 2.0 * scan.overrun;
   std::vector<double> positions{0.0};
   while (true) {

@@ -8,8 +8,8 @@
 
 #include "core/base/errors.h"
 #include "core/base/numbers.h"
+#include "core/base/random_numbers.h"
 #include "core/base/value_range.h"
-#include "runs/example/random_numbers.h"
 
 namespace dwell {
 namespace {

@@ -33,23 +33,23 @@ void collect_limits(DwellPlan& plan, const DwellOptions& options) {
 
 /// The exact residual of dwell times.
 ExactResidual exact_residual_of(const Part& part, const LaidPath& laid, const Vector& dwell, const HeightMap& left,
-                                double max_feed, const Progress& progress) {
-  const std::vector<double> seconds(dwell.data(), dwell.data() + dwell.size());
+                                double max_feed, ExactCheck check, const Progress& progress) {
+  std::vector<double> seconds(dwell.data(), dwell.data() + dwell.size());
+  std::vector<Stroke> strokes = laid.strokes;
   if (laid.motion == Motion::Stop) {
-    RemovingSteps steps =
+    // The tool removes while it moves from stop to stop as well.
+    const RemovingSteps moves =
         removing_steps(program_of(laid.path, std::vector<double>(seconds.size(), 0.0), laid.motion, max_feed));
-    steps.strokes.insert(steps.strokes.end(), laid.strokes.begin(), laid.strokes.end());
-    steps.seconds.insert(steps.seconds.end(), seconds.begin(), seconds.end());
-    return exact_residual(RemovalProbe(part.map.grid, part.exact, steps.strokes, steps.seconds), part.map, left,
-                          part.form, part.threads, progress);
+    strokes.insert(strokes.end(), moves.strokes.begin(), moves.strokes.end());
+    seconds.insert(seconds.end(), moves.seconds.begin(), moves.seconds.end());
   }
-  return exact_residual(RemovalProbe(part.map.grid, part.exact, laid.strokes, seconds), part.map, left, part.form,
-                        part.threads, progress);
+  const RemovalProbe probe(part.map.grid, part.exact, strokes, seconds);
+  return exact_residual(probe, part.map, left, part.form, part.threads, progress, check);
 }
 
 /// Solves on one lattice.
 DwellPlan find_dwell_on(const LatticeChoice& lattice, const Part& part, const LaidPath& laid,
-                        const DwellOptions& options, Vector start, const Progress& progress) {
+                        const DwellOptions& options, Vector start, ExactCheck check, const Progress& progress) {
   DwellPlan plan;
   plan.lattice = lattice;
   if (weights_are_searched(options)) plan.search.emplace();
@@ -75,7 +75,7 @@ DwellPlan find_dwell_on(const LatticeChoice& lattice, const Part& part, const La
   progress.check();
   const HeightMap left = problem.left_by(plan.seconds);
   plan.residual = map_statistics(left, part.form, part.threads);
-  plan.exact = exact_residual_of(part, laid, plan.seconds, left, options.machine.feed_limits().max_feed,
+  plan.exact = exact_residual_of(part, laid, plan.seconds, left, options.machine.feed_limits().max_feed, check,
                                  progress.of_part("exact residual"));
   collect_limits(plan, options);
   return plan;
@@ -83,7 +83,8 @@ DwellPlan find_dwell_on(const LatticeChoice& lattice, const Part& part, const La
 
 }  // namespace
 
-DwellPlan find_dwell(const Part& part, const LaidPath& laid, const DwellOptions& options, const Progress& progress) {
+DwellPlan find_dwell(const Part& part, const LaidPath& laid, const DwellOptions& options, const Progress& progress,
+                     ExactCheck check) {
   constexpr int kMostLattices = 3;
   const TimeLimit limit = time_limit(options.max_seconds, options.used_seconds);
   LatticeChoice lattice = limit.run(progress, [&](const Progress& limited) {
@@ -94,13 +95,13 @@ DwellPlan find_dwell(const Part& part, const LaidPath& laid, const DwellOptions&
   const auto too_coarse = [&part](const DwellPlan& plan) { return lattice_too_coarse(plan.exact, part.before); };
   DwellOptions rest = options;
   rest.used_seconds = limit.used();
-  DwellPlan plan = find_dwell_on(lattice, part, laid, rest, {}, progress);
+  DwellPlan plan = find_dwell_on(lattice, part, laid, rest, {}, check, progress);
   for (int lattices = 2; lattices <= kMostLattices && too_coarse(plan) && !plan.lattice.finest; ++lattices) {
     rest.used_seconds = limit.used();
     if (!(limit.left() > 0.0)) break;
     const double seconds = plan.solver.seconds;
     try {
-      plan = find_dwell_on(finer_lattice(part, plan.lattice), part, laid, rest, plan.seconds, progress);
+      plan = find_dwell_on(finer_lattice(part, plan.lattice), part, laid, rest, plan.seconds, check, progress);
     } catch (const TimeLimitReached&) {
       break;  // the plan on the coarser lattice stands, and what follows says how wrong it is
     }

@@ -29,7 +29,7 @@ struct DwellPlan {
   LatticeChoice lattice;            // of the removal operator
   int lattices = 1;                 // that were solved on, each finer than the one before
   MapStatistics residual;           // as the solver predicts on its lattice, form terms removed
-  ExactResidual exact;              // from the removal function itself
+  ExactResidual exact;              // from the removal function itself, by the check that was asked for
   std::vector<std::string> limits;  // that were reached, one sentence each
 };
 
@@ -38,8 +38,9 @@ struct DwellPlan {
 /// before the work if the machine has less memory than it takes for certain, TimeLimitReached if options.max_seconds
 /// are over before the first solve, InputError for options that contradict each other (weights_are_searched),
 /// Interrupted, std::runtime_error if the solver fails. Cost: the solver's operator applications dominate
-/// (docs/math.md).
-DwellPlan find_dwell(const Part& part, const LaidPath& laid, const DwellOptions& options,
-                     const Progress& progress = {});
+/// (docs/math.md). `check`: how well the exact residual is to be known; for the choice of the lattice the least does,
+/// and what a plan states is predicted from its program (program_prediction.h).
+DwellPlan find_dwell(const Part& part, const LaidPath& laid, const DwellOptions& options, const Progress& progress = {},
+                     ExactCheck check = ExactCheck::Lattice);
 
 }  // namespace dwell

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 
+#include "core/base/random_numbers.h"
 #include "core/removal/inner_lattice.h"
 #include "core/removal/scattered_removal.h"
 
@@ -48,10 +48,9 @@ LatticeChoice lattice_of(const Part& part, Index parts) {
 std::vector<Index> some_pixels(const HeightMap& map) {
   constexpr std::size_t kPixels = 96;
   std::vector<Index> pixels = finite_pixels(map);
-  std::mt19937_64 random(2);
+  RandomNumbers random(2);
   const std::size_t count = std::min(kPixels, pixels.size());
-  for (std::size_t k = 0; k < count; ++k)
-    std::swap(pixels[k], pixels[k + static_cast<std::size_t>(random() % (pixels.size() - k))]);
+  for (std::size_t k = 0; k < count; ++k) random.draw(pixels, k);
   pixels.resize(count);
   std::sort(pixels.begin(), pixels.end());
   return pixels;
@@ -60,12 +59,12 @@ std::vector<Index> some_pixels(const HeightMap& map) {
 /// A dwell that a solver might find where the tool's reach ends: a time a length between nothing and twice its mean, at
 /// random.
 std::vector<double> random_dwell(const std::vector<Stroke>& strokes) {
-  std::mt19937_64 random(3);
+  RandomNumbers random(3);
   std::vector<double> seconds;
   seconds.reserve(strokes.size());
   for (const Stroke& s : strokes) {
     const double length = s.length();
-    seconds.push_back((length > 0.0 ? length : 1.0) * static_cast<double>(random() >> 11) * 0x1p-53);
+    seconds.push_back((length > 0.0 ? length : 1.0) * random.uniform());
   }
   return seconds;
 }

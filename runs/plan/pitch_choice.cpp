@@ -31,7 +31,8 @@ TriedRaster try_raster(const RasterOptions& raster, const Part& part, const Path
   fixed.options = raster;
   const Progress of_trial = progress.of_part(fmt::format("pitch {:.4g} mm", raster.pitch));
   TriedRaster tried{raster, lay_path(part, fixed, motion, options.machine.feed_limits().max_feed, of_trial), 0.0};
-  tried.residual = find_dwell(part, tried.laid, options, of_trial).exact.statistics.rms_about_zero();
+  tried.residual =
+      find_dwell(part, tried.laid, options, of_trial, ExactCheck::Figure).exact.statistics.rms_about_zero();
   return tried;
 }
 

@@ -14,13 +14,12 @@ bool lattice_too_coarse(const ExactResidual& exact, const MapStatistics& before)
 }
 
 ExactResidual predict_program(const Part& part, const Program& program, const RemovalKernel& kernel,
-                              const Progress& progress, bool every_pixel) {
+                              const Progress& progress, ExactCheck check) {
   const HeightMap left = surface_after(part.map, simulate(program, part.map, kernel, part.threads));
   progress.check();
   const RemovingSteps removing = removing_steps(program);
   const RemovalProbe probe(part.map.grid, part.exact, removing.strokes, removing.seconds);
-  return exact_residual(probe, part.map, left, part.form, part.threads, progress.of_part("exact residual"),
-                        every_pixel);
+  return exact_residual(probe, part.map, left, part.form, part.threads, progress.of_part("exact residual"), check);
 }
 
 }  // namespace dwell

@@ -18,6 +18,6 @@ bool lattice_too_coarse(const ExactResidual& exact, const MapStatistics& before)
 /// What a program leaves of a part, on this lattice and, from the removal function itself, exactly. Throws Interrupted.
 /// Cost: removal_once and exact_residual.
 ExactResidual predict_program(const Part& part, const Program& program, const RemovalKernel& kernel,
-                              const Progress& progress, bool every_pixel = false);
+                              const Progress& progress, ExactCheck check = ExactCheck::Figure);
 
 }  // namespace dwell

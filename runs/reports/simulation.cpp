@@ -58,7 +58,8 @@ Simulation simulate_file(const std::filesystem::path& program, const GcodeReadin
   check_steps(s.program, part);
   const Progress simulating = progress.of_part(fmt::format("simulate {} steps", s.program.steps.size()));
   LatticeChoice lattice = choose_lattice(part, removing_steps(s.program).strokes, simulating);
-  s.after = predict_program(part, s.program, lattice.kernel, simulating, every_pixel);
+  s.after = predict_program(part, s.program, lattice.kernel, simulating,
+                            every_pixel ? ExactCheck::EveryPixel : ExactCheck::Figure);
   while (!s.after.all && lattice_too_coarse(s.after, part.before) && !lattice.finest) {
     lattice = finer_lattice(part, lattice);
     s.after = predict_program(part, s.program, lattice.kernel, simulating);

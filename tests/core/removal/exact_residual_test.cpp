@@ -101,7 +101,7 @@ TEST(ExactResidual, OfManyPixelsIsEstimatedToOnePerCent) {
 TEST(ExactResidual, AllPixelsWhereAsked) {
   const WorkedPart part(310, 360);
   HeightMap left = part.map;
-  const ExactResidual found = exact_residual(part.probe(), part.map, left, {}, 2, {}, true);
+  const ExactResidual found = exact_residual(part.probe(), part.map, left, {}, 2, {}, ExactCheck::EveryPixel);
   EXPECT_TRUE(found.all);
   EXPECT_NEAR(found.statistics.rms_about_zero(), map_statistics(part.left(), {}).rms_about_zero(), 1e-9);
 }

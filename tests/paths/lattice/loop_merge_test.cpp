@@ -54,8 +54,8 @@ CellLattice lattice_of(unsigned number) {
   return cell_lattice(test::random_aperture(number), {0.5 + 0.1 * (number % 5), {}, 0.0}, "x");
 }
 
-TEST(Dice, GivesTheStandardsNumbers) {
-  Dice dice(5489);  // [rand.predef]: the 10000th of a default-seeded mt19937_64
+TEST(RandomNumbers, GivesTheStandardsNumbers) {
+  RandomNumbers dice(5489);  // [rand.predef]: the 10000th of a default-seeded mt19937_64
   std::uint64_t last = 0;
   for (int k = 0; k < 10000; ++k) last = dice.bits();
   EXPECT_EQ(last, 9981545732273789042u);
@@ -75,7 +75,7 @@ TEST(ChainLabels, FollowRandomFlips) {
     SCOPED_TRACE(number);
     CellLinks links(lattice_of(number));
     LatticePieces pieces = find_pieces(links);
-    Dice dice(number);
+    RandomNumbers dice(number);
     cover_with_loops(links, pieces, false, dice);
     ChainLabels labels(links);
     expect_labels(labels, links);
@@ -139,7 +139,7 @@ TEST(LinkCover, MakesTheMostLinks) {
     CellLattice lattice = cell_lattice(map, {1.0, {}, 0.0}, "x");
     CellLinks links(lattice);
     LatticePieces pieces = find_pieces(links);
-    Dice dice(number);
+    RandomNumbers dice(number);
     cover_with_loops(links, pieces, false, dice);
     int total = 0, cells = 0, missing = 0;
     for (Cell c = 0; c < links.size(); ++c) {
@@ -159,7 +159,7 @@ TEST(LoopMerge, JoinsTheLoopsOfARectangle) {
   for (unsigned seed = 1; seed <= 30; ++seed) {
     CellLinks links(cell_lattice(test::full_map(6 + seed % 3, 8 + seed % 5), {1.0, {}, 0.0}, "x"));
     LatticePieces pieces = find_pieces(links);
-    Dice dice(seed);
+    RandomNumbers dice(seed);
     cover_with_loops(links, pieces, false, dice);
     merge_loops(links, pieces, dice);
     int chains = 0;

@@ -10,7 +10,7 @@
 #include <numbers>
 
 #include "core/base/errors.h"
-#include "runs/example/random_numbers.h"
+#include "core/base/random_numbers.h"
 #include "tests/oracle/dense_algebra.h"
 
 namespace dwell {

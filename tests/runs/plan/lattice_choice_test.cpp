@@ -51,10 +51,11 @@ TEST(LatticeChoice, DividesThePixelsForASharpTool) {
 /// What the plan's program leaves, from the removal function at every pixel.
 void expect_stated(const Part& part) {
   const LaidPath laid = raster(part);
-  const DwellPlan plan = find_dwell(part, laid, {});
+  const DwellPlan plan = find_dwell(part, laid, {}, {}, ExactCheck::Figure);
   ASSERT_TRUE(plan.limits.empty()) << plan.limits.front();
   const MachineProgram program = make_machine_program(laid, plan, {});
-  const ExactResidual exact = predict_program(part, program_of(program.table), plan.lattice.kernel, {}, true);
+  const ExactResidual exact =
+      predict_program(part, program_of(program.table), plan.lattice.kernel, {}, ExactCheck::EveryPixel);
   EXPECT_NEAR(plan.exact.statistics.rms, exact.statistics.rms, 0.01 * exact.statistics.rms);
   EXPECT_NEAR(plan.residual.rms, exact.statistics.rms, 0.05 * exact.statistics.rms);
   EXPECT_LE(exact.lattice_error, 0.06 * exact.statistics.rms_about_zero());

@@ -24,7 +24,8 @@ Part wavy_part() {
 double left_by(const Part& part, const RasterOptions& raster) {
   PathSpec spec = parse_path_spec("raster:pitch=1");
   spec.options = raster;
-  return find_dwell(part, lay_path(part, spec, Motion::Moving, 50.0), {}).exact.statistics.rms_about_zero();
+  return find_dwell(part, lay_path(part, spec, Motion::Moving, 50.0), {}, {}, ExactCheck::Figure)
+      .exact.statistics.rms_about_zero();
 }
 
 TEST(PitchChoice, LeavesNoMoreThanHalfThePitchWould) {
