@@ -9,6 +9,7 @@
 
 #include "core/base/number_text.h"
 #include "core/base/units.h"
+#include "core/base/word_list.h"
 #include "core/map/value_units.h"
 
 namespace dwell {
@@ -21,8 +22,6 @@ constexpr std::string_view kOthers[] = {"time",  "exposure", "temperature", "wav
 constexpr std::string_view kContexts[] = {"grid",     "map",  "image",  "data",    "meta",       "metadata",
                                           "geometry", "part", "header", "surface", "measurement"};
 constexpr std::string_view kCameras[] = {"camera", "detector", "sensor", "ccd", "chip", "cam", "det"};
-
-bool among(std::string_view word, Words words) { return std::find(words.begin(), words.end(), word) != words.end(); }
 
 bool is_letter(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || static_cast<signed char>(c) < 0; }
 bool is_upper(char c) { return std::isupper(static_cast<unsigned char>(c)) != 0; }
@@ -44,7 +43,7 @@ std::vector<std::string> name_words(std::string_view name) {
 
 bool is_pixel(const std::string& word) {
   constexpr std::string_view kPixels[] = {"pixel", "pix", "px", "pixels", "sample", "point", "lateral"};
-  return among(word, kPixels);
+  return is_among(word, kPixels);
 }
 
 /// The unit of length at the end of the words, or before "per pixel", in mm; takes these words away.
@@ -127,7 +126,8 @@ std::optional<MapTopic> find_unit(const std::vector<std::string>& words) {
 }
 
 bool take_camera(std::vector<std::string>& words) {
-  const auto end = std::remove_if(words.begin(), words.end(), [](const auto& word) { return among(word, kCameras); });
+  const auto end =
+      std::remove_if(words.begin(), words.end(), [](const auto& word) { return is_among(word, kCameras); });
   const bool found = end != words.end() && end != words.begin();
   if (found) words.erase(end, words.end());
   return found;
@@ -135,7 +135,7 @@ bool take_camera(std::vector<std::string>& words) {
 
 /// Takes words from the front that only say of what: "grid.pixel_size" is a pixel size.
 void take_context(std::vector<std::string>& words) {
-  while (words.size() > 1 && among(words.front(), kContexts)) words.erase(words.begin());
+  while (words.size() > 1 && is_among(words.front(), kContexts)) words.erase(words.begin());
 }
 
 bool is_clear_pitch(std::string_view word) {

@@ -12,6 +12,7 @@
 #include "core/base/errors.h"
 #include "core/base/number_text.h"
 #include "core/base/units.h"
+#include "core/base/word_list.h"
 #include "core/formats/field_name.h"
 #include "core/formats/remark_guard.h"
 #include "core/map/value_units.h"
@@ -122,7 +123,7 @@ bool is_read_elsewhere(const std::string& name) {
                               "DATAMAX", "TIMEUNIT", "EQUINOX", "LONGSTRN", "CONTINUE", "END"};
   constexpr std::array kBeginnings{"NAXIS", "CDELT", "CUNIT", "CRPIX", "CRVAL", "CTYPE", "CROTA",
                                    "CD1_",  "CD2_",  "PC1_",  "PC2_",  "MADE",  "CNAME", "DATE"};
-  return std::find(kNames.begin(), kNames.end(), name) != kNames.end() ||
+  return is_among(name, kNames) ||
          std::any_of(kBeginnings.begin(), kBeginnings.end(), [&](const char* b) { return name.starts_with(b); });
 }
 
@@ -176,16 +177,50 @@ std::vector<Card> cards_of(fitsfile* file) {
   return cards;
 }
 
-/// What COMMENT and HISTORY seem to say. HISTORY tells what was done: of that only a unit is still so.
+/// Whether the comment behind the value of a card may speak of the map's values: behind a number of its own, a unit is
+/// that number's.
+bool comment_is_remark(const Card& card) {
+  constexpr std::array kOfTheArray{"SIMPLE", "BITPIX", "EXTEND", "XTENSION", "BSCALE", "BZERO", "DATAMIN", "DATAMAX"};
+  const bool of_the_array = card.name.starts_with("NAXIS") || is_among(card.name, kOfTheArray);
+  const bool number = card.number() && !of_the_array;
+  return card.name != "CONTINUE" && !number;
+}
+
+/// What COMMENT, HISTORY and the comments behind values seem to say. HISTORY tells what was done: of that only a unit
+/// is still so.
 void guard_remarks(const std::vector<Card>& cards, const std::string& where, MapHeader& header) {
   for (const Card& card : cards) {
-    const bool history = card.name == "HISTORY";
-    if (card.name != "COMMENT" && !history) continue;
-    for (UnclearStatement& unclear :
-         unclear_remarks(card.comment, fmt::format("{}: FITS {}", where, card.name), RemarkPlace::Field)) {
+    if (!comment_is_remark(card)) continue;
+    const bool history = card.name == "HISTORY", whole = history || card.name == "COMMENT";
+    const std::string place = fmt::format("{}: FITS {}{}", where, whole ? "" : "comment behind keyword ", card.name);
+    for (UnclearStatement& unclear : unclear_remarks(card.comment, place, RemarkPlace::Field)) {
       if (!history || unclear.about == UnclearStatement::About::Unit) header.unclear.push_back(std::move(unclear));
     }
   }
+}
+
+/// Keywords of an image whose pixels are several of the detector's, or every other one: of which of them a size is, is
+/// open. Empty if there are none.
+std::string binning(const Keywords& keywords) {
+  std::string found;
+  for (const std::string name : {"LTM1_1", "LTM2_2", "LTM1_2", "LTM2_1", "XBINNING", "YBINNING", "BINNING", "CCDSUM"}) {
+    const std::string value = keywords.text(name).value_or("");
+    const bool across = name == "LTM1_2" || name == "LTM2_1";
+    const std::string plain = across ? "0" : "1";
+    if (value.empty() || value == "1 1" || finite_number(value) == finite_number(plain)) continue;
+    found += fmt::format("{}FITS keyword {} = {}", found.empty() ? "" : ", ", name, value);
+  }
+  return found;
+}
+
+/// A pitch other than that of world coordinates is left open where pixels are binned.
+void take_binning(const Keywords& keywords, SaidOfMap& said) {
+  if (!said.header.pitch) return;
+  const std::string binned = binning(keywords);
+  if (binned.empty()) return;
+  said.unclear_pitch += fmt::format("{}{} with {}", said.unclear_pitch.empty() ? "" : ", ", said.pitch_field, binned);
+  said.header.pitch.reset();
+  said.pitch_field.clear();
 }
 
 /// World coordinates without a unit, or in none of length, leave the origin open; unless they are of the sky, which no
@@ -237,7 +272,6 @@ void add_world(const Keywords& keywords, SaidOfMap& said, const std::string& whe
 
 FitsHeader read_fits_header(fitsfile* file, const std::string& where) {
   const Keywords keywords(file, where);
-  keywords.number("PITCHMM");  // of this program: a text there is refused
   std::vector<MapField> fields;
   const std::vector<Card> cards = cards_of(file);
   for (const Card& card : cards) {
@@ -246,6 +280,7 @@ FitsHeader read_fits_header(fitsfile* file, const std::string& where) {
   FitsHeader header;
   header.said = read_map_fields(fields, where);
   guard_remarks(cards, where, header.said.header);
+  if (!keywords.number("PITCHMM")) take_binning(keywords, header.said);
   add_world(keywords, header.said, where);
   for (int step = 1; const auto made = keywords.text(fmt::format("MADE{}", step)); ++step) {
     header.said.header.history.push_back(*made);

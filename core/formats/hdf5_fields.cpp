@@ -10,6 +10,7 @@
 
 #include "core/base/errors.h"
 #include "core/base/number_text.h"
+#include "core/base/word_list.h"
 #include "core/formats/field_name.h"
 #include "core/map/value_units.h"
 
@@ -69,7 +70,7 @@ std::vector<MapField> fields_of_group(const Hdf5File& file, const std::string& g
     if (!speaks) continue;
     const auto value = file.attribute(group, name);
     // Of what has no topic, a text may still say something.
-    const bool elsewhere = std::find(kReadElsewhere.begin(), kReadElsewhere.end(), name) != kReadElsewhere.end();
+    const bool elsewhere = is_among(name, kReadElsewhere);
     if (known.topic == MapTopic::Other && (elsewhere || !value || value->texts.empty())) continue;
     fields.push_back(hdf5_field(name, value, fmt::format("attribute {} of HDF5 group '{}'", name, group)));
   }
@@ -111,14 +112,14 @@ std::string unit_of_array_name(const std::string& name) {
   constexpr std::array<std::string_view, 12> kArrays{"z",   "height", "heights", "opd", "surface", "sag",
                                                      "map", "figure", "error",   "x",   "y",       "data"};
   const bool doubtful = lower_case(unit) == "m" || lower_case(unit) == "in" || lower_case(unit) == "pm";
-  const bool array = std::find(kArrays.begin(), kArrays.end(), lower_case(before)) != kArrays.end();
+  const bool array = is_among(lower_case(before), kArrays);
   return doubtful && !array ? "" : unit;
 }
 
 std::vector<MapField> fields_of_data_set(const Hdf5File& file, const std::string& path) {
   std::vector<MapField> fields;
   for (const std::string& name : file.attributes(path)) {
-    if (std::find(kReadElsewhere.begin(), kReadElsewhere.end(), name) != kReadElsewhere.end()) continue;
+    if (is_among(name, kReadElsewhere)) continue;
     fields.push_back(
         hdf5_field(name, file.attribute(path, name), fmt::format("attribute {} of HDF5 data set '{}'", name, path)));
   }

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "core/base/number_text.h"
+#include "core/base/word_list.h"
 #include "core/formats/map_terms.h"
 #include "core/map/value_units.h"
 
@@ -72,7 +73,7 @@ std::vector<HeaderKey> header_captions(std::string_view text) {
 bool speaks_of_coordinates(const HeaderKey& key) {
   constexpr std::array<std::string_view, 8> kWords{"coordinates", "coords",      "coordinate", "positions",
                                                    "koordinaten", "coordonnees", "laterals",   "lateral"};
-  return key.words.size() == 1 && key.axis != 'z' && std::find(kWords.begin(), kWords.end(), key.stem) != kWords.end();
+  return key.words.size() == 1 && key.axis != 'z' && is_among(key.stem, kWords);
 }
 
 bool speaks_of_everything(const HeaderKey& key) {
@@ -87,7 +88,7 @@ bool is_optical_unit(std::string_view text) {
                                                     "count",  "degrees", "lsb",    "\xce\xbb"};
   std::string word = lower_case(trim(text));
   if (word.size() > 2 && (word.front() == '(' || word.front() == '[')) word = word.substr(1, word.size() - 2);
-  return std::find(kWords.begin(), kWords.end(), word) != kWords.end();
+  return is_among(word, kWords);
 }
 
 bool holds_a_length(std::string_view text) {

@@ -8,16 +8,12 @@
 
 #include "core/base/number_text.h"
 #include "core/base/units.h"
+#include "core/base/word_list.h"
 #include "core/formats/map_terms.h"
 #include "core/map/value_units.h"
 
 namespace dwell {
 namespace {
-
-template <std::size_t n>
-bool is_one_of(std::string_view word, const std::array<std::string_view, n>& words) {
-  return std::find(words.begin(), words.end(), word) != words.end();
-}
 
 constexpr std::array<std::string_view, 33> kWordsThatSayNothing{
     "in",   "is",  "are",  "the",  "of",  "all", "a",   "given", "map",    "and",  "per",
@@ -92,7 +88,7 @@ void take_words(HeaderKey& key, const std::vector<std::string>& parts, std::stri
       if (key.every_axis) key.axis = 'z';
     } else if (bracketed) {
       key.remark = word;
-    } else if (!is_one_of(word, kWordsThatSayNothing)) {
+    } else if (!is_among(word, kWordsThatSayNothing)) {
       key.words.push_back(word);
     }
   }
@@ -143,7 +139,7 @@ bool take_length(std::string_view& rest, HeaderLengths& lengths, bool& has_unit)
   rest = trim(rest.substr(size));
   const std::string unit = lower_case(unit_word(rest));
   if (unit.empty()) return true;
-  if (is_one_of(unit, kPixelWords)) {
+  if (is_among(unit, kPixelWords)) {
     lengths.pixels = true;
     return !has_unit;
   }
@@ -152,14 +148,6 @@ bool take_length(std::string_view& rest, HeaderLengths& lengths, bool& has_unit)
   has_unit = true;
   lengths.length = length;
   return true;
-}
-
-/// The text with the sign of multiplication as a letter x.
-std::string plain_times(std::string_view text) {
-  constexpr std::string_view kTimes = "\xc3\x97";
-  std::string plain(text);
-  for (std::size_t at = 0; (at = plain.find(kTimes, at)) != std::string::npos;) plain.replace(at, kTimes.size(), " x ");
-  return plain;
 }
 
 }  // namespace
@@ -187,7 +175,7 @@ std::vector<double> HeaderLengths::mm(double otherwise) const {
 }
 
 std::optional<HeaderLengths> parse_header_lengths(std::string_view text, std::size_t most) {
-  const std::string plain = plain_times(trim(text));
+  const std::string plain = with_letter_times(trim(text));
   std::string_view rest = plain;
   cut_per_pixel(rest);
   if (rest.size() >= 2 && (rest.front() == '[' || rest.front() == '(')) {

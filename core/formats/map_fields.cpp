@@ -8,6 +8,7 @@
 #include "core/base/errors.h"
 #include "core/base/number_text.h"
 #include "core/base/units.h"
+#include "core/base/word_list.h"
 #include "core/formats/field_name.h"
 #include "core/formats/remark_guard.h"
 #include "core/map/value_units.h"
@@ -98,8 +99,7 @@ class MapFieldsReader {
         "s",   "sec", "ms", "us",  "hz",   "khz", "mhz",     "ghz",    "k",     "c",     "v",
         "mv",  "a",   "ma", "w",   "mw",   "kg",  "g",       "n",      "pa",    "deg",   "degree",
         "rpm", "%",   "px", "adu", "mbar", "bar", "percent", "pixels", "pixel", "counts"};
-    return field.texts.size() == 1 && std::find(std::begin(kNoHeights), std::end(kNoHeights),
-                                                lower_case(trim(field.texts.front()))) != std::end(kNoHeights);
+    return field.texts.size() == 1 && is_among(lower_case(trim(field.texts.front())), kNoHeights);
   }
 
   void take_unit(const MapField& field, const std::string& unit) {

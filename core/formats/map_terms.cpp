@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/number_text.h"
+#include "core/base/word_list.h"
 
 namespace dwell {
 namespace {
@@ -90,11 +91,6 @@ std::vector<MapTerm> table_of_terms() {
   }
   std::stable_sort(terms.begin(), terms.end(), [](const MapTerm& a, const MapTerm& b) { return a.word < b.word; });
   return terms;
-}
-
-template <std::size_t n>
-bool is_among(std::string_view word, const std::array<std::string_view, n>& words) {
-  return std::find(words.begin(), words.end(), word) != words.end();
 }
 
 constexpr std::array<std::string_view, 49> kValueWords{
@@ -199,6 +195,13 @@ bool is_unit_name(std::string_view word) {
   constexpr std::array<std::string_view, 8> kUnits{"unit",      "units", "uom",    "einheit",
                                                    "einheiten", "unite", "unites", "masseinheit"};
   return is_among(word, kUnits);
+}
+
+std::string with_letter_times(std::string_view text) {
+  constexpr std::string_view kTimes = "\xc3\x97";
+  std::string plain(text);
+  for (std::size_t at = 0; (at = plain.find(kTimes, at)) != std::string::npos;) plain.replace(at, kTimes.size(), " x ");
+  return plain;
 }
 
 }  // namespace dwell

@@ -49,6 +49,9 @@ const MapTerm* find_map_term(std::string_view word, bool along_axis);
 /// "unite", in UTF-8 or Latin-1. The signs of micrometre and angstrom stay.
 std::string fold_letters(std::string_view text);
 
+/// The text with the sign of multiplication as a letter x between blanks.
+std::string with_letter_times(std::string_view text);
+
 /// Whether a folded word speaks of the values of a map: height, surface, error. Not wavefront: what surface makes one
 /// depends on the test.
 bool is_value_word(std::string_view word);

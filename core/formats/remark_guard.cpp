@@ -29,23 +29,22 @@ bool speaks_of_places(const Remark& words, std::size_t at) {
   const std::string& word = words[at].folded;
   const bool is_so_long = at + 2 < words.size() && words[at + 1].before == '=' && words[at + 1].number &&
                           known_length_unit(words[at + 2].text);
-  if (is_so_long && is_word_of(word, kPixelNames)) return true;  // "1 px = 0.1 mm"
+  if (is_so_long && is_among(word, kPixelNames)) return true;  // "1 px = 0.1 mm"
   const std::size_t slash = word.find('/');
   if (slash != std::string::npos && known_length_unit(word.substr(0, slash)) &&
-      is_word_of(word.substr(slash + 1), kPixelNames))
+      is_among(word.substr(slash + 1), kPixelNames))
     return true;
   if (at + 1 < words.size() && word == "per" && at > 0) {
-    return known_length_unit(words[at - 1].text) && is_word_of(words[at + 1].folded, kPixelNames);
+    return known_length_unit(words[at - 1].text) && is_among(words[at + 1].folded, kPixelNames);
   }
-  if (at + 1 < words.size() && is_word_of(word, kPixelNames) && is_word_of(words[at + 1].folded, kOfPixels))
-    return true;
-  const bool unit = is_word_of(word, kPixelNames) ||
+  if (at + 1 < words.size() && is_among(word, kPixelNames) && is_among(words[at + 1].folded, kOfPixels)) return true;
+  const bool unit = is_among(word, kPixelNames) ||
                     (unit_of_word(words, at) && known_length_unit(word) != std::optional(units::kNmPerMm));
   if (!unit || follows_a_number(words, at) || !is_announced(words, at)) return false;
   const std::size_t begin = clause_of(words, at);
   return std::any_of(words.begin() + static_cast<std::ptrdiff_t>(begin),
                      words.begin() + static_cast<std::ptrdiff_t>(at),
-                     [&](const RemarkWord& before) { return is_word_of(before.folded, kPlaces); });
+                     [&](const RemarkWord& before) { return is_among(before.folded, kPlaces); });
 }
 
 /// "all lengths in m": the coordinates too.
@@ -56,13 +55,12 @@ bool speaks_of_all(const Remark& words, std::size_t at) {
   return known_length_unit(words[at].text) != std::optional(units::kNmPerMm) && !holds_value_word(words, begin, at) &&
          std::any_of(words.begin() + static_cast<std::ptrdiff_t>(begin),
                      words.begin() + static_cast<std::ptrdiff_t>(at),
-                     [&](const RemarkWord& word) { return is_word_of(word.folded, kAll); });
+                     [&](const RemarkWord& word) { return is_among(word.folded, kAll); });
 }
 
 template <std::size_t n>
 bool any_among(const Remark& words, const std::array<std::string_view, n>& known) {
-  return std::any_of(words.begin(), words.end(),
-                     [&](const RemarkWord& word) { return is_word_of(word.folded, known); });
+  return std::any_of(words.begin(), words.end(), [&](const RemarkWord& word) { return is_among(word.folded, known); });
 }
 
 bool speaks_of_rows(const Remark& words) {
@@ -80,7 +78,7 @@ bool speaks_of_rows(const Remark& words) {
   for (std::size_t i = 0; i < words.size(); ++i) {
     const std::size_t next = i + 1 < words.size() && words[i + 1].folded == "by" ? i + 2 : i + 1;
     const bool by_nothing = next < words.size() && finite_number(words[next].text) == std::optional(0.0);
-    if (is_word_of(words[i].folded, kTurned) && !by_nothing) return true;
+    if (is_among(words[i].folded, kTurned) && !by_nothing) return true;
   }
   return any_among(words, kRowWords) && any_among(words, kTop);
 }
@@ -94,9 +92,9 @@ bool speaks_of_an_origin(const Remark& words, std::size_t at) {
   constexpr std::array<std::string_view, 9> kBetween{"at", "of", "is", "by", "bei", "um", "a", "en", "von"};
   constexpr std::array<std::string_view, 12> kSpots{"center", "centre", "middle", "mitte", "corner",   "left",
                                                     "right",  "bottom", "lower",  "ecke",  "centered", "milieu"};
-  if (!is_word_of(words[at].folded, kPlaces)) return false;
+  if (!is_among(words[at].folded, kPlaces)) return false;
   std::size_t next = at + 1;
-  while (next < words.size() && is_word_of(words[next].folded, kBetween)) ++next;
+  while (next < words.size() && is_among(words[next].folded, kBetween)) ++next;
   if (next >= words.size()) return false;
   const bool origin = words[at].folded.starts_with("ori") || words[at].folded == "ursprung";
   if (origin) {
@@ -125,8 +123,8 @@ bool speaks_of_no_data(const Remark& words) {
   for (std::size_t i = 0; i < words.size(); ++i) {
     if (!finite_number(words[i].text)) continue;
     const bool of_unit = i + 1 < words.size() && (known_value_unit(words[i + 1].text) || words[i + 1].text == "%");
-    const bool said = (i > 0 && (is_word_of(words[i - 1].folded, kSet) || words[i].before == '=')) ||
-                      (i + 1 < words.size() && (words[i + 1].before == '=' || is_word_of(words[i + 1].folded, kSet)));
+    const bool said = (i > 0 && (is_among(words[i - 1].folded, kSet) || words[i].before == '=')) ||
+                      (i + 1 < words.size() && (words[i + 1].before == '=' || is_among(words[i + 1].folded, kSet)));
     if (said && !of_unit) return true;
   }
   return false;

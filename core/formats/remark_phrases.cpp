@@ -96,7 +96,7 @@ bool is_of_another_quantity(const Remark& words, std::size_t at) {
   if (holds_value_word(words, begin, at)) return false;
   return std::any_of(words.begin() + static_cast<std::ptrdiff_t>(begin),
                      words.begin() + static_cast<std::ptrdiff_t>(at),
-                     [](const RemarkWord& word) { return is_word_of(word.folded, kOtherQuantities); });
+                     [](const RemarkWord& word) { return is_among(word.folded, kOtherQuantities); });
 }
 
 bool names_a_number(const Remark& words, std::size_t at) {
@@ -107,7 +107,7 @@ bool names_a_number(const Remark& words, std::size_t at) {
 
 bool follows_a_number(const Remark& words, std::size_t at) {
   if (at == 0 || words[at].before != ' ') return false;
-  return words[at - 1].number || is_word_of(words[at - 1].folded, kNumberWords);
+  return words[at - 1].number || is_among(words[at - 1].folded, kNumberWords);
 }
 
 bool is_announced(const Remark& words, std::size_t at) {
@@ -119,7 +119,7 @@ std::optional<double> unit_of_word(const Remark& words, std::size_t at) {
   constexpr std::array<std::string_view, 4> kCommon{"m", "pm", "meter", "metre"};
   const RemarkWord& word = words[at];
   if (word.folded == "in") return std::nullopt;
-  if (is_word_of(word.folded, kCommon) && (!is_announced(words, at) || word.text == "M" || (word.dot && at == 0)))
+  if (is_among(word.folded, kCommon) && (!is_announced(words, at) || word.text == "M" || (word.dot && at == 0)))
     return std::nullopt;
   if (const auto unit = known_value_unit(word.text)) return unit;
   // "z/um" and "height_nm" hold their unit.

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/word_list.h"
 #include "core/formats/remark_words.h"
 
 namespace dwell {
@@ -13,11 +14,6 @@ namespace dwell {
 // What stands around a word of a remark, for the rules of the last guard (core/formats/remark_guard.h).
 
 using Remark = std::vector<RemarkWord>;
-
-template <std::size_t n>
-bool is_word_of(std::string_view word, const std::array<std::string_view, n>& words) {
-  return std::find(words.begin(), words.end(), word) != words.end();
-}
 
 /// Whether a word for the values stands between the two places.
 bool holds_value_word(const Remark& words, std::size_t from, std::size_t to);

@@ -39,11 +39,11 @@ bool speaks_of_a_unit(const Remark& words, std::size_t at) {
 }
 
 bool speaks_of_waves(const Remark& words, std::size_t at) {
-  if (!is_word_of(words[at].folded, kWaves) || follows_a_number(words, at) || is_of_another_quantity(words, at))
+  if (!is_among(words[at].folded, kWaves) || follows_a_number(words, at) || is_of_another_quantity(words, at))
     return false;
   if (names_a_number(words, at)) return false;
   constexpr std::array<std::string_view, 5> kAlsoProse{"wave", "fringe", "count", "counts", "fringes"};
-  if (is_word_of(words[at].folded, kAlsoProse)) return is_announced(words, at) && words[at].before != ',';
+  if (is_among(words[at].folded, kAlsoProse)) return is_announced(words, at) && words[at].before != ',';
   return is_announced(words, at) || holds_value_word(words, clause_of(words, at), at);
 }
 
@@ -52,13 +52,13 @@ bool is_per_count(const Remark& words, std::size_t at) {
   const std::size_t slash = word.find('/');
   if (slash != std::string::npos) {
     const std::string above = word.substr(0, slash), below = word.substr(slash + 1);
-    return (known_length_unit(above) && is_word_of(below, kCounts)) ||
-           (is_word_of(above, kCounts) && known_length_unit(below));
+    return (known_length_unit(above) && is_among(below, kCounts)) ||
+           (is_among(above, kCounts) && known_length_unit(below));
   }
   if (word != "per" || at == 0 || at + 1 == words.size()) return false;
   const std::string &above = words[at - 1].folded, &below = words[at + 1].folded;
-  return (known_length_unit(above) && is_word_of(below, kCounts)) ||
-         (is_word_of(above, kCounts) && known_length_unit(below));
+  return (known_length_unit(above) && is_among(below, kCounts)) ||
+         (is_among(above, kCounts) && known_length_unit(below));
 }
 
 bool is_a_factor(const Remark& words, std::size_t at) {
@@ -67,9 +67,9 @@ bool is_a_factor(const Remark& words, std::size_t at) {
       "multiply", "divided",       "divide",    "amplified",  "faktor",      "skaliert",    "facteur", "multiplie",
       "divise",   "multipliziert", "dividiert", "geteilt",    "scalefactor", "lsb"};
   constexpr std::array<std::string_view, 8> kBetween{"by", "of", "is", "mit", "durch", "par", "with", "von"};
-  if (is_word_of(words[at].folded, kVerbs)) {
+  if (is_among(words[at].folded, kVerbs)) {
     std::size_t next = at + 1;
-    while (next < words.size() && is_word_of(words[next].folded, kBetween)) ++next;
+    while (next < words.size() && is_among(words[next].folded, kBetween)) ++next;
     if (next < words.size() && words[next].number && number_of(words[next]).value_or(0.0) != 1.0) return true;
   }
   const bool values = holds_value_word(words, clause_of(words, at), at);
@@ -82,7 +82,7 @@ bool is_a_factor(const Remark& words, std::size_t at) {
       !known_value_unit(words[at + 1].text))
     return false;
   constexpr std::array<std::string_view, 4> kSteps{"units", "unit", "steps", "multiples"};
-  const bool of = at > 1 && words[at - 1].folded == "of" && is_word_of(words[at - 2].folded, kSteps);
+  const bool of = at > 1 && words[at - 1].folded == "of" && is_among(words[at - 2].folded, kSteps);
   const bool in = at > 0 && (of || words[at - 1].folded == "in" || words[at - 1].text == "/");
   if (is_power_of_ten(words[at].text)) return values || in || words[at].bracketed();
   const bool small = known_value_unit(words[at + 1].text).value_or(0.0) < units::kNmPerMm;

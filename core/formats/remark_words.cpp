@@ -35,18 +35,10 @@ void finish(RemarkWord& word) {
   word.number = begins_with_number(word.text) || is_digit(word.text.back());
 }
 
-/// The text with the sign of multiplication as a letter x.
-std::string with_plain_times(std::string_view text) {
-  constexpr std::string_view kTimes = "\xc3\x97";
-  std::string plain(text);
-  for (std::size_t at = 0; (at = plain.find(kTimes, at)) != std::string::npos;) plain.replace(at, kTimes.size(), " x ");
-  return plain;
-}
-
 }  // namespace
 
 std::vector<RemarkWord> remark_words(std::string_view remark) {
-  const std::string text = with_plain_times(remark);
+  const std::string text = with_letter_times(remark);
   std::vector<RemarkWord> words;
   RemarkWord word;
   word.clause = true;

@@ -15,6 +15,7 @@
 #include "core/base/errors.h"
 #include "core/base/number_text.h"
 #include "core/base/units.h"
+#include "core/base/word_list.h"
 #include "core/formats/map_fields.h"
 #include "core/formats/map_header.h"
 #include "core/formats/text_grid.h"
@@ -106,7 +107,7 @@ class SdfHeader {
                                                              "zresolution", "compression", "datatype", "checktype"};
     std::vector<MapField> fields;
     for (const auto& [name, value] : fields_) {
-      if (std::find(kKnown.begin(), kKnown.end(), name) == kKnown.end()) {
+      if (!is_among(name, kKnown)) {
         fields.push_back(other_field(name, value, "SDF header field"));
       }
     }
@@ -118,7 +119,7 @@ class SdfHeader {
     static constexpr std::array<std::string_view, 16> kTypes{
         "0",     "1",        "2",        "3",     "4",    "5",       "6",       "7",
         "uchar", "uinteger", "ulongint", "float", "char", "integer", "longint", "double"};
-    if (std::find(kTypes.begin(), kTypes.end(), lower_case(text("DataType"))) == kTypes.end()) {
+    if (!is_among(lower_case(text("DataType")), kTypes)) {
       refuse("DataType", "0 to 7");
     }
   }

@@ -9,6 +9,7 @@
 #include "core/base/errors.h"
 #include "core/base/number_text.h"
 #include "core/base/units.h"
+#include "core/base/word_list.h"
 #include "core/formats/header_statements.h"
 #include "core/formats/remark_guard.h"
 #include "core/formats/text_comment.h"
@@ -33,7 +34,7 @@ bool names_heights(const std::string& shown) {
                                                       "werte", "valeur", "valeurs", "donnees"};
   const HeaderKey key = parse_header_key(shown);
   return key.axis == 'z' || std::any_of(key.words.begin(), key.words.end(), [&](const std::string& word) {
-           return is_value_word(word) && std::find(kAnything.begin(), kAnything.end(), word) == kAnything.end();
+           return is_value_word(word) && !is_among(word, kAnything);
          });
 }
 

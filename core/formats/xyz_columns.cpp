@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/number_text.h"
+#include "core/base/word_list.h"
 #include "core/map/value_units.h"
 
 namespace dwell {
@@ -84,11 +85,6 @@ constexpr std::array<std::string_view, 20> kOtherColumns{
     "height", "heights", "h",       "dz",   "sag",   "value",   "rate",      "index", "id",    "sigma",
     "error",  "weight",  "weights", "mask", "valid", "quality", "intensity", "pos",   "point", "line"};
 
-template <class Words>
-bool is_among(const Words& words, std::string_view word) {
-  return std::find(words.begin(), words.end(), word) != words.end();
-}
-
 std::string_view uncommented(std::string_view line) {
   line = trim(line);
   while (!line.empty() && line.front() == '#') line = trim(line.substr(1));
@@ -104,9 +100,9 @@ bool names_other_columns(std::string_view line) {
       ++units;
     } else if (word.front() != '(' && word.front() != '[') {
       const std::string name = named_column(word).name;
-      if (!is_among(kPlaceColumns, name) && !is_among(kOtherColumns, name)) return false;
+      if (!is_among(name, kPlaceColumns) && !is_among(name, kOtherColumns)) return false;
       ++names;
-      places += is_among(kPlaceColumns, name) ? 1 : 0;
+      places += is_among(name, kPlaceColumns) ? 1 : 0;
     }
   }
   return names == 0 ? units > 0 : places > 1;
@@ -116,7 +112,7 @@ std::optional<XyzColumns> parse_xyz_columns(std::string_view line) {
   std::vector<NamedColumn> columns = named_columns_of(lower_case(uncommented(line)));
   if (columns.size() != 3 || columns[0].name != "x" || columns[1].name != "y") return std::nullopt;
   constexpr std::array<std::string_view, 8> kThird{"z", "height", "heights", "h", "dz", "sag", "value", "rate"};
-  if (std::find(kThird.begin(), kThird.end(), columns[2].name) == kThird.end()) return std::nullopt;
+  if (!is_among(columns[2].name, kThird)) return std::nullopt;
   // "x, y in mm, z in nm": the unit behind y is that of both.
   if (columns[0].unit.empty() && columns[1].unit_apart) columns[0].unit = columns[1].unit;
   const bool apart = columns[0].unit.empty() && columns[1].unit.empty() && columns[2].unit_apart;

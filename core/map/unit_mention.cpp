@@ -6,15 +6,11 @@
 
 #include "core/base/number_text.h"
 #include "core/base/units.h"
+#include "core/base/word_list.h"
 #include "core/map/value_units.h"
 
 namespace dwell {
 namespace {
-
-template <std::size_t n>
-bool is_any_of(std::string_view word, const std::array<std::string_view, n>& words) {
-  return std::find(words.begin(), words.end(), word) != words.end();
-}
 
 /// Words of the trade for units that no number here is ever in.
 constexpr std::array<std::string_view, 12> kForeignWords{
@@ -92,15 +88,15 @@ bool is_quotient_of_length(std::string_view word) {
 }
 
 bool is_any_unit(std::string_view word) {
-  return known_length_unit(word) || is_quotient_of_length(word) || is_any_of(word, kForeignWords) ||
-         is_any_of(word, kOtherTimes);
+  return known_length_unit(word) || is_quotient_of_length(word) || is_among(word, kForeignWords) ||
+         is_among(word, kOtherTimes);
 }
 
 /// Whether a word is too long to be anything but a unit: "inches", "microns", "mm/s". "minutes" and "hours" are prose.
 bool is_unmistakable(std::string_view word) {
   constexpr std::size_t kLongestSign = 3;
   if (is_quotient_of_length(word) || word == "imperial" || word == "ipm") return true;
-  return word.size() > kLongestSign && (known_length_unit(word) || is_any_of(word, kForeignWords)) && word != "foot" &&
+  return word.size() > kLongestSign && (known_length_unit(word) || is_among(word, kForeignWords)) && word != "foot" &&
          word != "feet" && word != "meter" && word != "thou";
 }
 
@@ -151,7 +147,7 @@ class OtherUnit {
     }
     if (!is_any_unit(word.text) || is_own_unit(word.text, milliseconds_)) return false;
     if (is_part_of_own_rate(i)) return false;
-    if (after_number(i)) return says_units() && !is_any_of(word.text, kOtherTimes);
+    if (after_number(i)) return says_units() && !is_among(word.text, kOtherTimes);
     return is_unmistakable(word.text) || stands_as_unit(i);
   }
 
@@ -171,8 +167,8 @@ class OtherUnit {
     if (i == 0) return false;
     const std::string_view before = words_[i - 1].text;
     if (before == "unit" || before == "units") return word.text != "in" || word.ends_clause;
-    if (word.text == "in") return word.ends_clause && is_any_of(before, kQuantities);
-    return before == "in" || before == "is" || before == "are" || is_any_of(before, kQuantities);
+    if (word.text == "in") return word.ends_clause && is_among(before, kQuantities);
+    return before == "in" || before == "is" || before == "are" || is_among(before, kQuantities);
   }
 
   bool after_number(std::size_t i) const {
@@ -190,7 +186,7 @@ class OtherUnit {
   bool speaks_of_heights(std::size_t i) const {
     const auto factor = known_value_unit(words_[i].text);
     if (!factor || *factor > units::kNmPerUm) return false;
-    const auto word_of = [](const auto& list) { return [&](const CommentWord& w) { return is_any_of(w.text, list); }; };
+    const auto word_of = [](const auto& list) { return [&](const CommentWord& w) { return is_among(w.text, list); }; };
     const auto here = words_.begin() + static_cast<std::ptrdiff_t>(i);
     return std::any_of(words_.begin(), here, word_of(kHeightWords)) &&
            std::none_of(words_.begin(), words_.end(), word_of(kQuantities));

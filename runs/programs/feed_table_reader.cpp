@@ -15,6 +15,7 @@
 #include "core/base/utf8_text.h"
 #include "core/base/value_range.h"
 #include "core/base/whole_file.h"
+#include "core/base/word_list.h"
 #include "core/map/unit_mention.h"
 #include "paths/feed/plan_program.h"
 #include "runs/programs/feed_table.h"
@@ -117,7 +118,7 @@ class FeedTableReader {
       rest.remove_prefix(std::min(rest.find_first_not_of(kSeparators), rest.size()));
       if (rest.empty()) return false;
       const std::string_view word = rest.substr(0, rest.find_first_of(kSeparators));
-      if (std::find(std::begin(kWords), std::end(kWords), word) != std::end(kWords)) return true;
+      if (is_among(word, kWords)) return true;
       rest.remove_prefix(word.size());
     }
   }

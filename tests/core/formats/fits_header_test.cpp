@@ -84,10 +84,14 @@ TEST(FitsHeader, KeepsWhatRemarksAndOtherKeywordsMaySay) {
   expect("FLIPY   =                    T", About::Rows, "FLIPY = 1");
   expect("NOTE    = 'residual, microns'", About::Unit, "FITS keyword NOTE");
   expect("GAIN    = 2.5", About::Factor, "GAIN = 2.5");
+  expect("OBJECT  = 'mirror 5' / heights in um", About::Unit, "comment behind keyword OBJECT");
+  expect("DATAMAX =                  4.0 / [um] largest height", About::Unit, "comment behind keyword DATAMAX");
   EXPECT_NE(read_with({"LTV1    = 12.0"}).unclear_origin.find("LTV1 = 12"), std::string::npos);
   for (const char* card :
-       {"HISTORY flipped in y by the pipeline", "COMMENT measured by Anna", "FLIPY   =                    F",
-        "LTV1    = 0.0", "OBJECT  = 'mirror 5'", "GAIN    = 1.0"}) {
+       {"SIMPLE  =                    T / conforms to FITS standard", "DATAMAX =                  4.0 / largest value",
+        "FOCUS   =                 12.0 / focal length in mm", "EXPTIME =                  3.0 / [s] exposure time",
+        "OBSERVER= 'Anna    ' / who measured", "HISTORY flipped in y by the pipeline", "COMMENT measured by Anna",
+        "FLIPY   =                    F", "LTV1    = 0.0", "OBJECT  = 'mirror 5'", "GAIN    = 1.0"}) {
     const MapSource source = read_with({card});
     EXPECT_TRUE(source.header.unclear.empty()) << card;
     EXPECT_EQ(source.unclear_origin, "") << card;
@@ -133,5 +137,27 @@ TEST(FitsHeader, TakesMarkersOfNoData) {
   refused({"ZSCALE  = 2.0"}, {"ZSCALE = 2", "1 (heights as they are)"});
 }
 
+// Whether a pixel's size is that before or after binning, no header says.
+TEST(FitsHeader, APitchBesideBinningIsLeftOpen) {
+  const std::vector<std::string> pitch{"PIXSCALE=                  0.5 / [mm] pixel"};
+  const auto with = [&](const std::string& card) {
+    std::vector<std::string> cards = pitch;
+    cards.push_back(card);
+    return read_with(cards);
+  };
+  ASSERT_TRUE(read_with(pitch).header.pitch);
+  for (const char* card : {"XBINNING=                    2", "LTM1_1  =                  0.5", "CCDSUM  = '2 2     '",
+                           "LTM2_1  =                  0.1"}) {
+    const MapSource source = with(card);
+    EXPECT_FALSE(source.header.pitch) << card;
+    EXPECT_NE(source.pitch_hint.find(std::string(card).substr(0, 6)), std::string::npos) << source.pitch_hint;
+  }
+  for (const char* card : {"XBINNING=                    1", "LTM1_1  =                  1.0", "CCDSUM  = '1 1     '",
+                           "LTM2_1  =                  0.0"}) {
+    EXPECT_TRUE(with(card).header.pitch) << card;
+  }
+  const MapSource ours = read_with({"PITCHMM =                  0.5", "XBINNING=                    2"});
+  EXPECT_TRUE(ours.header.pitch);
+}
 }  // namespace
 }  // namespace dwell
