@@ -23,7 +23,7 @@ Instance make_instance(const Scenario& scenario, int threads) {
   const Parts parts = scenario.make();
   const Grid& grid = parts.map.grid;
   auto geometry = std::make_shared<RemovalGeometry>();
-  geometry->map = grid;
+  geometry->lattice = grid;
   geometry->pixels = finite_pixels(parts.map);
   geometry->kernel = removal_kernel(parts.tif, grid.pitch_x, grid.pitch_y);
   geometry->strokes = parts.moving ? moving_strokes(parts.path) : halting_strokes(parts.path);

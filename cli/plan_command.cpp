@@ -58,7 +58,7 @@ std::string plan_text(const PlannedJob& plan, const WrittenPlan& written) {
       plan.dwell.lattice.kernel.division.x, plan.dwell.lattice.kernel.division.y,
       plan.dwell.lattices > 1 ? fmt::format(" (solved {} times, each finer)", plan.dwell.lattices) : "");
   text += fmt::format("program   {} by simulating program.nc as read back\n", in_words(written.exact.statistics));
-  text += exact_lines(written.exact);
+  text += exact_lines(written.exact) + surface_lines(written.surface);
   text += fmt::format("time      {}, of which lifted moves at maximum feed {:.2f} s\n",
                       duration_text(written.total_seconds()), written.lift_seconds);
   for (const std::string& warning : written.warnings) text += fmt::format("warning   {}\n", warning);

@@ -16,9 +16,9 @@ RemovalGeometry removal_geometry(const Grid& map, const std::vector<Index>& pixe
 }
 
 std::unique_ptr<RemovalOperator> make_removal_operator(const RemovalGeometry& g) {
-  if (LatticeRemoval::commensurate(g.map, g.strokes))
-    return std::make_unique<LatticeRemoval>(g.map, g.pixels, g.kernel, g.strokes, g.threads);
-  return std::make_unique<ScatteredRemoval>(g.map, g.pixels, g.kernel, g.strokes, g.threads);
+  if (LatticeRemoval::commensurate(g.lattice, g.strokes))
+    return std::make_unique<LatticeRemoval>(g.lattice, g.pixels, g.kernel, g.strokes, g.threads);
+  return std::make_unique<ScatteredRemoval>(g.lattice, g.pixels, g.kernel, g.strokes, g.threads);
 }
 
 std::unique_ptr<RemovalOperator> make_removal_operator(

@@ -12,7 +12,7 @@ namespace dwell {
 /// What a removal operator is made of, as a value: which pixels are counted, what the tool removes, where it goes. From
 /// it, a solver can build the same operator on coarser pixels.
 struct RemovalGeometry {
-  Grid map;                   // or the inner lattice that divides its pixels (core/removal/inner_lattice.h)
+  Grid lattice;               // the map, or what divides its pixels (core/removal/inner_lattice.h)
   std::vector<Index> pixels;  // linear indices of the valid pixels in it, ascending
   RemovalKernel kernel;       // on its pitch
   std::vector<Stroke> strokes;

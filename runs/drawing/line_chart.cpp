@@ -125,9 +125,26 @@ void draw_frame(Sheet& sheet, const Axes& axes, const ChartPanel& panel) {
   sheet.text({box.left, box.top - 6.0}, panel.title, kStrong);
 }
 
-void draw_point(Sheet& sheet, Point at, bool marked, Colour colour) {
-  if (marked) sheet.disc(at, 5.5, kInk);
-  sheet.disc(at, marked ? 4.0 : 3.0, colour);
+/// `ring`: how much larger the point is drawn, so that those drawn over it leave a ring of it.
+void draw_point(Sheet& sheet, Point at, bool marked, Colour colour, double ring = 0.0) {
+  if (marked) sheet.disc(at, 5.5 + ring, kInk);
+  sheet.disc(at, (marked ? 4.0 : 3.0) + ring, colour);
+}
+
+/// The points of lines that are but a point. Those that would lie one over the other lie in one another.
+void draw_single_points(Sheet& sheet, const Axes& axes, const std::vector<ChartLine>& lines) {
+  constexpr double kHides = 5.0, kRing = 3.0;
+  std::vector<const ChartLine*> single;
+  for (const ChartLine& line : lines) {
+    if (line.points.size() == 1 && !axes.cut(line.points.front())) single.push_back(&line);
+  }
+  for (std::size_t k = 0; k < single.size(); ++k) {
+    const ChartPoint& p = single[k]->points.front();
+    const auto over = std::count_if(
+        single.begin() + static_cast<std::ptrdiff_t>(k) + 1, single.end(),
+        [&](const ChartLine* other) { return distance(axes.place(other->points.front()), axes.place(p)) < kHides; });
+    draw_point(sheet, axes.place(p), p.marked, single[k]->colour, kRing * static_cast<double>(over));
+  }
 }
 
 void draw_line(Sheet& sheet, const Axes& axes, const ChartLine& line) {
@@ -148,7 +165,7 @@ void draw_line(Sheet& sheet, const Axes& axes, const ChartLine& line) {
   }
   finish();
   for (const ChartPoint& p : line.points) {
-    if (axes.cut(p) || !(line.dots || p.marked || line.points.size() == 1)) continue;
+    if (axes.cut(p) || line.points.size() == 1 || !(line.dots || p.marked)) continue;
     draw_point(sheet, axes.place(p), p.marked, line.colour);
   }
 }
@@ -236,6 +253,7 @@ std::string draw_line_charts(const std::string& title, const std::string& mark, 
     draw_frame(sheet, axes[k], panels[k]);
     sheet.clip({axes[k].box.left - 6.0, axes[k].box.top - 6.0, axes[k].box.width + 12.0, axes[k].box.height + 12.0});
     for (const ChartLine& line : panels[k].lines) draw_line(sheet, axes[k], line);
+    draw_single_points(sheet, axes[k], panels[k].lines);
     sheet.unclip();
     label_bands(sheet, axes[k], panels[k].bands);
   }

@@ -4,6 +4,7 @@
 
 #include "runs/base/inputs_json.h"
 #include "runs/reports/map_report.h"
+#include "runs/reports/surface_sheet.h"
 
 namespace dwell {
 namespace {
@@ -57,20 +58,12 @@ Json curve_json(const CurveReport& c) {
 }
 
 Json spectrum_json(const SpectrumReport& s) {
-  Json bands = Json::array();
-  for (const BandRms& band : s.split.bands) {
-    bands.push_back({{"name", band.name},
-                     {"longest_mm", finite_or_null(band.longest)},
-                     {"shortest_mm", band.shortest},
-                     {"rms_nm", band.rms ? Json(*band.rms) : Json(nullptr)},
-                     {"note", band.note}});
-  }
   Json json = {{"window", to_string(s.window)},
                {"along_edge", s.holes},
                {"bridged_pixels", s.bridged},
                {"rms_nm", s.rms},
                {"resolved_wavelengths_mm", {s.shortest_wavelength, s.longest_wavelength}},
-               {"bands", bands},
+               {"bands", bands_json(s.split.bands)},
                {"longer_than_resolved_rms_nm", s.split.longer},
                {"shorter_than_resolved_rms_nm", s.split.shorter}};
   if (s.limit) json["limit"] = {{"radial", s.limit->radial}, {"a", s.limit->line.a}, {"b", s.limit->line.b}};
@@ -85,10 +78,7 @@ std::string map_report_json(const MapReport& report, const MapFigures& map, cons
   Json json = json_of_command("map");
   json["map"] = map_block(map);
   json["figure"] = {{"pvr_nm", report.robust ? Json(report.robust->pvr) : Json(nullptr)},
-                    {"slope_rms_urad",
-                     {{"x", finite_or_null(report.slope.x)},
-                      {"y", finite_or_null(report.slope.y)},
-                      {"total", finite_or_null(report.slope.total)}}}};
+                    {"slope_rms_urad", slope_json(report.slope)}};
   json["removed_form"] = form_block(report.removed, report.removed_fit);
   if (report.form) {
     json["form"] = form_block(*report.form, report.form_fit);

@@ -116,6 +116,8 @@ WrittenPlan write_plan(const PlannedJob& plan, const OutputFolder& folder, const
   WrittenPlan written;
   written.limits = plan.limits();
   written.exact = predict_program(plan.part(), program, plan.dwell.lattice.kernel, progress);
+  written.surface = surface_sheet(plan.part().figure, written.exact.surface, plan.part().tif.fwhm, plan.part().threads,
+                                  progress.of_part("simulate"));
   written.program_seconds = program.total_seconds();
   const DwellOptions options = dwell_options(plan.job.options);
   written.lift_seconds = lift_seconds(plan.laid.metrics, plan.job.options.lift_height_mm, options.machine);

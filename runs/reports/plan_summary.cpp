@@ -71,6 +71,7 @@ std::string plan_summary_text(const PlannedJob& plan, const WrittenPlan& written
                   {"residual", residual_block(to_string(plan.part().form), plan.dwell.residual)},
                   {"feed", feed_json(plan.program.feed, plan.laid.motion)},
                   {"program", program_json(written)},
+                  {"surface", surface_block(written.surface)},
                   {"total_s", written.total_seconds()},
                   {"lift_s", written.lift_seconds},
                   {"warnings", written.warnings},

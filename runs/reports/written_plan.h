@@ -5,12 +5,14 @@
 
 #include "core/removal/exact_residual.h"
 #include "runs/base/json_blocks.h"
+#include "runs/reports/surface_sheet.h"
 
 namespace dwell {
 
 /// What was written, and the surface that the program on disk leaves.
 struct WrittenPlan {
   ExactResidual exact;                // what the program leaves, as read back
+  SurfaceSheet surface;               // slopes and bands before, and of that surface
   double program_seconds = 0.0;       // of program.nc, as read back
   double lift_seconds = 0.0;          // of the lifted moves, whose time program.nc does not say
   std::vector<std::string> warnings;  // what a machine shop would question, a sentence each

@@ -81,7 +81,7 @@ Index finest_factor(const DwellProblem& problem) {
 /// Of an operator pair of the full problem, by transform_cost.
 double pair_cost(const DwellProblem& problem) {
   double sum = 0.0;
-  for (const DwellPart& part : problem.parts) sum += transform_cost(part.geometry->map, part.geometry->kernel);
+  for (const DwellPart& part : problem.parts) sum += transform_cost(part.geometry->lattice, part.geometry->kernel);
   return sum;
 }
 

@@ -15,7 +15,8 @@ std::vector<Index> all_nodes(const Grid& grid) {
 }  // namespace
 
 MatchedRemoval::MatchedRemoval(const DwellProblem& problem, const std::vector<Grid>& dwell, CoarseFactor factor)
-    : problem_(problem), pixels_(problem.parts.front().geometry->map, factor, problem.parts.front().geometry->threads) {
+    : problem_(problem),
+      pixels_(problem.parts.front().geometry->lattice, factor, problem.parts.front().geometry->threads) {
   const RemovalGeometry& g = *problem.parts.front().geometry;
   pixels_.add(g.pixels, problem.weights.cwiseAbs2(), SplineGram::Take::Value, 1.0);
   const Grid& lattice = pixels_.lattice();
@@ -34,7 +35,7 @@ MatchedRemoval::MatchedRemoval(const DwellProblem& problem, const std::vector<Gr
     const RemovalKernel kernel = matched_kernel(of_part.kernel, factor);
     add_tool(kernel, dwell[k]);
     coarse += transform_cost(lattice, kernel);
-    fine += transform_cost(of_part.map, of_part.kernel);
+    fine += transform_cost(of_part.lattice, of_part.kernel);
   }
   surface_.resize(lattice.size());
   if (tools_.size() > 1) of_tool_.resize(lattice.size());

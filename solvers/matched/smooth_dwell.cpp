@@ -31,8 +31,8 @@ void add_sums(const Vector& by_pixel, SplineGram::Take take, double scale, Splin
 }  // namespace
 
 SmoothDwell::SmoothDwell(const RemovalGeometry& g, CoarseFactor factor)
-    : cover_(cover_of(g.map, dwell_lattice(g, factor), factor)),
-      origin_(g.map.origin),
+    : cover_(cover_of(g.lattice, dwell_lattice(g, factor), factor)),
+      origin_(g.lattice.origin),
       points_(SplineGram::lattice_of(cover_, factor), g.strokes, StrokePart::Via, g.threads) {}
 
 // Every node of the coarse lattice is one of this lattice's, so B-splines on it are sums of those here.
@@ -142,7 +142,7 @@ SmoothDwellHessian::Sums SmoothDwellHessian::make_sums(const DwellProblem& probl
                                                        const SmoothDwell& dwell, CoarseFactor factor) {
   const RemovalGeometry& g = *part.geometry;
   const Grid& cover = dwell.cover();
-  Sums result{{cover, factor, g.threads}, {cover, factor, g.threads}, {dwell.lattice(), g.map.origin}, {}};
+  Sums result{{cover, factor, g.threads}, {cover, factor, g.threads}, {dwell.lattice(), g.lattice.origin}, {}};
   const auto pixel = [&](const Stroke& s) {
     // Strokes far off are at the edge, as they are for SplineSpreading.
     const auto nearest = [](double at, Index lines) {

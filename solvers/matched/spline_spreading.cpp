@@ -145,8 +145,8 @@ DwellLattice dwell_lattice(const RemovalGeometry& g, CoarseFactor factor) {
       last = std::max(last, cell);
     }
   };
-  Range y(g.map.origin.y, g.map.pitch_y, g.map.rows, g.kernel.half_rows, factor.y);
-  Range x(g.map.origin.x, g.map.pitch_x, g.map.cols, g.kernel.half_cols, factor.x);
+  Range y(g.lattice.origin.y, g.lattice.pitch_y, g.lattice.rows, g.kernel.half_rows, factor.y);
+  Range x(g.lattice.origin.x, g.lattice.pitch_x, g.lattice.cols, g.kernel.half_cols, factor.x);
   for (const Stroke& s : g.strokes) {
     for (const Point p : {s.start, s.via, s.finish}) {
       y.take(p.y);
@@ -154,8 +154,8 @@ DwellLattice dwell_lattice(const RemovalGeometry& g, CoarseFactor factor) {
     }
   }
   if (g.strokes.empty()) {
-    y.take(g.map.origin.y);
-    x.take(g.map.origin.x);
+    y.take(g.lattice.origin.y);
+    x.take(g.lattice.origin.x);
   }
   DwellLattice result;
   result.first_row = static_cast<Index>(y.first) - 1;

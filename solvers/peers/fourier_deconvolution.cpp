@@ -32,7 +32,8 @@ class WienerFilter {
       : g_(*p.parts.front().geometry),
         margin_rows_(2 * g_.kernel.half_rows),
         margin_cols_(2 * g_.kernel.half_cols),
-        fft_(good_fft_size(g_.map.rows + 2 * margin_rows_), good_fft_size(g_.map.cols + 2 * margin_cols_), g_.threads) {
+        fft_(good_fft_size(g_.lattice.rows + 2 * margin_rows_), good_fft_size(g_.lattice.cols + 2 * margin_cols_),
+             g_.threads) {
     load_kernel();
     const double raise = piston_is_free(p) && p.pixels() > 0 ? -p.target.minCoeff() : 0.0;
     load_target(p.target.array() + raise);
@@ -70,7 +71,7 @@ class WienerFilter {
     for (Index r = -g_.kernel.half_rows; r <= g_.kernel.half_rows; ++r) {
       for (Index c = -g_.kernel.half_cols; c <= g_.kernel.half_cols; ++c) {
         fft_.real()[node(r, c)] =
-            g_.kernel.rate({g_.map.pitch_x * static_cast<double>(c), g_.map.pitch_y * static_cast<double>(r)});
+            g_.kernel.rate({g_.lattice.pitch_x * static_cast<double>(c), g_.lattice.pitch_y * static_cast<double>(r)});
       }
     }
     kernel_ = transformed();
@@ -88,7 +89,7 @@ class WienerFilter {
   void put(const Vector& values) {
     clear();
     for (std::size_t i = 0; i < g_.pixels.size(); ++i)
-      fft_.real()[node(g_.pixels[i] / g_.map.cols, g_.pixels[i] % g_.map.cols)] = values[static_cast<Index>(i)];
+      fft_.real()[node(g_.pixels[i] / g_.lattice.cols, g_.pixels[i] % g_.lattice.cols)] = values[static_cast<Index>(i)];
   }
 
   void load_target(const Vector& values) {
@@ -97,7 +98,7 @@ class WienerFilter {
     constexpr double kSeen = 1e-3;  // of the removal function; less is rounding and falls to zero
     put(values);
     std::vector<char> known(sum.size(), 0);
-    for (const Index pixel : g_.pixels) known[node(pixel / g_.map.cols, pixel % g_.map.cols)] = 1;
+    for (const Index pixel : g_.pixels) known[node(pixel / g_.lattice.cols, pixel % g_.lattice.cols)] = 1;
     for (std::size_t k = 0; k < sum.size(); ++k) {
       if (!known[k] && share[k] > kSeen * most) fft_.real()[k] = sum[k] / share[k];
     }
@@ -106,9 +107,10 @@ class WienerFilter {
 
   /// The field at a point, bilinear; zero beyond the margin.
   double at(Point p) {
-    const double u = (p.x - g_.map.origin.x) / g_.map.pitch_x, v = (p.y - g_.map.origin.y) / g_.map.pitch_y;
-    const auto rows = static_cast<double>(g_.map.rows + margin_rows_ - 1);
-    const auto cols = static_cast<double>(g_.map.cols + margin_cols_ - 1);
+    const double u = (p.x - g_.lattice.origin.x) / g_.lattice.pitch_x,
+                 v = (p.y - g_.lattice.origin.y) / g_.lattice.pitch_y;
+    const auto rows = static_cast<double>(g_.lattice.rows + margin_rows_ - 1);
+    const auto cols = static_cast<double>(g_.lattice.cols + margin_cols_ - 1);
     if (!(u > -static_cast<double>(margin_cols_) && v > -static_cast<double>(margin_rows_) && u < cols && v < rows))
       return 0.0;
     const auto row = static_cast<Index>(std::floor(v)), col = static_cast<Index>(std::floor(u));

@@ -45,7 +45,9 @@ double DwellProblem::upper_at(Index j) const {
 
 namespace {
 
-bool same_pixels(const RemovalGeometry& a, const RemovalGeometry& b) { return a.map == b.map && a.pixels == b.pixels; }
+bool same_pixels(const RemovalGeometry& a, const RemovalGeometry& b) {
+  return a.lattice == b.lattice && a.pixels == b.pixels;
+}
 
 void validate_parts(const DwellProblem& p) {
   if (p.parts.empty()) return;

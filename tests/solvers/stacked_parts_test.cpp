@@ -200,7 +200,7 @@ TEST(TwoTools, AreRefusedWhereTheyDoNotFit) {
   refused(
       [](DwellProblem& p) {
         RemovalGeometry moved = *p.parts[1].geometry;
-        moved.map.origin.x += 1.0;
+        moved.lattice.origin.x += 1.0;
         p.parts[1].geometry = std::make_shared<const RemovalGeometry>(moved);
       },
       "parts[1].geometry has another map");

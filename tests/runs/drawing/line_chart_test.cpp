@@ -121,5 +121,17 @@ TEST(LineCharts, ValuesThatAreNotPositiveDoNoHarm) {
   EXPECT_NO_THROW(draw_line_charts("", "", {}));
 }
 
+// Two paths that leave and take the same are two points in one another, not one.
+TEST(LineCharts, PointsThatLieOneOverTheOtherAreAllSeen) {
+  ChartPanel same{
+      "x", "y", {{"red", kRed, {{2.0, 3.0}}}, {"blue", kBlue, {{2.0, 3.0}}}, {"far", {0, 120, 0}, {{9.0, 4.0}}}}};
+  const auto picture = testing::decode_png(draw_line_charts("", "", {same}));
+  ChartPanel apart = same;
+  apart.lines[0].points[0] = {1.0, 3.0};
+  const auto other = testing::decode_png(draw_line_charts("", "", {apart}));
+  EXPECT_GE(pixels_of(picture, kRed), pixels_of(other, kRed));
+  EXPECT_EQ(pixels_of(picture, kBlue), pixels_of(other, kBlue));
+}
+
 }  // namespace
 }  // namespace dwell

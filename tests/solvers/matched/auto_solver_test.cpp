@@ -35,15 +35,15 @@ struct Mirror {
   /// `pitch` in mm; the removal function's FWHM is 3 mm.
   explicit Mirror(Index step, double pitch = 0.2) {
     RemovalGeometry& g = *geometry;
-    g.map = {64, 72, pitch, pitch, {-3.0, 5.0}};
-    for (Index i = 0; i < g.map.size(); ++i) {
-      if (i / g.map.cols + i % g.map.cols > 20) g.pixels.push_back(i);
+    g.lattice = {64, 72, pitch, pitch, {-3.0, 5.0}};
+    for (Index i = 0; i < g.lattice.size(); ++i) {
+      if (i / g.lattice.cols + i % g.lattice.cols > 20) g.pixels.push_back(i);
     }
     g.kernel = removal_kernel(gaussian_removal(2.0, 3.0, 4.5), pitch, pitch);
     ToolPath path;
     for (Index r = -8; r < 72; r += step) {
       std::vector<Point> line;
-      for (Index c = -8; c < 80; c += step) line.push_back(g.map.centre(r, c));
+      for (Index c = -8; c < 80; c += step) line.push_back(g.lattice.centre(r, c));
       if ((r / step) % 2 != 0) std::reverse(line.begin(), line.end());
       path.points.insert(path.points.end(), line.begin(), line.end());
     }
@@ -56,13 +56,13 @@ struct Mirror {
     p.weights.resize(removal->rows());
     const Vector uncorrectable = noise(p.target.size(), 9);
     for (Index i = 0; i < p.target.size(); ++i) {
-      const Point q = g.map.centre(g.pixels[static_cast<std::size_t>(i)]);
+      const Point q = g.lattice.centre(g.pixels[static_cast<std::size_t>(i)]);
       p.target[i] = 40.0 * std::sin(0.6 * q.x) * std::cos(0.5 * q.y) + 5.0 * std::sin(1.1 * q.y + 0.5 * q.x) +
                     5.0 * uncorrectable[i];
       p.weights[i] = q.x > 8.0 ? 0.5 : 1.0;
     }
     const std::vector<double> w(p.weights.data(), p.weights.data() + p.weights.size());
-    p.form = form_basis(g.map, g.pixels, {true, true, false}, w);
+    p.form = form_basis(g.lattice, g.pixels, {true, true, false}, w);
     p.parts = {{geometry, path_smoothness(path, g.strokes)}};
     p.alpha = 0.01 * g.kernel.energy;
     p.gamma = 1.0;

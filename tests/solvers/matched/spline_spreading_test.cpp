@@ -28,7 +28,7 @@ const CoarseFactor kFactor{8, 6};
 
 RemovalGeometry geometry_of(std::vector<Stroke> strokes) {
   RemovalGeometry g;
-  g.map = kMap;
+  g.lattice = kMap;
   g.kernel.half_rows = 9;
   g.kernel.half_cols = 5;
   g.strokes = std::move(strokes);

@@ -224,16 +224,16 @@ struct DeconvolutionProblem {
 
   DeconvolutionProblem() {
     auto geometry = std::make_shared<RemovalGeometry>();
-    geometry->map = Grid{40, 36, 1.0, 1.0, {3.0, -2.0}};
+    geometry->lattice = Grid{40, 36, 1.0, 1.0, {3.0, -2.0}};
     geometry->kernel = removal_kernel(gaussian_removal(2.0, 5.0, 8.0), 1.0, 1.0);
     ToolPath path;
     for (Index r = -8; r < 48; r += 2) {
-      for (Index c = -8; c < 44; c += 2) path.points.push_back(geometry->map.centre(r, c));
+      for (Index c = -8; c < 44; c += 2) path.points.push_back(geometry->lattice.centre(r, c));
     }
     path.lifted.assign(path.points.size(), 0);
     geometry->strokes = halting_strokes(path);
-    for (Index i = 0; i < geometry->map.size(); ++i) {
-      if (distance(geometry->map.centre(i), {20.5, 17.5}) < 17.0) geometry->pixels.push_back(i);
+    for (Index i = 0; i < geometry->lattice.size(); ++i) {
+      if (distance(geometry->lattice.centre(i), {20.5, 17.5}) < 17.0) geometry->pixels.push_back(i);
     }
     removal = make_removal_operator(*geometry);
     Vector dwell(removal->cols());

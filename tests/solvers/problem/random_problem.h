@@ -24,18 +24,18 @@ struct RandomProblem {
       return a + (b - a) * static_cast<double>(random()) / static_cast<double>(std::mt19937::max());
     };
     RemovalGeometry& g = *geometry;
-    g.map = {10 + static_cast<Index>(random() % 6), 12 + static_cast<Index>(random() % 6), 0.5, 0.5, {-3.0, 2.0}};
-    for (Index i = 0; i < g.map.size(); ++i) {
-      if (i / g.map.cols + i % g.map.cols > 3) g.pixels.push_back(i);
+    g.lattice = {10 + static_cast<Index>(random() % 6), 12 + static_cast<Index>(random() % 6), 0.5, 0.5, {-3.0, 2.0}};
+    for (Index i = 0; i < g.lattice.size(); ++i) {
+      if (i / g.lattice.cols + i % g.lattice.cols > 3) g.pixels.push_back(i);
     }
-    if (special == Special::OnePixel) g.pixels = {g.map.size() / 2};
+    if (special == Special::OnePixel) g.pixels = {g.lattice.size() / 2};
     // Wide enough that the automatic solver has something to coarsen.
     g.kernel = removal_kernel(gaussian_removal(uniform(0.5, 2.0), uniform(2.5, 4.0), 4.0), 0.5, 0.5);
     ToolPath path;
     const int n = special == Special::OnePoint ? 1 : 5 + static_cast<int>(random() % 20);
     for (int j = 0; j < n; ++j) {
-      const Point q{uniform(g.map.origin.x - 1.0, g.map.origin.x + g.map.width()),
-                    uniform(g.map.origin.y - 1.0, g.map.origin.y + g.map.height())};
+      const Point q{uniform(g.lattice.origin.x - 1.0, g.lattice.origin.x + g.lattice.width()),
+                    uniform(g.lattice.origin.y - 1.0, g.lattice.origin.y + g.lattice.height())};
       for (int k = 0; k < (special == Special::Repeated ? 2 : 1); ++k) path.points.push_back(q);
     }
     path.lifted.assign(path.points.size(), 0);
@@ -56,7 +56,7 @@ struct RandomProblem {
     if (uniform(0.0, 1.0) < 0.5) p.weights = Vector::NullaryExpr(m, [&] { return uniform(0.2, 1.5); });
     if (m > 10 && uniform(0.0, 1.0) < 0.5) {
       const std::vector<double> w(p.weights.data(), p.weights.data() + p.weights.size());
-      p.form = form_basis(geometry->map, geometry->pixels, {true, true, false}, w);
+      p.form = form_basis(geometry->lattice, geometry->pixels, {true, true, false}, w);
     }
     p.parts = {{geometry, path_smoothness(path, geometry->strokes)}};
     p.alpha = uniform(0.0, 1.0) < 0.5 ? 0.0 : uniform(0.0, 0.2) * geometry->kernel.energy;
