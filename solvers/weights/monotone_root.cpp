@@ -59,13 +59,13 @@ class RootSearch {
   }
 
   RootEnd narrow() {
-    constexpr int kPatience = 3;  // steps in which the bracket has to halve
     Point low = *low_, high = *high_;
-    double width_then = high.x - low.x;
+    double width = high.x - low.x, width_before = 2.0 * width, width_two_before = 2.0 * width;
     int kept = 0;  // how often in a row the low (< 0) or the high end was kept
-    for (int k = 1; high.x - low.x > p_.narrow; ++k) {
-      const bool creeps = k % kPatience == 0 && high.x - low.x > 0.5 * width_then;
-      if (k % kPatience == 0) width_then = high.x - low.x;
+    for (; width > p_.narrow; width = high.x - low.x) {
+      const bool creeps = width > 0.5 * width_two_before;
+      width_two_before = width_before;
+      width_before = width;
       const double x = creeps ? 0.5 * (low.x + high.x) : between(low, high);
       const std::optional<double> f = p_.value(x);
       if (!f) return RootEnd::Stopped;

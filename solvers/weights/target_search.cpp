@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "solvers/weights/monotone_root.h"
 
@@ -44,46 +45,41 @@ class TwoTargets {
     least_scale_ = std::min(held_.range.least / middle_of(held_.range), other_.range.least / middle_of(other_.range));
   }
 
-  void run() {
+  bool run() {
     MonotoneRoot outer;
     outer.first_step = 2.0 * kDecade;
-    if (on_rays_) {
-      outer.start = kLargestRatio;
-      outer.ordinary_end = outer.ceiling = 2.0 * kLargestRatio;
-    } else {
-      outer.start = place_on_scale(middle_of(other_.range), other_.range.least);
-      outer.ordinary_end = place_on_scale(other_.range.most, other_.range.least);
-      outer.ceiling = place_on_scale(other_.range.ceiling, other_.range.least);
-    }
+    outer.start = on_rays_ ? kLargestRatio : place_on_scale(middle_of(other_.range), other_.range.least);
+    outer.ceiling = outer_ceiling();
+    outer.ordinary_end = on_rays_ ? outer.ceiling : place_on_scale(other_.range.most, other_.range.least);
     outer.value = [this](double y) -> std::optional<double> {
       const std::optional<std::size_t> k = hold(y);
       if (!k) return std::nullopt;
-      return settled(*k) ? 0.0 : -offset_excess(other_, book_.trade_off(*k), tolerance_);
+      const bool done = settled(*k) || (as_large_as_useful_ && meets(book_.trade_off(*k)));
+      return done ? 0.0 : -offset_excess(other_, book_.trade_off(*k), tolerance_);
     };
-    find_monotone_root(outer);
+    const RootEnd end = find_monotone_root(outer);
     const auto& trials = book_.trials();
-    const bool met = std::any_of(trials.begin(), trials.end(), [this](const auto& t) { return meets(t.trade_off); });
-    if (met || book_.ended()) return;
+    if (std::any_of(trials.begin(), trials.end(), [this](const auto& t) { return meets(t.trade_off); })) return true;
+    // Stopped before the book ended: the held target is out of reach, or a conflict is shown.
+    if (book_.ended() || end == RootEnd::Found) return false;
     if (on_rays_) {
       follow_front();
     } else {
       search_one_target(other_, {}, tolerance_, book_);  // shows whether it can be met alone
     }
+    return !book_.ended();
   }
 
  private:
   bool meets(const TradeOff& t) const { return excess_of(held_, t) <= 0.0 && excess_of(other_, t) <= 0.0; }
 
-  /// Both met, and each closely, or by a weight of 0; a residual also where the weights are as large as they get.
+  /// Both met, and each closely, or by a weight of 0.
   bool settled(std::size_t k) const {
     const TradeOff& t = book_.trade_off(k);
     const Weights& w = book_.trials()[k].weights;
     if (!meets(t)) return false;
-    constexpr double kAllButRounding = 1.0 - 1e-9;
-    const bool at_most =
-        std::max(w.*held_.weight / held_.range.most, w.*other_.weight / other_.range.most) >= kAllButRounding;
     const bool held =
-        is_close(offset_excess(held_, t, tolerance_), tolerance_) || (on_rays_ ? at_most : w.*held_.weight == 0.0);
+        is_close(offset_excess(held_, t, tolerance_), tolerance_) || (!on_rays_ && w.*held_.weight == 0.0);
     return held && (is_close(offset_excess(other_, t, tolerance_), tolerance_) || w.*other_.weight == 0.0);
   }
 
@@ -104,6 +100,10 @@ class TwoTargets {
     alone.*held_.weight = 0.0;
     const std::optional<std::size_t> proof = book_.at(alone);
     return proof && exceeds_both(*proof);
+  }
+
+  double outer_ceiling() const {
+    return on_rays_ ? 2.0 * kLargestRatio : place_on_scale(other_.range.ceiling, other_.range.least);
   }
 
   /// The shares that both weights have in their common scale, of which the larger is 1, at the outer place y.
@@ -157,6 +157,7 @@ class TwoTargets {
   /// The trial at the outer place y that holds its target as closely as the other target's excess asks for; nothing if
   /// the search must end, or the held target is out of reach.
   std::optional<std::size_t> hold(double y) {
+    const bool at_end = y <= 0.0 || y >= outer_ceiling();  // there the outer search makes up its mind
     std::optional<std::size_t> nearest;
     double least = std::numeric_limits<double>::infinity(), place = 0.0;
     MonotoneRoot inner;
@@ -176,15 +177,15 @@ class TwoTargets {
         place = x;
       }
       constexpr double kShareOfOther = 0.1;
-      const bool enough = is_close(held, tolerance_) || std::abs(held) <= kShareOfOther * std::abs(other);
-      const bool as_large_as_needed = on_rays_ && meets(t) && x >= inner.ordinary_end;
-      if (enough || as_large_as_needed || settled(*k)) return 0.0;
+      const bool enough = is_close(held, tolerance_) || (!at_end && std::abs(held) <= kShareOfOther * std::abs(other));
+      if (enough || settled(*k)) return 0.0;
       return shows_conflict(*k) ? std::nullopt : std::optional(rising(held_, held));
     };
     const RootEnd end = find_monotone_root(inner);
     if (end == RootEnd::Stopped) return std::nullopt;
     const bool out_of_reach = end == (held_.goal.kind == GoalKind::ResidualAtMost ? RootEnd::AtZero : RootEnd::AtMost);
     if (out_of_reach) return std::nullopt;
+    as_large_as_useful_ = on_rays_ && end == RootEnd::AtMost;
     roots_.push_back({y, place});
     return nearest;
   }
@@ -276,7 +277,8 @@ class TwoTargets {
   double tolerance_;
   TrialBook& book_;
   double least_scale_ = 0.0;
-  std::vector<Root> roots_;  // of the inner search
+  std::vector<Root> roots_;          // of the inner search
+  bool as_large_as_useful_ = false;  // the last inner search ended where the residual does not rise any more
   int proofs_tried_ = 0;
 };
 
@@ -302,8 +304,8 @@ void search_one_target(const TargetWeight& target, const Weights& given, double 
   find_monotone_root(root);
 }
 
-void search_two_targets(const TargetWeight& smoothness, const TargetWeight& price, double tolerance, TrialBook& book) {
-  TwoTargets(smoothness, price, tolerance, book).run();
+bool search_two_targets(const TargetWeight& smoothness, const TargetWeight& price, double tolerance, TrialBook& book) {
+  return TwoTargets(smoothness, price, tolerance, book).run();
 }
 
 }  // namespace dwell

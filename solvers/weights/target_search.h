@@ -35,7 +35,8 @@ void search_one_target(const TargetWeight& target, const Weights& given, double 
 /// weights minimise is larger than it would be for dwell times that did.
 ///
 /// Where no pair is found, the trials go on along the front between the targets, from where the one is met to where
-/// the other is, with the weights that miss both by the same factor between.
-void search_two_targets(const TargetWeight& smoothness, const TargetWeight& price, double tolerance, TrialBook& book);
+/// the other is, with the weights that miss both by the same factor between. Returns whether the search came to its
+/// end: a pair was found, or there is none as far as the solver's tolerance can tell.
+bool search_two_targets(const TargetWeight& smoothness, const TargetWeight& price, double tolerance, TrialBook& book);
 
 }  // namespace dwell

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <stdexcept>
 
 #include "solvers/weights/corner_search.h"
@@ -82,18 +81,19 @@ WeightSearchResult search_weights(const WeightSearchOptions& options, const Weig
   const bool corner = s.kind == GoalKind::Corner || p.kind == GoalKind::Corner;
   const Weights given{s.kind == GoalKind::Fixed ? s.value : 0.0, p.kind == GoalKind::Fixed ? p.value : 0.0};
   WeightSearchResult result;
+  bool ended = true;  // of itself
   if (corner) {
     result.chosen = search_corners(options, book);
   } else if (free == 1) {
     search_one_target(is_target(s) ? smoothness : price, given, options.tolerance, book);
   } else {
-    search_two_targets(smoothness, price, options.tolerance, book);
+    ended = search_two_targets(smoothness, price, options.tolerance, book);
   }
   result.trials = book.trials();
   const Choice choice{options, result.trials};
   if (!corner) result.chosen = choice.best();
   if (choice.worst_excess(result.chosen) > 0.0) {
-    result.end = book.ended() ? SearchEnd::Unfinished : SearchEnd::Missed;
+    result.end = book.ended() || !ended ? SearchEnd::Unfinished : SearchEnd::Missed;
     if (is_target(s) && is_target(p)) result.front = choice.front();
   }
   return result;

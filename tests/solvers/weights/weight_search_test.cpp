@@ -89,11 +89,12 @@ TEST(WeightSearch, ATargetOutOfReachGivesTheEndNearestToItAndSaysSo) {
   const auto evaluate = [](const Weights& w) { return std::optional(smooth_trade_off(w)); };
   const auto steps = search_weights(options_of({0.001, GoalKind::StepAtMost}, kNoPrice), evaluate);
   EXPECT_FALSE(steps.met());
-  EXPECT_EQ(chosen(steps).weights.smoothness, kSmoothnessRange.most);
+  EXPECT_GE(chosen(steps).weights.smoothness, kSmoothnessRange.most);  // beyond, the step hardly falls
+  EXPECT_LT(chosen(steps).weights.smoothness, kSmoothnessRange.ceiling);
   const auto residual = search_weights(options_of(kSomeSmoothness, {0.1, GoalKind::ResidualAtMost}), evaluate);
   EXPECT_FALSE(residual.met());
   EXPECT_EQ(chosen(residual).weights.time_price, 0.0);
-  EXPECT_LE(std::max(steps.trials.size(), residual.trials.size()), 6u);
+  EXPECT_LE(std::max(steps.trials.size(), residual.trials.size()), 7u);
 }
 
 TEST(WeightSearch, NoiseOfTheSolverDoesNotSpoilATarget) {
