@@ -214,23 +214,28 @@ class TwoTargets {
     };
     if (find_monotone_root(balance) == RootEnd::Stopped) return;
     search_one_target(other_, {}, tolerance_, book_, weight_on_scale(balanced, other_.range.least));
-    if (!held_is_met()) reach_held(balanced);
+    if (!held_end_is_known()) reach_held(balanced);
     fill_front(balanced);
   }
 
-  bool held_is_met() const {
+  /// Whether a trial on the front meets the held target about closely.
+  bool held_end_is_known() const {
+    constexpr double kAbout = 0.05;
     const auto& trials = book_.trials();
-    return std::any_of(trials.begin(), trials.end(),
-                       [this](const auto& t) { return excess_of(held_, t.trade_off) <= 0.0; });
+    return std::any_of(trials.begin(), trials.end(), [this](const auto& t) {
+      const double excess = excess_of(held_, t.trade_off);
+      return t.weights.*held_.weight == 0.0 && excess <= 0.0 && excess >= -kAbout;
+    });
   }
 
-  /// Whether the held target can be met at all, from the balanced place down to weights that do next to nothing: below,
-  /// solves take ever longer and hardly lower the residual.
+  /// Looks for the end of the front where the held target is met, from the balanced place down to weights that do next
+  /// to nothing: below, solves take ever longer and hardly lower the residual.
   void reach_held(double balanced) {
     const double floor = place_on_scale(other_.range.corner_least, other_.range.least);
     MonotoneRoot root;
     root.start = root.ordinary_end = root.ceiling = std::max(balanced - floor, 0.0);
     root.first_step = kDecade;
+    root.usual_slope = kResidualSlope;
     root.value = [&](double x) -> std::optional<double> {
       Weights w;
       w.*other_.weight = weight_on_scale(floor + x, other_.range.least);
