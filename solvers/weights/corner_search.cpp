@@ -67,7 +67,7 @@ class Axis {
   double place_of(double weight) const { return std::log1p(weight / range_.least) / span(); }
   double weight_at(double x) const {
     if (x == 1.0) return range_.most;
-    return range_.least * std::expm1(x * span());
+    return std::min(range_.least * std::expm1(x * span()), range_.ceiling);
   }
 
   double Weights::*weight_;

@@ -18,6 +18,10 @@ constexpr double kLargestRatio =
 /// The place of a weight on its scale: a logarithm above `least`, but with 0 at 0.
 double place_on_scale(double weight, double least) { return std::log1p(weight / least); }
 double weight_on_scale(double place, double least) { return least * std::expm1(place); }
+/// The same for a weight itself, which rounding must not carry beyond the largest that a job may name.
+double weight_on_scale(double place, const WeightRange& range) {
+  return std::min(weight_on_scale(place, range.least), range.ceiling);
+}
 
 double middle_of(const WeightRange& range) { return std::sqrt(range.least * range.most); }
 double excess_of(const TargetWeight& target, const TradeOff& t) { return target_excess(target.goal, t); }
@@ -122,11 +126,11 @@ class TwoTargets {
     if (on_rays_) {
       const double scale = weight_on_scale(x, least_scale_);
       const Shares shares = shares_at(y);
-      w.*held_.weight = scale * shares.held * middle_of(held_.range);
-      w.*other_.weight = scale * shares.other * middle_of(other_.range);
+      w.*held_.weight = std::min(scale * shares.held * middle_of(held_.range), held_.range.ceiling);
+      w.*other_.weight = std::min(scale * shares.other * middle_of(other_.range), other_.range.ceiling);
     } else {
-      w.*held_.weight = weight_on_scale(x, held_.range.least);
-      w.*other_.weight = weight_on_scale(y, other_.range.least);
+      w.*held_.weight = weight_on_scale(x, held_.range);
+      w.*other_.weight = weight_on_scale(y, other_.range);
     }
     return w;
   }
@@ -195,7 +199,7 @@ class TwoTargets {
   void follow_front() {
     const auto at = [this](double x) {
       Weights w;
-      w.*other_.weight = weight_on_scale(x, other_.range.least);
+      w.*other_.weight = weight_on_scale(x, other_.range);
       return book_.at(w);
     };
     double balanced = place_on_scale(last_other_weight(), other_.range.least);
@@ -213,7 +217,7 @@ class TwoTargets {
       return std::abs(difference) <= tolerance_ ? 0.0 : difference;
     };
     if (find_monotone_root(balance) == RootEnd::Stopped) return;
-    search_one_target(other_, {}, tolerance_, book_, weight_on_scale(balanced, other_.range.least));
+    search_one_target(other_, {}, tolerance_, book_, weight_on_scale(balanced, other_.range));
     if (!held_end_is_known()) reach_held(balanced);
     fill_front(balanced);
   }
@@ -238,7 +242,7 @@ class TwoTargets {
     root.usual_slope = kResidualSlope;
     root.value = [&](double x) -> std::optional<double> {
       Weights w;
-      w.*other_.weight = weight_on_scale(floor + x, other_.range.least);
+      w.*other_.weight = weight_on_scale(floor + x, other_.range);
       const std::optional<std::size_t> k = book_.at(w);
       if (!k) return std::nullopt;
       const double offset = offset_excess(held_, book_.trade_off(*k), tolerance_);
@@ -268,7 +272,7 @@ class TwoTargets {
     for (const double end : {held_end, other_end}) {
       if (!std::isfinite(end)) continue;
       Weights w;
-      w.*other_.weight = weight_on_scale(0.5 * (balanced + end), other_.range.least);
+      w.*other_.weight = weight_on_scale(0.5 * (balanced + end), other_.range);
       if (!book_.at(w)) return;
     }
   }
@@ -300,7 +304,7 @@ void search_one_target(const TargetWeight& target, const Weights& given, double 
   root.ceiling = largest ? root.ordinary_end : place_on_scale(range.ceiling, range.least);
   root.value = [&](double x) -> std::optional<double> {
     Weights w = given;
-    w.*target.weight = x >= root.ordinary_end && largest ? range.most : weight_on_scale(x, range.least);
+    w.*target.weight = x >= root.ordinary_end && largest ? range.most : weight_on_scale(x, range);
     const std::optional<std::size_t> k = book.at(w);
     if (!k) return std::nullopt;
     const double offset = offset_excess(target, book.trade_off(*k), tolerance);
