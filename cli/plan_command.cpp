@@ -13,6 +13,7 @@
 #include "core/base/units.h"
 #include "runs/job/job_file.h"
 #include "runs/reports/exact_lines.h"
+#include "runs/reports/front_lines.h"
 #include "runs/reports/plan_files.h"
 #include "runs/reports/plan_output.h"
 #include "runs/reports/tool_sheet.h"
@@ -44,6 +45,9 @@ std::string plan_text(const PlannedJob& plan, const WrittenPlan& written) {
       fmt::format("weights   smoothness {:.4g}, time price {:.4g} nm^2/s ({})\n", plan.dwell.weights.smoothness,
                   plan.dwell.weights.time_price,
                   plan.dwell.search ? fmt::format("chosen from {} solves", plan.dwell.search->trials.size()) : "given");
+  if (plan.dwell.search) {
+    text += front_lines(*plan.dwell.search, plan.job.options.smoothness, plan.job.options.time_price_nm2_per_s);
+  }
   text += fmt::format("solver    {}: {} after {} iterations, {} operator applications, {:.2f} s\n",
                       to_string(plan.dwell.solver.kind), to_string(plan.dwell.solver.status),
                       plan.dwell.solver.iterations, plan.dwell.solver.operator_applications, plan.dwell.solver.seconds);

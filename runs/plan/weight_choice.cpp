@@ -5,7 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "solvers/weights/weight_option.h"
+#include "runs/plan/weight_verdict.h"
+#include "solvers/weights/weight_search.h"
 
 namespace dwell {
 namespace {
@@ -36,38 +37,6 @@ class NearestDwell {
   static double place(double weight, double least) { return std::log1p(weight / least); }
   double least_smoothness_, least_price_;
 };
-
-std::string criterion_of(const char* weight, const WeightGoal& goal, const WeightRange& range, const char* unit) {
-  switch (goal.kind) {
-    case GoalKind::Fixed:
-      return fmt::format("{}: {}{}", weight, goal.value, unit);
-    case GoalKind::Corner:
-      return fmt::format("{}: corner of the L-curve (largest distance from its chord, log-log) from {:.3g} to {:.3g}{}",
-                         weight, range.corner_least, range.corner_most, unit);
-    case GoalKind::ResidualAtMost:
-      return fmt::format("{}: largest up to {:.3g}{} with residual RMS <= {} nm", weight, range.most, unit, goal.value);
-    default:
-      return fmt::format("{}: least up to {:.3g}{} with {} <= {} s", weight, range.most, unit, quantity_of(goal.kind),
-                         goal.value);
-  }
-}
-
-/// A sentence if the chosen trial misses a target.
-void report_miss(const char* weight, const WeightGoal& goal, const WeightRange& range, const char* unit,
-                 WeightTrials& search) {
-  if (goal.kind == GoalKind::Fixed || goal.kind == GoalKind::Corner) return;
-  const TriedWeights& best = search.trials[search.chosen];
-  const double reached = quantity_of(goal.kind, best.trade_off);
-  if (reached <= goal.value) return;
-  search.limits.push_back(
-      fmt::format("`{}` '{}' is not met: {} weights tried from 0 to {:.3g}{}; the nearest has {} {:.6g} {} (smoothness "
-                  "{:.4g}, time "
-                  "price {:.4g} nm^2/s)",
-                  weight, to_string(goal), search.trials.size(), range.most, unit, quantity_of(goal.kind), reached,
-                  unit_of(goal.kind), best.weights.smoothness, best.weights.time_price));
-}
-
-constexpr const char* kPriceUnit = " nm^2/s";
 
 }  // namespace
 
@@ -100,15 +69,15 @@ WeightedDwell choose_weights(PlanProblem& problem, const DwellOptions& options, 
     sum.seconds += f.solver.seconds;
     return f.trade_off;
   };
-  search.chosen = search_weights(how, evaluate).chosen;
-  search.criterion = criterion_of("smoothness", how.smoothness, how.smoothness_range, "") + "; " +
-                     criterion_of("time price", how.time_price, how.time_price_range, kPriceUnit);
+  const WeightSearchResult result = search_weights(how, evaluate);
+  search.chosen = result.chosen;
+  search.front = result.front;
+  search.criterion = search_criterion(how);
   if (out_of_time) {
     search.limits.push_back(fmt::format("the search of the weights ended after {} solves; `max solve` is {} s",
                                         found.size(), options.max_seconds));
   }
-  report_miss("smoothness", how.smoothness, how.smoothness_range, "", search);
-  report_miss("time price", how.time_price, how.time_price_range, kPriceUnit, search);
+  judge_search(how, result.end, search);
 
   WeightedDwell chosen = std::move(found[search.chosen]);
   chosen.solver.iterations = sum.iterations;

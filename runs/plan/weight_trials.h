@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "solvers/weights/weight_search.h"
+#include "solvers/weights/weight_goal.h"
 
 namespace dwell {
 
@@ -21,6 +21,8 @@ struct WeightTrials {
   std::vector<TriedWeights> trials;  // in order
   std::size_t chosen = 0;
   std::string criterion;            // in words
+  std::string outcome;              // "met", "conflict" (each target can be met, not both), "missed" or "unfinished"
+  std::vector<std::size_t> front;   // where two targets are missed: the trials between them (WeightSearchResult)
   std::vector<std::string> limits;  // what was not met, a sentence each
 };
 

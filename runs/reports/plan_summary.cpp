@@ -33,7 +33,11 @@ Json search_json(const WeightTrials& search) {
   for (const TriedWeights& t : search.trials) {
     trials.push_back(trial_block(t.weights, t.trade_off, t.objective, t.operator_applications));
   }
-  return {{"criterion", search.criterion}, {"chosen", search.chosen}, {"trials", trials}};
+  return {{"criterion", search.criterion},
+          {"outcome", search.outcome},
+          {"chosen", search.chosen},
+          {"front", search.front},
+          {"trials", trials}};
 }
 
 Json weights_json(const DwellPlan& plan) {

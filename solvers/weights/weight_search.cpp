@@ -1,274 +1,102 @@
 #include "solvers/weights/weight_search.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
+#include <array>
 #include <stdexcept>
 
-#include "solvers/weights/nlopt_search.h"
+#include "solvers/weights/corner_search.h"
+#include "solvers/weights/target_search.h"
 
 namespace dwell {
 namespace {
 
-constexpr double kLeastChange = 0.01;           // of a logarithm over a corner range, that is: 1 %
-constexpr double kSamePlace = 1e-4;             // trials nearer than this are one
-constexpr double kPlaceTolerance = 1e-3;        // of x where targets alone decide
-constexpr double kCornerPlaceTolerance = 5e-3;  // a corner is flat: its merit hardly changes over a tenth of a weight
-constexpr std::size_t kTrialsBeforeEnd = 3;
-constexpr int kScanOfOne = 7;   // points of the scan for one corner, ends included
-constexpr int kScanOfEach = 3;  // and along each of two free weights
+struct Choice {
+  const WeightSearchOptions& options;
+  const std::vector<WeightTrial>& trials;
 
-/// Logarithm of a quantity that may be zero.
-double log_of(double value) { return std::log(std::max(value, 1e-12)); }
-
-/// A weight that is searched: its place x in [0, 1] is logarithmic, but for the neighbourhood of weight 0 at x = 0.
-class Axis {
- public:
-  Axis(double Weights::*weight, double TradeOff::*cost, const WeightGoal& goal, const WeightRange& range)
-      : weight_(weight), cost_(cost), goal_(goal), range_(range) {
-    const bool ordered = 0.0 < range.least && range.least <= range.corner_least &&
-                         range.corner_least < range.corner_most && range.corner_most <= range.most;
-    if (!ordered || !std::isfinite(range.most)) throw std::invalid_argument("the range of a weight is out of order");
-    lower = corner() ? place_of(range.corner_least) : 0.0;
-    upper = corner() ? place_of(range.corner_most) : 1.0;
+  std::array<double, 2> excesses(std::size_t k) const {
+    return {target_excess(options.smoothness, trials[k].trade_off),
+            target_excess(options.time_price, trials[k].trade_off)};
   }
+  double worst_excess(std::size_t k) const { return std::max(excesses(k)[0], excesses(k)[1]); }
 
-  bool corner() const { return goal_.kind == GoalKind::Corner; }
-  void set(Weights& weights, double x) const { weights.*weight_ = weight_at(x); }
-  double middle() const { return 0.5 * (lower + upper); }
-
-  /// Logarithm of how far the target is exceeded; <= 0 = met.
-  double excess(const TradeOff& t) const {
-    if (corner()) return -std::numeric_limits<double>::infinity();
-    const double quantity = goal_.kind == GoalKind::StepAtMost    ? t.step_rms
-                            : goal_.kind == GoalKind::TotalAtMost ? t.total
-                                                                  : t.residual_rms;
-    return log_of(quantity) - log_of(goal_.value);
-  }
-  bool meets(const TradeOff& t) const { return excess(t) <= 0.0; }
-
-  /// What is minimised: see search_weights.
-  double merit(double x, const TradeOff& t) const {
-    if (corner()) return log_of(t.residual_rms) / residual_change_ + log_of(t.*cost_) / cost_change_;
-    return goal_.kind == GoalKind::ResidualAtMost ? -x : x;
-  }
-  bool at_best_end(double x) const { return x == (goal_.kind == GoalKind::ResidualAtMost ? upper : lower); }
-  double easiest_end() const { return goal_.kind == GoalKind::ResidualAtMost ? lower : upper; }
-
-  /// The trade-offs at both ends of the corner range.
-  void set_ends(const TradeOff& least, const TradeOff& most) {
-    const auto change = [&](double TradeOff::*q) {
-      return std::max(std::abs(log_of(least.*q) - log_of(most.*q)), kLeastChange);
-    };
-    residual_change_ = change(&TradeOff::residual_rms);
-    cost_change_ = change(cost_);
-  }
-
-  double lower = 0.0, upper = 1.0;
-
- private:
-  double span() const { return std::log1p(range_.most / range_.least); }
-  double place_of(double weight) const { return std::log1p(weight / range_.least) / span(); }
-  double weight_at(double x) const {
-    if (x >= 1.0) return range_.most;
-    return range_.least * std::expm1(x * span());
-  }
-
-  double Weights::*weight_;
-  double TradeOff::*cost_;
-  WeightGoal goal_;
-  WeightRange range_;
-  double residual_change_ = 1.0, cost_change_ = 1.0;
-};
-
-using Place = std::vector<double>;  // one x an axis
-
-class Search {
- public:
-  Search(const WeightSearchOptions& options, const WeightEvaluator& evaluate) : options_(options), evaluate_(evaluate) {
-    if (options.smoothness.kind != GoalKind::Fixed) {
-      axes_.emplace_back(&Weights::smoothness, &TradeOff::step_rms, options.smoothness, options.smoothness_range);
+  /// What is to be small among trials that meet the targets, without corners.
+  double preference(std::size_t k) const {
+    const WeightGoal &s = options.smoothness, &p = options.time_price;
+    const WeightTrial& t = trials[k];
+    if (is_target(s) && is_target(p)) {
+      if (s.kind == GoalKind::ResidualAtMost) return t.trade_off.step_rms;
+      return p.kind == GoalKind::ResidualAtMost ? t.trade_off.total : t.trade_off.residual_rms;
     }
-    if (options.time_price.kind != GoalKind::Fixed) {
-      axes_.emplace_back(&Weights::time_price, &TradeOff::total, options.time_price, options.time_price_range);
-    }
-    if (axes_.empty()) throw std::invalid_argument("no weight to search");
-    most_trials_ = axes_.size() * static_cast<std::size_t>(std::max(options.evaluations_a_weight, 1));
-  }
-
-  WeightSearchResult run() {
-    if (std::any_of(axes_.begin(), axes_.end(), [](const Axis& a) { return a.corner(); })) scan();
-    if (!ended_) refine();
-    result_.chosen = best();
-    result_.met = meets(result_.trials[result_.chosen].trade_off);
-    return std::move(result_);
-  }
-
- private:
-  std::size_t steps(const Axis& axis) const {
-    if (!axis.corner()) return 1;
-    return static_cast<std::size_t>(axes_.size() == 1 ? kScanOfOne : kScanOfEach);
-  }
-
-  /// Along the corner weights, from the large ones, whose problems are the easiest, to the small ones, turning at the
-  /// end of each line so that every trial has a neighbour to start from. The last axis changes fastest.
-  void scan() {
-    Place x;
-    for (const Axis& axis : axes_) x.push_back(axis.middle());
-    const Axis& last = axes_.back();
-    bool down = true;
-    for (std::size_t i = 0; i < steps(axes_.front()); ++i) {
-      x.front() = scan_place(axes_.front(), i, true);
-      if (axes_.size() == 1) {
-        if (!trial_at(x)) return;
-        continue;
-      }
-      for (std::size_t k = 0; k < steps(last); ++k) {
-        x.back() = scan_place(last, k, down);
-        if (!trial_at(x)) return;
-      }
-      down = !down;
-    }
-    measure_ends();
-  }
-
-  double scan_place(const Axis& axis, std::size_t step, bool down) const {
-    const std::size_t count = steps(axis);
-    if (count == 1) return axis.middle();
-    const double share = static_cast<double>(step) / static_cast<double>(count - 1);
-    return down ? axis.upper - share * (axis.upper - axis.lower) : axis.lower + share * (axis.upper - axis.lower);
-  }
-
-  void measure_ends() {
-    for (std::size_t a = 0; a < axes_.size(); ++a) {
-      if (!axes_[a].corner()) continue;
-      Place least, most;
-      for (const Axis& axis : axes_) least.push_back(axis.middle());
-      most = least;
-      least[a] = axes_[a].lower;
-      most[a] = axes_[a].upper;
-      const auto low = trial_at(least), high = trial_at(most);  // both scanned already
-      if (low && high) axes_[a].set_ends(result_.trials[*low].trade_off, result_.trials[*high].trade_off);
-    }
-  }
-
-  void refine() {
-    FewVariableProblem problem;
-    problem.start = result_.trials.empty() ? Place() : places_[best()];
-    for (const Axis& axis : axes_) {
-      if (result_.trials.empty()) problem.start.push_back(axis.middle());
-      problem.lower.push_back(axis.lower);
-      problem.upper.push_back(axis.upper);
-      const double spacing = axis.corner() ? 1.0 / static_cast<double>(steps(axis) - 1) : 0.5;
-      problem.first_step.push_back(0.5 * spacing * (axis.upper - axis.lower));
-    }
-    problem.constraints =
-        static_cast<int>(std::count_if(axes_.begin(), axes_.end(), [](const Axis& a) { return !a.corner(); }));
-    const bool targets_alone = problem.constraints == static_cast<int>(axes_.size());
-    problem.tolerance = targets_alone ? kPlaceTolerance : kCornerPlaceTolerance;
-    problem.max_evaluations = 4 * static_cast<int>(most_trials_);  // trials that are repeated cost nothing
-    problem.evaluate = [this](const Place& x, double& merit, std::vector<double>& excess) {
-      const auto k = trial_at(x);
-      if (!k) return false;
-      const TradeOff& t = result_.trials[*k].trade_off;
-      merit = merit_at(*k);
-      // Half the tolerance on the safe side, since what is found must meet the target in spite of noise.
-      std::size_t c = 0;
-      for (const Axis& axis : axes_) {
-        if (!axis.corner()) excess[c++] = axis.excess(t) + 0.5 * options_.tolerance;
-      }
-      return !settled(*k) && !out_of_reach();
-    };
-    search_few_variables(problem);
-  }
-
-  /// The trial at x: an earlier one, or a new one; nothing if the search must end.
-  std::optional<std::size_t> trial_at(const Place& x) {
-    for (std::size_t k = 0; k < places_.size(); ++k) {
-      double distance = 0.0;
-      for (std::size_t a = 0; a < x.size(); ++a) distance = std::max(distance, std::abs(x[a] - places_[k][a]));
-      if (distance <= kSamePlace) return k;
-    }
-    if (ended_ || places_.size() >= most_trials_) return std::nullopt;
-    Weights weights{options_.smoothness.value, options_.time_price.value};
-    for (std::size_t a = 0; a < axes_.size(); ++a) axes_[a].set(weights, x[a]);
-    const std::optional<TradeOff> t = evaluate_(weights);
-    ended_ = !t;
-    if (!t && places_.empty()) throw std::invalid_argument("a search ended before its first trial");
-    if (!t) return std::nullopt;
-    for (const double q : {t->residual_rms, t->total, t->step_rms}) {
-      if (!(std::isfinite(q) && q >= 0.0)) throw std::invalid_argument("a trade-off is not finite and >= 0");
-    }
-    places_.push_back(x);
-    result_.trials.push_back({weights, *t});
-    return places_.size() - 1;
-  }
-
-  bool meets(const TradeOff& t) const {
-    return std::all_of(axes_.begin(), axes_.end(), [&](const Axis& a) { return a.meets(t); });
-  }
-
-  double merit_at(std::size_t k) const {
-    double sum = 0.0;
-    for (std::size_t a = 0; a < axes_.size(); ++a) sum += axes_[a].merit(places_[k][a], result_.trials[k].trade_off);
-    return sum;
-  }
-
-  double excess_at(std::size_t k) const {
-    double worst = -std::numeric_limits<double>::infinity();
-    for (const Axis& axis : axes_) worst = std::max(worst, axis.excess(result_.trials[k].trade_off));
-    return worst;
-  }
-
-  /// If no trial has met the targets yet, tries the end of the range where they are easiest to meet; the curves are
-  /// flat there, so the search itself would only creep towards it. Returns whether a single weight misses its target
-  /// even there. For two weights it returns false, because what is easiest for one target need not be so for the other.
-  bool out_of_reach() {
-    if (places_.size() < kTrialsBeforeEnd * axes_.size() || meets(result_.trials[best()].trade_off)) return false;
-    Place end;
-    for (const Axis& axis : axes_) end.push_back(axis.corner() ? axis.middle() : axis.easiest_end());
-    const auto at_end = trial_at(end);
-    return axes_.size() == 1 && (!at_end || !meets(result_.trials[*at_end].trade_off));
-  }
-
-  /// Whether nothing is left to gain: every weight has a target that is met closely, or lies at the end of its range.
-  bool settled(std::size_t k) const {
-    const TradeOff& t = result_.trials[k].trade_off;
-    if (!meets(t)) return false;
-    for (std::size_t a = 0; a < axes_.size(); ++a) {
-      if (axes_[a].corner()) return false;
-      if (axes_[a].excess(t) < -options_.tolerance && !axes_[a].at_best_end(places_[k][a])) return false;
-    }
-    return true;
+    const double weight = is_target(s) ? t.weights.smoothness : t.weights.time_price;
+    return s.kind == GoalKind::ResidualAtMost || p.kind == GoalKind::ResidualAtMost ? -weight : weight;
   }
 
   std::size_t best() const {
     std::size_t chosen = 0;
-    for (std::size_t k = 1; k < places_.size(); ++k) {
-      const bool meets_k = meets(result_.trials[k].trade_off), meets_chosen = meets(result_.trials[chosen].trade_off);
-      const bool better = meets_k && meets_chosen   ? merit_at(k) < merit_at(chosen)
-                          : meets_k == meets_chosen ? excess_at(k) < excess_at(chosen)
-                                                    : meets_k;
+    for (std::size_t k = 1; k < trials.size(); ++k) {
+      const bool meets = worst_excess(k) <= 0.0, chosen_meets = worst_excess(chosen) <= 0.0;
+      const bool better = meets && chosen_meets   ? preference(k) < preference(chosen)
+                          : meets == chosen_meets ? worst_excess(k) < worst_excess(chosen)
+                                                  : meets;
       if (better) chosen = k;
     }
     return chosen;
   }
 
-  const WeightSearchOptions& options_;
-  const WeightEvaluator& evaluate_;
-  std::vector<Axis> axes_;
-  std::size_t most_trials_ = 0;
-  std::vector<Place> places_;  // of the trials
-  WeightSearchResult result_;
-  bool ended_ = false;
+  /// See WeightSearchResult::front.
+  std::vector<std::size_t> front() const {
+    std::vector<std::size_t> order;
+    for (std::size_t k = 0; k < trials.size(); ++k) order.push_back(k);
+    std::stable_sort(order.begin(), order.end(),
+                     [this](std::size_t a, std::size_t b) { return excesses(a) < excesses(b); });
+    std::vector<std::size_t> front;  // the smoothness target's excess rises, the other's falls
+    for (const std::size_t k : order) {
+      if (!front.empty() && excesses(k)[1] >= excesses(front.back())[1]) continue;
+      if (!front.empty() && excesses(k)[0] <= 0.0) front.clear();  // an end nearer to the other target
+      front.push_back(k);
+      if (excesses(k)[1] <= 0.0) break;
+    }
+    return front;
+  }
 };
 
 }  // namespace
 
-WeightRange time_price_range(double highest) { return {1e-6 * highest, highest, 1e-5 * highest, 1e-1 * highest}; }
-
 WeightSearchResult search_weights(const WeightSearchOptions& options, const WeightEvaluator& evaluate) {
-  return Search(options, evaluate).run();
+  const WeightGoal &s = options.smoothness, &p = options.time_price;
+  const TargetWeight smoothness{&Weights::smoothness, s, options.smoothness_range};
+  const TargetWeight price{&Weights::time_price, p, options.time_price_range};
+  std::size_t free = 0;
+  for (const TargetWeight& w : {smoothness, price}) {
+    if (w.goal.kind == GoalKind::Fixed) continue;
+    ++free;
+    require_ordered(w.range);
+  }
+  if (free == 0) throw std::invalid_argument("no weight to search");
+  if (s.kind == GoalKind::ResidualAtMost && p.kind == s.kind) {
+    throw std::invalid_argument("both weights hold a residual");
+  }
+  TrialBook book(evaluate, free * static_cast<std::size_t>(std::max(options.evaluations_a_weight, 1)));
+  const bool corner = s.kind == GoalKind::Corner || p.kind == GoalKind::Corner;
+  const Weights given{s.kind == GoalKind::Fixed ? s.value : 0.0, p.kind == GoalKind::Fixed ? p.value : 0.0};
+  WeightSearchResult result;
+  bool ended = true;  // of itself
+  if (corner) {
+    result.chosen = search_corners(options, book);
+  } else if (free == 1) {
+    search_one_target(is_target(s) ? smoothness : price, given, options.tolerance, book);
+  } else {
+    ended = search_two_targets(smoothness, price, options.tolerance, book);
+  }
+  result.trials = book.trials();
+  const Choice choice{options, result.trials};
+  if (!corner) result.chosen = choice.best();
+  if (choice.worst_excess(result.chosen) > 0.0) {
+    result.end = book.ended() || !ended ? SearchEnd::Unfinished : SearchEnd::Missed;
+    if (is_target(s) && is_target(p)) result.front = choice.front();
+  }
+  return result;
 }
 
 }  // namespace dwell

@@ -152,6 +152,28 @@ TEST(PlanCommand, ATargetOutOfReachStillPlansWithExitCode3) {
   EXPECT_TRUE(std::filesystem::exists(inputs / "plan/program.nc"));
 }
 
+TEST(PlanCommand, TwoTargetsInConflictAreSaidToBeWithTheFrontBetweenThem) {
+  const SmallInputs inputs;
+  ASSERT_EQ(inputs.run(SmallInputs::plan({"--smoothness", "10"})).exit_code, 0);
+  const json known = summary_of(inputs);
+  const auto target = [](const char* quantity, const json& value) {
+    return std::string(quantity) + "<=" + std::to_string(0.8 * value.get<double>());
+  };
+  const ProgramResult result =
+      inputs.run(SmallInputs::plan({"--smoothness", target("step", known["dwell"]["step_rms_s"]), "--time-price",
+                                    target("residual", known["residual"]["rms_nm"])}));
+  EXPECT_EQ(result.exit_code, 3) << result.err;
+  expect_has(result.err, "are in conflict: each can be met, but no weights meet both");
+  expect_has(result.out, "\nfront     step RMS ");
+  expect_has(result.out, ", this plan\n");
+  const json search = summary_of(inputs)["weights"]["search"];
+  EXPECT_EQ(search["outcome"], "conflict");
+  EXPECT_GE(search["front"].size(), 3u);
+  const std::string table = read_whole_file(inputs / "plan/search.csv");
+  expect_has(table, ",operator_applications,chosen,front\n");
+  EXPECT_NE(table.find(",1,1\n"), std::string::npos) << "the plan's own row is on the front:\n" << table;
+}
+
 TEST(PlanCommand, WrittenJobPlansTheSame) {
   const SmallInputs inputs;
   ASSERT_EQ(inputs.run(SmallInputs::plan()).exit_code, 0);

@@ -1,11 +1,14 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 
 #include "runs/job/planned_job.h"
 #include "runs/plan/plan_problem.h"
+#include "runs/reports/front_lines.h"
 #include "runs/reports/plan_files.h"
 #include "runs/reports/plan_output.h"
 #include "tests/core/base/expect_error.h"
@@ -141,6 +144,81 @@ TEST(PlanSearch, ATargetOutOfReachIsSaidAndTheNearestPlanMade) {
   EXPECT_LE(plan.dwell.residual.rms, 0.1 * plan.part().before.rms);
 }
 
+/// Whether a sentence has all of the words.
+bool has_all(const std::string& text, std::initializer_list<std::string> words) {
+  return std::all_of(words.begin(), words.end(),
+                     [&text](const std::string& word) { return text.find(word) != std::string::npos; });
+}
+
+TEST(PlanSearch, AStepAndAResidualAreMetTogetherByTheShortestRunThatDoes) {
+  // The step needs a smoothness beyond 100, where the search for a single target used to end.
+  SmallJob job;
+  const DwellPlan known = plan_with(job, {400.0, 1e-3}).dwell;
+  job.options.smoothness = {1.02 * known.step_rms, GoalKind::StepAtMost};
+  job.options.time_price_nm2_per_s = {1.02 * known.residual.rms, GoalKind::ResidualAtMost};
+  const PlannedJob plan = plan_job(job.options, {});
+  EXPECT_TRUE(plan.limits().empty()) << plan.limits()[0];
+  EXPECT_EQ(plan.dwell.search->outcome, "met");
+  EXPECT_TRUE(plan.dwell.search->front.empty());
+  EXPECT_LE(plan.dwell.step_rms, job.options.smoothness.value);
+  EXPECT_LE(plan.dwell.residual.rms, job.options.time_price_nm2_per_s.value);
+  EXPECT_LE(plan.dwell.seconds.sum(), 1.02 * known.seconds.sum());
+  EXPECT_GT(plan.dwell.weights.smoothness, 100.0);
+}
+
+TEST(PlanSearch, AStepBeyondTheOrdinaryRangeWidensIt) {
+  SmallJob job;
+  job.options.smoothness = {plan_with(job, {1000.0, 0.0}).dwell.step_rms, GoalKind::StepAtMost};
+  const PlannedJob plan = plan_job(job.options, {});
+  EXPECT_TRUE(plan.limits().empty());
+  EXPECT_NEAR(plan.dwell.weights.smoothness, 1000.0, 50.0);
+}
+
+TEST(PlanSearch, AConflictIsSaidWithTheFrontAndTheNearestPlanOfTheTable) {
+  SmallJob job;
+  const DwellPlan known = plan_with(job, {10.0, 0.0}).dwell;  // on the front of step and residual
+  job.options.smoothness = {0.8 * known.step_rms, GoalKind::StepAtMost};
+  job.options.time_price_nm2_per_s = {0.8 * known.residual.rms, GoalKind::ResidualAtMost};
+  const PlannedJob plan = plan_job(job.options, {});
+  const WeightTrials& search = *plan.dwell.search;
+  EXPECT_EQ(search.outcome, "conflict");
+  ASSERT_EQ(plan.limits().size(), 1u);
+  EXPECT_TRUE(has_all(plan.limits()[0], {"--smoothness 'step<=", "--time-price 'residual<=", "are in conflict",
+                                         fmt::format("{} solves", search.trials.size()),
+                                         fmt::format("step RMS {:.6g} s", plan.dwell.step_rms),
+                                         fmt::format("residual RMS {:.6g} nm", plan.dwell.residual.rms)}))
+      << plan.limits()[0];
+  const auto worst = [&](const TriedWeights& t) {
+    return std::max(target_excess(job.options.smoothness, t.trade_off),
+                    target_excess(job.options.time_price_nm2_per_s, t.trade_off));
+  };
+  for (const TriedWeights& t : search.trials) EXPECT_GE(worst(t), worst(search.trials[search.chosen]));
+  EXPECT_GT(worst(search.trials[search.chosen]), 0.0);
+  ASSERT_GE(search.front.size(), 3u);
+  EXPECT_LE(search.trials[search.front.front()].trade_off.step_rms, job.options.smoothness.value);
+  EXPECT_LE(search.trials[search.front.back()].trade_off.residual_rms, job.options.time_price_nm2_per_s.value);
+  const std::string lines = front_lines(search, job.options.smoothness, job.options.time_price_nm2_per_s);
+  EXPECT_TRUE(has_all(lines, {"front     step RMS ", " nm (smoothness ", "time price 0 nm^2/s), this plan\n"}))
+      << lines;
+  EXPECT_LE(std::count(lines.begin(), lines.end(), '\n'), 7);
+}
+
+TEST(PlanSearch, AResidualThatNothingMeetsIsNoConflict) {
+  SmallJob job;
+  job.options.smoothness = {0.01, GoalKind::StepAtMost};
+  job.options.time_price_nm2_per_s = {1e-6, GoalKind::ResidualAtMost};
+  const PlannedJob plan = plan_job(job.options, {});
+  EXPECT_EQ(plan.dwell.search->outcome, "missed");
+  ASSERT_FALSE(plan.limits().empty());
+  const auto least = std::min_element(
+      plan.dwell.search->trials.begin(), plan.dwell.search->trials.end(),
+      [](const auto& a, const auto& b) { return a.trade_off.residual_rms < b.trade_off.residual_rms; });
+  EXPECT_TRUE(has_all(plan.limits().back(), {"--time-price 'residual<=1e-06' is not met", "the plan is the nearest",
+                                             fmt::format("residual RMS {:.6g} nm", least->trade_off.residual_rms)}))
+      << plan.limits().back();
+  for (const std::string& limit : plan.limits()) EXPECT_EQ(limit.find("conflict"), std::string::npos) << limit;
+}
+
 TEST(PlanSearch, ATimeLimitEndsTheSearchWithThePlanItHas) {
   SmallJob job;
   job.options.smoothness = {0.0, GoalKind::Corner};
@@ -196,16 +274,18 @@ TEST(WritePlan, SearchIsInTheSummaryAndInItsOwnTable) {
   EXPECT_EQ(weights.at("search").at("trials").size(), plan.dwell.search->trials.size());
   EXPECT_EQ(weights["search"]["trials"][plan.dwell.search->chosen]["smoothness"], plan.dwell.weights.smoothness);
   EXPECT_NE(weights["search"]["criterion"].get<std::string>().find("corner"), std::string::npos);
+  EXPECT_EQ(weights["search"]["outcome"], "met");
+  EXPECT_TRUE(weights["search"]["front"].empty());
   EXPECT_EQ(summary["options"]["smoothness"], "auto");
 
   const std::string table = write_trials(*plan.dwell.search);
   EXPECT_TRUE(
       table.starts_with("smoothness,time_price_nm2_per_s,residual_rms_nm,total_s,step_rms_s,objective_nm2,"
-                        "operator_applications,chosen\n"));
+                        "operator_applications,chosen,front\n"));
   EXPECT_EQ(static_cast<std::size_t>(std::count(table.begin(), table.end(), '\n')),
             plan.dwell.search->trials.size() + 1);
   std::size_t chosen = 0;
-  for (std::size_t at = table.find(",1\n"); at != std::string::npos; at = table.find(",1\n", at + 1)) ++chosen;
+  for (std::size_t at = table.find(",1,0\n"); at != std::string::npos; at = table.find(",1,0\n", at + 1)) ++chosen;
   EXPECT_EQ(chosen, 1u);
 }
 

@@ -50,7 +50,7 @@ TEST_P(OneTarget, IsMetCloselyByTheExtremeWeightThatMeetsIt) {
   const auto result = search_weights(options_of(target.smoothness, target.price),
                                      [](const Weights& w) { return std::optional(smooth_trade_off(w)); });
   const WeightTrial& best = chosen(result);
-  EXPECT_TRUE(result.met);
+  EXPECT_TRUE(result.met());
   EXPECT_LE(best.trade_off.*target.quantity, limit);
   EXPECT_GE(best.trade_off.*target.quantity, 0.995 * limit);
   EXPECT_LE(result.trials.size(), 14u);
@@ -81,19 +81,20 @@ TEST(WeightSearch, ATargetMetWithoutAnyWeightNeedsNone) {
   EXPECT_EQ(chosen(total).weights.time_price, 0.0);
   const auto residual = search_weights(options_of(kSomeSmoothness, {5.0, GoalKind::ResidualAtMost}), evaluate);
   EXPECT_EQ(chosen(residual).weights.time_price, kPriceScale);
-  EXPECT_TRUE(steps.met && total.met && residual.met);
+  EXPECT_TRUE(steps.met() && total.met() && residual.met());
   EXPECT_LE(std::max({steps.trials.size(), total.trials.size(), residual.trials.size()}), 6u);
 }
 
 TEST(WeightSearch, ATargetOutOfReachGivesTheEndNearestToItAndSaysSo) {
   const auto evaluate = [](const Weights& w) { return std::optional(smooth_trade_off(w)); };
   const auto steps = search_weights(options_of({0.001, GoalKind::StepAtMost}, kNoPrice), evaluate);
-  EXPECT_FALSE(steps.met);
-  EXPECT_EQ(chosen(steps).weights.smoothness, kSmoothnessRange.most);
+  EXPECT_FALSE(steps.met());
+  EXPECT_GE(chosen(steps).weights.smoothness, kSmoothnessRange.most);  // beyond, the step hardly falls
+  EXPECT_LT(chosen(steps).weights.smoothness, kSmoothnessRange.ceiling);
   const auto residual = search_weights(options_of(kSomeSmoothness, {0.1, GoalKind::ResidualAtMost}), evaluate);
-  EXPECT_FALSE(residual.met);
+  EXPECT_FALSE(residual.met());
   EXPECT_EQ(chosen(residual).weights.time_price, 0.0);
-  EXPECT_LE(std::max(steps.trials.size(), residual.trials.size()), 6u);
+  EXPECT_LE(std::max(steps.trials.size(), residual.trials.size()), 7u);
 }
 
 TEST(WeightSearch, NoiseOfTheSolverDoesNotSpoilATarget) {
@@ -107,7 +108,7 @@ TEST(WeightSearch, NoiseOfTheSolverDoesNotSpoilATarget) {
       return std::optional(t);
     };
     const auto result = search_weights(options_of({0.006, GoalKind::StepAtMost}, kNoPrice), evaluate);
-    EXPECT_TRUE(result.met) << seed;
+    EXPECT_TRUE(result.met()) << seed;
     EXPECT_LE(chosen(result).trade_off.step_rms, 0.006) << seed;
     EXPECT_GE(chosen(result).trade_off.step_rms, 0.98 * 0.006) << seed;
     EXPECT_LE(result.trials.size(), 20u) << seed;
@@ -132,7 +133,7 @@ TEST_P(BothTargets, AreMetTogetherClosely) {
   const TwoTargets& t = GetParam();
   const auto result = search_weights(options_of(t.smoothness, t.price),
                                      [](const Weights& w) { return std::optional(smooth_trade_off(w)); });
-  EXPECT_TRUE(result.met);
+  EXPECT_TRUE(result.met());
   const TradeOff& best = chosen(result).trade_off;
   EXPECT_LE(best.*t.by_smoothness, t.smoothness.value);
   EXPECT_LE(best.*t.by_price, t.price.value);
@@ -162,7 +163,7 @@ INSTANTIATE_TEST_SUITE_P(Search, BothTargets,
 TEST(WeightSearch, TwoTargetsThatCannotBothBeMetSaySo) {
   const auto result = search_weights(options_of({0.15, GoalKind::ResidualAtMost}, {100.0, GoalKind::TotalAtMost}),
                                      [](const Weights& w) { return std::optional(smooth_trade_off(w)); });
-  EXPECT_FALSE(result.met);
+  EXPECT_FALSE(result.met());
   EXPECT_LE(result.trials.size(), 40u);
 }
 
@@ -204,7 +205,7 @@ TEST(WeightSearch, TheCornerIsThePointFarthestFromTheChord) {
       const double expected =
           farthest_from_chord(kSmoothnessRange.corner_least, kSmoothnessRange.corner_most, curve, &TradeOff::step_rms);
       EXPECT_NEAR(std::log(chosen(result).weights.smoothness), std::log(expected), 0.25) << sharpness << " " << corner;
-      EXPECT_TRUE(result.met);
+      EXPECT_TRUE(result.met());
       EXPECT_LE(result.trials.size(), 20u);
     }
   }
@@ -239,7 +240,7 @@ TEST(WeightSearch, BothCornersTogether) {
 TEST(WeightSearch, ACornerUnderATargetMeetsTheTarget) {
   const auto result = search_weights(options_of({0.0, GoalKind::Corner}, {250.0, GoalKind::TotalAtMost}),
                                      [](const Weights& w) { return std::optional(smooth_trade_off(w)); });
-  EXPECT_TRUE(result.met);
+  EXPECT_TRUE(result.met());
   EXPECT_LE(chosen(result).trade_off.total, 250.0);
   EXPECT_GE(chosen(result).trade_off.total, 0.9 * 250.0);
   EXPECT_GT(chosen(result).weights.smoothness, kSmoothnessRange.corner_least);
@@ -257,7 +258,7 @@ TEST(WeightSearch, ACurveWithoutTradeOffGivesTheEndThatCostsNothing) {
 TEST(WeightSearch, AZeroResidualOrStepIsNoFault) {
   const auto zero = [](const Weights&) { return std::optional(TradeOff{0.0, 0.0, 0.0}); };
   for (const GoalKind kind : {GoalKind::Corner, GoalKind::StepAtMost, GoalKind::ResidualAtMost}) {
-    EXPECT_TRUE(search_weights(options_of({0.1, kind}, kNoPrice), zero).met);
+    EXPECT_TRUE(search_weights(options_of({0.1, kind}, kNoPrice), zero).met());
   }
 }
 
