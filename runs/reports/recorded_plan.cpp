@@ -33,7 +33,7 @@ nlohmann::json summary_of(const std::filesystem::path& folder) {
                     "that dwell plan --out has written",
                     name));
   }
-  const nlohmann::json summary = nlohmann::json::parse(read_whole_file(file), nullptr, false);
+  nlohmann::json summary = nlohmann::json::parse(read_whole_file(file), nullptr, false);
   if (!summary.is_object() || !summary.contains("command") || !summary["command"].is_string()) {
     throw InputError(
         fmt::format("{}: is not a summary of dwell plan; required one, of version 0.2 or later", file.string()));
@@ -56,7 +56,8 @@ JobOptions options_of(const nlohmann::json& summary, const std::string& file) {
   if (recorded == summary.end() || !recorded->is_object()) {
     throw InputError(fmt::format("{}: holds no options; required them in a plan's summary", file));
   }
-  for (const auto& [key, value] : recorded->items()) {
+  for (const auto& option : recorded->items()) {
+    const std::string key = option.key();
     const auto& table = job_option_table();
     const auto record = std::find_if(table.begin(), table.end(), [&](const auto& row) { return row.key == key; });
     if (record == table.end()) {
