@@ -18,6 +18,7 @@
 #include "runs/drawing/picture.h"
 #include "runs/programs/program_formats.h"
 #include "runs/reports/exact_lines.h"
+#include "runs/reports/map_line.h"
 #include "runs/reports/recorded_plan.h"
 #include "runs/reports/simulation.h"
 #include "runs/reports/tool_sheet.h"
@@ -101,7 +102,7 @@ std::string simulation_text(const Simulation& s) {
   return origin +
          fmt::format("program   {}: {} steps, {:.6g} mm with removal, {}\n", s.program.file, s.program.steps.size(),
                      s.program.removing_length(), duration_text(s.program.total_seconds())) +
-         notes + tool_lines(tool_sheet(s.tif)) +
+         notes + map_line(s.map.grid, s.before.valid_pixels) + tool_lines(tool_sheet(s.tif)) +
          fmt::format("before    {} ({} removed, {} pixels)\n", in_words(s.before), to_string(s.terms),
                      s.before.valid_pixels) +
          fmt::format("after     {} ({} removed)\n", in_words(s.after.statistics), to_string(s.terms)) +

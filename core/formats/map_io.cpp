@@ -30,8 +30,9 @@ constexpr double kSame = 1e-9;  // relative difference up to which an option and
 bool same(double a, double b, double size) { return std::abs(a - b) <= kSame * size; }
 
 void check_options(const MapReadOptions& options, const std::string& where) {
-  if (options.pitch && !(std::isfinite(*options.pitch) && *options.pitch > 0.0)) {
-    const std::string value = fmt::format("{} mm", *options.pitch);
+  const auto is_pitch = [](double mm) { return std::isfinite(mm) && mm > 0.0; };
+  if (options.pitch && !(is_pitch(options.pitch->x) && is_pitch(options.pitch->y))) {
+    const std::string value = pitch_option_text(*options.pitch) + " mm";
     throw InputError(
         options.name + " pixel", value, "a finite pixel pitch > 0",
         fmt::format("`{} pixel` = {} for {}; a finite pixel pitch > 0 is required", options.name, value, where));
@@ -51,17 +52,19 @@ void check_options(const MapReadOptions& options, const std::string& where) {
 /// Pitch of header and option, which must agree; nothing if neither says it.
 std::optional<Point> known_pitch(const MapHeader& header, const MapReadOptions& options, const std::string& where) {
   if (!options.pitch) return header.pitch;
-  const double pitch = *options.pitch;
-  if (!header.pitch) return Point{pitch, pitch};
-  const double rounding = header.pitch_rounding * pitch;
-  if (!(std::abs(header.pitch->x - pitch) <= rounding && std::abs(header.pitch->y - pitch) <= rounding)) {
-    throw InputError(
-        fmt::format("{}: header says pitch_mm = {},{} but `{} pixel` says {}; they must agree (or the option "
-                    "be left out)",
-                    where, fewest_digits(header.pitch->x), fewest_digits(header.pitch->y), options.name, pitch));
+  const Point pitch = *options.pitch;
+  if (!header.pitch) return pitch;
+  const auto agree = [&header](double said, double given) {
+    return std::abs(said - given) <= header.pitch_rounding * given;
+  };
+  if (!agree(header.pitch->x, pitch.x) || !agree(header.pitch->y, pitch.y)) {
+    throw InputError(fmt::format(
+        "{}: header says pitch_mm = {},{} but `{} pixel` says {}; they must agree (or the option "
+        "be left out)",
+        where, fewest_digits(header.pitch->x), fewest_digits(header.pitch->y), options.name, pitch_option_text(pitch)));
   }
   // What the file rounds more than single precision would, as the size of a field, the user may know better.
-  if (header.pitch_rounding > kSinglePitchRounding) return Point{pitch, pitch};
+  if (header.pitch_rounding > kSinglePitchRounding) return pitch;
   return header.pitch;
 }
 
@@ -216,11 +219,12 @@ std::vector<std::string> remove_no_data_of_points(XyzText& xyz, const MapReadOpt
 
 HeightMap fit_points_of(const XyzText& xyz, const MapReadOptions& options, const std::string& where,
                         const Progress& progress) {
-  if (options.pitch && !same(*options.pitch, options.grid->pitch, options.grid->pitch)) {
-    throw InputError(
-        fmt::format("{}: `{} pixel` is {} mm, but `{} grid` has a pitch of {} mm; they must agree (or `{} "
-                    "pixel` be left out)",
-                    where, options.name, *options.pitch, options.name, options.grid->pitch, options.name));
+  const double wanted = options.grid->pitch;
+  if (options.pitch && !(same(options.pitch->x, wanted, wanted) && same(options.pitch->y, wanted, wanted))) {
+    throw InputError(fmt::format(
+        "{}: `{} pixel` is {} mm, but `{} grid` has a pitch of {} mm; they must agree (or `{} "
+        "pixel` be left out)",
+        where, options.name, pitch_option_text(*options.pitch), options.name, options.grid->pitch, options.name));
   }
   std::vector<HeightPoint> points;
   for (const XyzPoint& point : xyz.points) points.push_back({point.position, point.height});

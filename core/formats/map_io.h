@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/base/grid_limit.h"
+#include "core/base/pitch.h"
 #include "core/base/progress.h"
 #include "core/base/staged_files.h"
 #include "core/formats/map_rows.h"
@@ -17,7 +18,7 @@ namespace dwell {
 
 /// What a map file does not say about itself.
 struct MapReadOptions {
-  std::optional<double> pitch;  // pixel pitch [mm]; required by files that carry none
+  std::optional<Point> pitch;   // pixel pitch in x and y [mm], both > 0; required by files that carry none
   std::optional<Point> origin;  // centre of pixel (0, 0) [mm]; default (0, 0), or what the file says
   std::optional<double> scale;  // factor from the file's unit to nm (or nm/s); default: what it says, or 1
   std::string name = "map";     // what error messages call it: "map" or "tif"

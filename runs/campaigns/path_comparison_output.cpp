@@ -11,6 +11,7 @@
 #include "runs/base/inputs_json.h"
 #include "runs/drawing/line_chart.h"
 #include "runs/reports/figure_output.h"
+#include "runs/reports/map_line.h"
 #include "runs/reports/options_json.h"
 #include "runs/reports/plan_blocks.h"
 #include "runs/reports/plan_files.h"
@@ -231,8 +232,10 @@ std::string path_comparison_json(const PathComparison& comparison) {
 std::string path_comparison_text(const PathComparison& comparison) {
   std::size_t widest = 4;
   for (const ComparedPath& p : comparison.paths) widest = std::max(widest, p.listed.name.size());
+  const Part& part = *comparison.job.part;
   std::string text =
-      fmt::format("before    {}; pitch {:.6g} mm where a path says none ({})\n", in_words(comparison.job.part->before),
+      map_line(part.map.grid, part.before.valid_pixels) +
+      fmt::format("before    {}; pitch {:.6g} mm where a path says none ({})\n", in_words(part.before),
                   comparison.pitch, comparison.pitch_given ? "given" : "a quarter of the removal function's FWHM");
   text += fmt::format("  {:<{}} {:>12} {:>11} {:>9} {:>13} {:>8} {:>11} {:>8} {:>10} {:>6} {:>9} {:>10}\n", "path",
                       widest, "residual[nm]", "mid RMS[nm]", "total[s]", "h:min:s", "lift[s]", "step RMS[s]", "points",

@@ -7,6 +7,7 @@
 #include "core/base/errors.h"
 #include "core/base/grid_limit.h"
 #include "core/base/number_text.h"
+#include "core/base/pitch.h"
 #include "core/base/value_range.h"
 #include "core/form/form.h"
 #include "core/map/aperture.h"
@@ -83,9 +84,11 @@ std::vector<JobOptionRecord> make_table() {
   return {
       {"map", "map", "FILE", "height-error map: a file in any map format; NaN = outside the part", true, false,
        [](Options& o, const std::string& t) { o.map = t; }, [](const Options& o) { return o.map; }},
-      {"map-pixel", "map_pixel_mm", "MM", "pixel pitch of the map, for formats that carry none", false, true,
-       [](Options& o, const std::string& t) { o.map_pixel_mm = number(t, ranges::kPitch); },
-       [](const Options& o) { return shown(o.map_pixel_mm); }},
+      {"map-pixel", "map_pixel_mm", "MM|X,Y",
+       "pixel pitch of the map in mm, for formats that carry none: one number of square pixels, else that along x and "
+       "that along y",
+       false, true, [](Options& o, const std::string& t) { o.map_pixel_mm = parse_pitch(t); },
+       [](const Options& o) { return o.map_pixel_mm ? pitch_option_text(*o.map_pixel_mm) : std::string(); }, true},
       {"map-unit", "map_unit", "UNIT", "unit of the heights: nm, um, mm or m (default as the file says, else nm)",
        false, false, [](Options& o, const std::string& t) { height_unit_nm(t), o.map_unit = t; },
        [](const Options& o) { return o.map_unit; }},
@@ -131,9 +134,11 @@ std::vector<JobOptionRecord> make_table() {
                    "disc:slope=NM/S/MM,radius=MM, or another model ({}) with its keys",
                    other_models()),
        true, false, [](Options& o, const std::string& t) { o.tif = t; }, [](const Options& o) { return o.tif; }},
-      {"tif-pixel", "tif_pixel_mm", "MM", "pixel pitch of the removal function's file, for formats that carry none",
-       false, true, [](Options& o, const std::string& t) { o.tif_pixel_mm = number(t, ranges::kPitch); },
-       [](const Options& o) { return shown(o.tif_pixel_mm); }},
+      {"tif-pixel", "tif_pixel_mm", "MM|X,Y",
+       "pixel pitch of the removal function's file in mm, for formats that carry none: one number, or that along x and "
+       "that along y",
+       false, true, [](Options& o, const std::string& t) { o.tif_pixel_mm = parse_pitch(t); },
+       [](const Options& o) { return o.tif_pixel_mm ? pitch_option_text(*o.tif_pixel_mm) : std::string(); }, true},
       {"tif-unit", "tif_unit", "UNIT",
        "unit of the removal rates: nm/s, um/s, um/min or m/s (of the surface that spots left: nm, um, mm or m); "
        "default "

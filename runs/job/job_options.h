@@ -27,8 +27,8 @@ namespace dwell {
 /// (job_option_table) feeds the command line, the job file, the validation and the help text; defaults are those below.
 struct JobOptions {
   std::string map;
-  std::optional<double> map_pixel_mm;
-  std::string map_unit;  // empty: as the file says, else nm
+  std::optional<Point> map_pixel_mm;  // in x and y
+  std::string map_unit;               // empty: as the file says, else nm
   std::optional<Point> map_origin_mm;
   std::optional<NoDataMarkers> map_no_data;
   std::optional<double> map_max_pv_mm;  // nothing: 10 mm
@@ -38,7 +38,7 @@ struct JobOptions {
   std::string map_steps;
   std::optional<double> max_pixels;  // nothing: kMaxPixels, and no file that unpacks to many times its size
   std::string tif;
-  std::optional<double> tif_pixel_mm;
+  std::optional<Point> tif_pixel_mm;
   std::string tif_unit;  // empty: as the file says, else nm/s
   std::optional<NoDataMarkers> tif_no_data;
   std::optional<MatrixTable> tif_table;

@@ -28,7 +28,7 @@ HeightMap read_other(const std::string& file, const MapStep& step, MapStepContex
   read.table.reset();
   read.rows.reset();
   read.grid.reset();
-  if (const auto pixel = step.optional_number("pixel")) read.pitch = *pixel;
+  if (const auto pixel = step.pitch("pixel")) read.pitch = *pixel;
   if (const auto origin = step.point("origin")) read.origin = *origin;
   if (step.has("unit")) read.scale = height_unit_nm(step.word("unit"));
   HeightMap map = read_map(file, read, context.progress);

@@ -139,7 +139,8 @@ Argument about() {
 
 /// How another map's file is read.
 void add_reading(std::vector<Argument>& arguments) {
-  arguments.push_back({"pixel", Kind::Number, "MM", "pixel pitch of the file in mm (default: as --map-pixel)", ""});
+  arguments.push_back(
+      {"pixel", Kind::Word, "MM or X/Y", "pixel pitch of the file in mm (default: as --map-pixel)", ""});
   arguments.push_back(
       {"unit", Kind::Word, "UNIT", "unit of its heights: nm, um, mm or m (default: as --map-unit)", ""});
   arguments.push_back({"origin", Kind::Word, "X/Y", "its first pixel in mm (default: as --map-origin)", ""});

@@ -37,6 +37,25 @@ TEST(PlanCommand, WritesEveryFileAndPrintsWhatItDid) {
   EXPECT_EQ(read_whole_file(inputs / "plan/before.png").substr(1, 3), "PNG");
 }
 
+TEST(PlanCommand, ShowsBothPitchesOfPixelsThatAreNotSquare) {
+  const SmallInputs inputs;
+  const ProgramResult result = inputs.run(SmallInputs::plan({"--map-pixel", "0.5,0.4", "--tif-pixel", "0.5,0.625"}));
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  expect_has(result.out, "22 rows x 30 columns of 0.5 x 0.4 mm");
+  const json summary = summary_of(inputs);
+  EXPECT_EQ(summary["map"]["pixel_mm"], json({0.5, 0.4}));
+  EXPECT_EQ(summary["tif"]["grid"]["pixel_mm"], json({0.5, 0.625}));
+  EXPECT_EQ(summary["options"]["map_pixel_mm"], "0.5,0.4");
+  const ProgramResult simulated = inputs.run({"simulate", "plan", "--json"});
+  ASSERT_EQ(simulated.exit_code, 0) << simulated.err;
+  EXPECT_EQ(json::parse(simulated.out)["map"]["pixel_mm"], json({0.5, 0.4}));
+  expect_has(inputs.run({"simulate", "plan"}).out, "of 0.5 x 0.4 mm");
+  const ProgramResult map = inputs.run({"map", "map.csv", "--map-pixel", "0.5,0.4"});
+  expect_has(map.out, "0.5 mm in x, 0.4 mm in y");
+  const ProgramResult tif = inputs.run({"tif", "tif.csv", "--tif-pixel", "0.5,0.625"});
+  expect_has(tif.out, "pitch 0.5 x 0.625 mm");
+}
+
 TEST(PlanCommand, WritesFiguresInTheFormatsAskedForAndReplacesThem) {
   const SmallInputs inputs;
   std::vector<std::string> vectors = SmallInputs::plan();

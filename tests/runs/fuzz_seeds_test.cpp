@@ -28,7 +28,7 @@ using Read = std::function<void(const std::filesystem::path&)>;
 void read_as_map(const std::filesystem::path& file) {
   const std::string extension = file.extension().string();
   MapReadOptions options;
-  if (extension == ".npy" || extension == ".int") options.pitch = 0.5;
+  if (extension == ".npy" || extension == ".int") options.pitch = square_pitch(0.5);
   if (file.filename() == "commas.csv" || file.filename() == "plain.xyz") options.scale = 1e3;
   read_map(file, options);
 }

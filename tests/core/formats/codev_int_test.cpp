@@ -78,7 +78,7 @@ TEST(CodevInt, IsChosenByContentOrExtension) {
   const test::TemporaryFolder folder;
   const std::string text = "t\nGRD 2 3 SUR WVL 1 SSZ 1000\n1 2\n3 4\n5 6\n";
   MapReadOptions options;
-  options.pitch = 0.5;
+  options.pitch = square_pitch(0.5);
   const HeightMap expected(Grid{3, 2, 0.5, 0.5, {}}, {5, 6, 3, 4, 1, 2});
   test::expect_same_map(read_map(folder.file("a.int", text), options), expected);
   test::expect_same_map(read_map(folder.file("a.txt", text), options), expected);

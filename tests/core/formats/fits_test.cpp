@@ -65,7 +65,7 @@ TEST(Fits, ReadsEveryTypeScaledWithItsBlank) {
   expect(-64, big_endian(std::vector<double>{1, NAN, 100}));
   const test::TemporaryFolder folder;
   MapReadOptions options;
-  options.pitch = 1.0;
+  options.pitch = square_pitch(1.0);
   const auto file =
       folder.file("a.fits", header(primary(-32, 3, 1)) + big_endian(std::vector<float>{1, HUGE_VALF, 100}));
   test::expect_input_error([&] { read_map(file, options); }, {"a.fits", "infinite", "column 2"});

@@ -306,7 +306,7 @@ TEST(TextHeader, AnOptionSettlesWhatIsUnclear) {
     test::expect_input_error([&] { read_map(file, options); }, {"a.csv", key, option});
   };
   refused("pitch = '250'", "`map pixel`");
-  options.pitch = 0.25;
+  options.pitch = square_pitch(0.25);
   refused("origin = '1,2'", "`map origin`");
   options.origin = Point{1.0, 2.0};
   refused("scale = '1e-3'", "`map unit`");

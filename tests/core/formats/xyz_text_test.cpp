@@ -166,7 +166,7 @@ TEST(XyzText, RefusesPlacesInAUnitThatIsNotClear) {
     test::expect_input_error([&] { read_map(file, options); }, {"a.xyz, line 1", "mm"});
     options.scale =
         comment == std::string("# unit: m") || comment == std::string("# data in inches") ? options.scale : 1.0;
-    options.pitch = 0.5;
+    options.pitch = square_pitch(0.5);
     test::expect_input_error([&] { read_map(file, options); }, {"a.xyz, line 1"});
   }
 }

@@ -82,7 +82,7 @@ TEST(ZygoDat, LeavesThePitchOpenWhereTheFileDoes) {
   const auto path = folder.file("a.dat", file.bytes());
   test::expect_input_error([&] { read_map(path); }, {"a.dat", "`map pixel`", "lateral resolution", "byte 184"});
   MapReadOptions options;
-  options.pitch = 0.25;
+  options.pitch = square_pitch(0.25);
   options.max_pv = 1e8;
   EXPECT_EQ(read_map(path, options).grid, (Grid{2, 3, 0.25, 0.25, {7 * 0.25, -12 * 0.25}}));
   options.origin = Point{1.0, 2.0};
@@ -138,10 +138,10 @@ TEST(ZygoDat, AgreesWithAPitchAsItIsPrinted) {
   const test::TemporaryFolder folder;
   write_whole_file(folder.path() / "a.dat", ZygoDatFile().bytes());
   MapReadOptions options;
-  options.pitch = 0.2;
+  options.pitch = square_pitch(0.2);
   options.max_pv = 1e8;
   EXPECT_EQ(read_map(folder.path() / "a.dat", options).grid.pitch_x, static_cast<double>(2e-4F) * 1e3);
-  options.pitch = 0.20001;
+  options.pitch = square_pitch(0.20001);
   test::expect_input_error([&] { read_map(folder.path() / "a.dat", options); }, {"pitch_mm", "`map pixel`", "agree"});
 }
 

@@ -100,7 +100,7 @@ TEST(ZygoDatx, LeavesThePitchOpenWhereTheFileDoes) {
   const auto path = folder.file("a.datx", datx.bytes());
   test::expect_input_error([&] { read_map(path); }, {"a.datx", "`map pixel`", "'Y Converter'"});
   MapReadOptions options;
-  options.pitch = 0.5;
+  options.pitch = square_pitch(0.5);
   EXPECT_EQ(read_map(path, options).grid, (Grid{2, 3, 0.5, 0.5, {7.5, -11.5}}));
 }
 
@@ -112,9 +112,9 @@ TEST(ZygoDatx, TakesAPitchThatAgreesInSinglePrecision) {
   const test::TemporaryFolder folder;
   const auto path = folder.file("a.datx", datx.bytes());
   MapReadOptions options;
-  options.pitch = 0.1;
+  options.pitch = square_pitch(0.1);
   EXPECT_NEAR(read_map(path, options).grid.pitch_x, 0.1, 1e-8);
-  options.pitch = 0.10001;
+  options.pitch = square_pitch(0.10001);
   test::expect_input_error([&] { read_map(path, options); }, {"a.datx", "0.10001", "agree"});
 }
 

@@ -151,6 +151,20 @@ TEST(MapSteps, SubtractAverageAndRegisterReadOtherMaps) {
   EXPECT_GT(prepared(map, "average:" + file("finer.csv") + ",resample").valid_pixels(), 4000);
 }
 
+TEST(MapSteps, ReadOtherMapsOfPixelsThatAreNotSquare) {
+  const test::TemporaryFolder folder;
+  const HeightMap map(Grid{2, 3, 0.5, 0.25, {}}, {1.0, 2.0, 3.0, 4.0, 5.0, 7.0});
+  const std::string file = folder.file("other.csv", "1,1,1\n0,0,2\n").string();
+  const HeightMap less = prepared(map, "subtract:file=" + file + ",pixel=0.5/0.25");
+  EXPECT_EQ(less.at(1, 2), 5.0);
+  EXPECT_EQ(less.at(0, 1), 1.0);
+  expect_input_error([&] { prepared(map, "subtract:file=" + file + ",pixel=0.25/0.5"); }, {"different grids"});
+  for (const std::string wrong : {"0.5/0.25/1", "0.5/x", "-0.5", "0.5/0"}) {
+    expect_input_error([&] { prepared(map, "subtract:file=" + file + ",pixel=" + wrong); },
+                       {"pixel = '" + wrong + "'", "X/Y", "not square"});
+  }
+}
+
 TEST(MapSteps, RefuseNamingTheStepAndWhatIsAccepted) {
   const auto refused = [](const std::string& steps, std::initializer_list<std::string> words) {
     expect_input_error([&] { prepared(uneven_map(), steps); }, words);

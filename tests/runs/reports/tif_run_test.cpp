@@ -120,7 +120,7 @@ TEST(MakeTif, RefusesOptionsThatWouldMeanNothing) {
   expect_input_error(with([](TifJob& j) { j.feed_mm_per_min = 10.0; }), {"--feed", "--trench"});
   expect_input_error(with([](TifJob& j) { j.dwell_time_s.reset(); }), {"--dwell-time", "required"});
   expect_input_error(with([](TifJob& j) { j.dwell_time_s = -3.0; }), {"after.csv", "`dwell time` = -3"});
-  expect_input_error(with([](TifJob& j) { j.job.tif_pixel_mm = 0.1; }), {"--tif-pixel", "--map-pixel"});
+  expect_input_error(with([](TifJob& j) { j.job.tif_pixel_mm = square_pitch(0.1); }), {"--tif-pixel", "--map-pixel"});
   expect_input_error(with([](TifJob& j) { j.baseline = "none"; }), {"--baseline none", "--before"});
   expect_input_error(with([](TifJob& j) { j.centre = "top"; }), {"--centre", "'top'"});
   expect_input_error(with([](TifJob& j) { j.at = {"1;2"}; }), {"--at", "'1;2'"});
