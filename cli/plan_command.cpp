@@ -12,6 +12,7 @@
 #include "core/base/duration_text.h"
 #include "core/base/units.h"
 #include "runs/job/job_file.h"
+#include "runs/reports/aim.h"
 #include "runs/reports/exact_lines.h"
 #include "runs/reports/map_line.h"
 #include "runs/reports/plan_files.h"
@@ -33,6 +34,7 @@ struct PlanArguments {
 std::string plan_text(const PlannedJob& plan, const WrittenPlan& written) {
   std::string text = map_line(plan.part().map.grid, plan.part().before.valid_pixels);
   text += fmt::format("before    {} ({} removed)\n", in_words(plan.part().before), to_string(plan.part().form));
+  text += aim_line(correction_aim(plan.job));
   text += tool_lines(tool_sheet(plan.part().tif));
   text += fmt::format("path      {}, {} points, {:.6g} mm, longest jump {:.4g} mm, {} lifts\n", plan.laid.path.kind,
                       plan.laid.metrics.points, plan.laid.metrics.length, plan.laid.metrics.longest_jump,

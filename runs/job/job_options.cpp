@@ -33,6 +33,12 @@ double number(const std::string& text, const ValueRange& range) {
   return *value;
 }
 
+double share(const std::string& text) {
+  const auto value = parse_number(text);
+  if (value && *value > 0.0 && *value <= 1.0) return *value;
+  throw InputError(fmt::format("'{}'; required a number > 0 and at most 1", text));
+}
+
 void check_height_or_rate_unit(const std::string& unit) {
   const bool rate = known_rate_unit(unit) || unit.find('/') != std::string::npos;
   unit_factor(unit, rate ? MapQuantity::Rate : MapQuantity::Height);
@@ -205,6 +211,10 @@ std::vector<JobOptionRecord> make_table() {
        "polygon:X,Y,X,Y,...[/HOLE...] in mm",
        false, false, [](Options& o, const std::string& t) { o.aperture = parse_aperture(t); },
        [](const Options& o) { return to_string(o.aperture); }},
+      {"fraction", "fraction", "SHARE",
+       "share of the error that the plan removes, form terms aside, > 0 and at most 1: 0.8 leaves a fifth of it", false,
+       true, [](Options& o, const std::string& t) { o.fraction = share(t); },
+       [](const Options& o) { return shown(o.fraction); }},
       {"min-dwell", "min_dwell_s", "S", "shortest dwell time at a point in s", false, true,
        [](Options& o, const std::string& t) { o.min_dwell_s = number(t, ranges::kDwell); },
        [](const Options& o) { return shown(o.min_dwell_s); }},

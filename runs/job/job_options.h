@@ -53,6 +53,7 @@ struct JobOptions {
   PathSpec path;
   Motion motion = Motion::Moving;
   FormTerms remove{true, true};
+  double fraction = 1.0;  // of the error that a plan removes
   Aperture aperture;
   double min_dwell_s = 0.0;
   double max_feed_mm_per_min = 3000.0;

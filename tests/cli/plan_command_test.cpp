@@ -44,7 +44,6 @@ TEST(PlanCommand, ShowsBothPitchesOfPixelsThatAreNotSquare) {
   expect_has(result.out, "22 rows x 30 columns of 0.5 x 0.4 mm");
   const json summary = summary_of(inputs);
   EXPECT_EQ(summary["map"]["pixel_mm"], json({0.5, 0.4}));
-  EXPECT_EQ(summary["tif"]["grid"]["pixel_mm"], json({0.5, 0.625}));
   EXPECT_EQ(summary["options"]["map_pixel_mm"], "0.5,0.4");
   const ProgramResult simulated = inputs.run({"simulate", "plan", "--json"});
   ASSERT_EQ(simulated.exit_code, 0) << simulated.err;
@@ -54,6 +53,25 @@ TEST(PlanCommand, ShowsBothPitchesOfPixelsThatAreNotSquare) {
   expect_has(map.out, "0.5 mm in x, 0.4 mm in y");
   const ProgramResult tif = inputs.run({"tif", "tif.csv", "--tif-pixel", "0.5,0.625"});
   expect_has(tif.out, "pitch 0.5 x 0.625 mm");
+}
+
+TEST(PlanCommand, SaysWhatAPartialCorrectionAimsAt) {
+  const SmallInputs inputs;
+  const ProgramResult result = inputs.run(SmallInputs::plan({"--fraction", "0.8"}));
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const json summary = summary_of(inputs);
+  const double before = summary["map"]["rms_nm"], left = summary["program"]["residual_rms_nm"];
+  EXPECT_NEAR(left, 0.2 * before, 0.1 * before);
+  expect_has(result.out, "aim       80 % of the error: RMS ");
+  const ProgramResult simulated = inputs.run({"simulate", "plan", "--json"});
+  ASSERT_EQ(simulated.exit_code, 0) << simulated.err;
+  EXPECT_NEAR(json::parse(simulated.out)["program"]["residual_rms_nm"].get<double>(), left, 1e-9 * before);
+  for (const char* wrong : {"0", "-0.5", "1.0001", "80", "nan"}) {
+    const ProgramResult refused = inputs.run(SmallInputs::plan({"--fraction", wrong}));
+    EXPECT_EQ(refused.exit_code, 2);
+    expect_has(refused.err, std::string("--fraction: '") + wrong + "'; required a number > 0 and at most 1");
+  }
+  EXPECT_EQ(inputs.run({"simulate", "plan", "--fraction", "0.5"}).exit_code, 2) << "has no say in what is removed";
 }
 
 TEST(PlanCommand, WritesFiguresInTheFormatsAskedForAndReplacesThem) {
