@@ -14,6 +14,8 @@
 #include "core/base/units.h"
 #include "core/formats/field_name.h"
 #include "core/formats/remark_guard.h"
+#include "core/formats/said_wavelength.h"
+#include "core/formats/wavefront_words.h"
 #include "core/map/value_units.h"
 
 namespace dwell {
@@ -141,7 +143,8 @@ std::optional<double> unit_of_comment(const std::string& comment) {
 /// The same card as a field; nothing if neither its name nor its text can speak of a map.
 std::optional<MapField> field_of_card(const Card& card, const Keywords& keywords) {
   const FieldName name = parse_field_name(card.name);
-  if (is_read_elsewhere(card.name) || (name.topic == MapTopic::Other && !card.is_text())) return std::nullopt;
+  const bool says_nothing = name.topic == MapTopic::Other && !card.is_text() && !names_wavelength(card.name);
+  if (is_read_elsewhere(card.name) || says_nothing) return std::nullopt;
   MapField field;
   field.name = card.name;
   field.shown = "FITS keyword " + card.name;
@@ -185,6 +188,15 @@ void guard_remarks(const std::vector<Card>& cards, const std::string& where, Map
          unclear_remarks(card.comment, fmt::format("{}: FITS {}", where, card.name), RemarkPlace::Field)) {
       if (!history || unclear.about == UnclearStatement::About::Unit) header.unclear.push_back(std::move(unclear));
     }
+  }
+}
+
+/// What a card of any kind, EXTNAME too, calls a path difference; not HISTORY, which tells what was done.
+void add_wavefronts(const std::vector<Card>& cards, const std::string& where, MapHeader& header) {
+  for (const Card& card : cards) {
+    if (card.name == "HISTORY" || card.name.starts_with("MADE")) continue;
+    const std::string words = card.name + " " + card.value + " / " + card.comment;
+    note_wavefront(words, where, fmt::format("FITS card {}", in_quotes(words)), header);
   }
 }
 
@@ -246,6 +258,7 @@ FitsHeader read_fits_header(fitsfile* file, const std::string& where) {
   FitsHeader header;
   header.said = read_map_fields(fields, where);
   guard_remarks(cards, where, header.said.header);
+  add_wavefronts(cards, where, header.said.header);
   add_world(keywords, header.said, where);
   for (int step = 1; const auto made = keywords.text(fmt::format("MADE{}", step)); ++step) {
     header.said.header.history.push_back(*made);

@@ -19,6 +19,8 @@
 #include "core/formats/npy_sidecar.h"
 #include "core/formats/part_size.h"
 #include "core/formats/point_grid.h"
+#include "core/formats/wave_scale.h"
+#include "core/formats/wavefront_words.h"
 #include "core/formats/xyz_text.h"
 #include "core/map/value_units.h"
 
@@ -42,6 +44,7 @@ void check_options(const MapReadOptions& options, const std::string& where) {
     throw InputError(options.name + " origin", value, "finite numbers",
                      fmt::format("`{} origin` = {} for {}; finite numbers are required", options.name, value, where));
   }
+  check_wave_options(options.waves, where);
   if (options.scale && !(std::isfinite(*options.scale) && *options.scale > 0.0)) {
     throw InputError(options.name + " unit", fmt::format("{}", *options.scale), "a factor that is finite and > 0",
                      fmt::format("`{} unit` gives a factor of {} for {}; it must be finite and > 0", options.name,
@@ -93,13 +96,14 @@ std::string unit_hint(const std::string& unit, MapQuantity quantity) {
   return "";
 }
 
-/// The factor to nm (nm/s). A file that names its unit must be read with that unit: no file is scaled twice, or not at
-/// all, unnoticed.
-double known_scale(const MapHeader& header, const MapReadOptions& options, const std::string& where) {
-  if (!header.unit) return options.scale.value_or(1.0);
+/// The factor of a unit to nm (nm/s). A file that names its unit must be read with that unit: no file is scaled twice,
+/// or not at all, unnoticed. `wave`: of a unit that is waves [nm].
+double known_unit(const MapHeader& header, const std::optional<double>& wave, const MapReadOptions& options,
+                  const std::string& where) {
+  if (!header.unit) return wave.value_or(options.scale.value_or(1.0));
   double factor = 0.0;
   try {
-    factor = unit_factor(*header.unit, options.quantity);
+    factor = wave ? *wave : unit_factor(*header.unit, options.quantity);
   } catch (const InputError& error) {
     throw InputError(
         fmt::format("{}: header says unit {}{}", where, error.what(), unit_hint(*header.unit, options.quantity)));
@@ -113,6 +117,18 @@ double known_scale(const MapHeader& header, const MapReadOptions& options, const
   return factor;
 }
 
+/// The factor to nm (nm/s) of the surface. What was done about waves is appended to the header's history.
+double known_scale(MapHeader& header, const MapReadOptions& options, const std::string& where) {
+  const WaveReading waves = read_waves(options.waves, header, options.quantity, options.name, where);
+  return waves.scale * known_unit(header, waves.wave, options, where);
+}
+
+/// What the name of the file itself calls its data.
+void read_file_name(MapHeader& header, const MapName& name, const MapReadOptions& options, const std::string& where) {
+  if (options.quantity != MapQuantity::Height) return;
+  note_wavefront(name.file.stem().string(), where, "the name of the file", header);
+}
+
 /// Refuses what the header says unclearly and neither it nor an option says clearly. The places of points say pitch and
 /// origin as well.
 void settle_unclear(const MapHeader& header, const MapReadOptions& options, bool points) {
@@ -121,9 +137,9 @@ void settle_unclear(const MapHeader& header, const MapReadOptions& options, bool
     const auto [settled, option] = [&]() -> std::pair<bool, std::string> {
       switch (unclear.about) {
         case About::Unit:
-          return {header.unit || options.scale, "unit"};
+          return {header.unit || options.scale || options.waves.in_waves, "unit"};
         case About::Factor:
-          return {options.scale.has_value(), "unit"};
+          return {options.scale || options.waves.in_waves, "unit"};
         case About::Pitch:
           return {points || header.pitch || options.pitch, "pixel"};
         case About::Places:
@@ -134,10 +150,14 @@ void settle_unclear(const MapHeader& header, const MapReadOptions& options, bool
           return {points || options.rows, "rows"};
         case About::NoData:
           return {!header.no_data.empty() || options.no_data, "no data"};
+        case About::Wavefront:
+          return {options.waves.scale || states_wave_scale(header), ""};
       }
       return {false, ""};
     }();
     if (settled) continue;
+    if (unclear.about == About::Wavefront)
+      throw InputError(unclear.message + way_out_of_wavefront(options.name == "map"));
     // The origin of a removal function is where its tool axis says; no option gives it.
     const bool has_option = !option.empty() && (unclear.about != About::Origin || options.name == "map");
     throw InputError(unclear.message + (has_option ? fmt::format("; or give `{} {}`", options.name, option) : ""));
@@ -241,13 +261,14 @@ HeightMap fit_points_of(const XyzText& xyz, const MapReadOptions& options, const
   }
 }
 
-HeightMap read_xyz(std::string_view text, const MapReadOptions& options, const std::string& where,
+HeightMap read_xyz(const MapName& name, std::string_view text, const MapReadOptions& options, const std::string& where,
                    const Progress& progress) {
   if (options.table || options.rows) {
     throw InputError(fmt::format("{}: `{} {}` is for a matrix, but the file holds points x y z; leave it out", where,
                                  options.name, options.table ? "table" : "rows"));
   }
   XyzText xyz = parse_xyz_text(text, where);
+  read_file_name(xyz.header, name, options, where);
   settle_unclear(xyz.header, options, true);
   const double scale = known_scale(xyz.header, options, where);
   append(xyz.header.history, remove_no_data_of_points(xyz, options, where));
@@ -262,11 +283,13 @@ HeightMap read_xyz(std::string_view text, const MapReadOptions& options, const s
   return map;
 }
 
-HeightMap read_matrix(std::string_view text, const MapReadOptions& options, const std::string& where) {
+HeightMap read_matrix(const MapName& name, std::string_view text, const MapReadOptions& options,
+                      const std::string& where) {
   const bool headed = options.table && options.table->kind != MatrixTable::Kind::Heights;
   bool named_columns = false;
   MapSource matrix = parse_matrix_text(text, where, headed ? &named_columns : nullptr);
   apply_matrix_table(matrix, options.table, named_columns, where, options.name);
+  read_file_name(matrix.header, name, options, where);
   return map_of_source(std::move(matrix), options, where);
 }
 
@@ -293,6 +316,7 @@ HeightMap parse_map(const MapName& name, std::string_view bytes, const MapReadOp
     }
     MapSource source = read_array(*format, bytes, name.inside, where, options.limit);
     if (is_npy(bytes)) add_npy_sidecar(name.file, bytes, source);
+    read_file_name(source.header, name, options, where);
     return map_of_source(std::move(source), options, where);
   }
   const std::string binary = kind_of_binary(bytes);
@@ -303,8 +327,8 @@ HeightMap parse_map(const MapName& name, std::string_view bytes, const MapReadOp
     throw InputError(fmt::format("{}: the file is text, which holds one array; leave out ':{}'", where, name.inside));
   }
   if (extension == ".npy") throw InputError(fmt::format("{}: not an NPY array but text; name it .csv or .xyz", where));
-  if (extension == ".xyz" || names_xyz_columns(bytes)) return read_xyz(bytes, options, where, progress);
-  return read_matrix(bytes, options, where);
+  if (extension == ".xyz" || names_xyz_columns(bytes)) return read_xyz(name, bytes, options, where, progress);
+  return read_matrix(name, bytes, options, where);
 }
 
 /// One value at least, and no more than a part can span.

@@ -11,6 +11,7 @@
 #include "core/formats/map_rows.h"
 #include "core/formats/matrix_table.h"
 #include "core/formats/no_data.h"
+#include "core/formats/wave_options.h"
 #include "core/map/height_map.h"
 #include "core/map/scattered_surface.h"
 
@@ -27,6 +28,7 @@ struct MapReadOptions {
   /// Whether places in the file's own coordinates count. Not for a removal function that is centred by its grid or its
   /// centroid: what only seems to say an origin is skipped then.
   bool origin_counts = true;
+  WaveOptions waves;                     // of heights in waves, and of path differences
   std::optional<NoDataMarkers> no_data;  // numbers of the file that stand for no data, besides what it says
   std::optional<double> max_pv;          // the most that heights or rates may span [nm], [nm/s]; default kMostSpan
   std::optional<MatrixTable> table;      // what the first row and column of a matrix as text are

@@ -44,6 +44,15 @@ void check_height_or_rate_unit(const std::string& unit) {
   unit_factor(unit, rate ? MapQuantity::Rate : MapQuantity::Height);
 }
 
+void check_height_unit(const std::string& unit) {
+  if (is_wave_unit(unit)) return;
+  try {
+    height_unit_nm(unit);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}, waves", error.what()));
+  }
+}
+
 double pixel_count(const std::string& text) {
   constexpr ValueRange kPixels{1.0, kMostPixelsOfAll, ""};
   const auto value = parse_number(text);
@@ -95,9 +104,20 @@ std::vector<JobOptionRecord> make_table() {
        "that along y",
        false, true, [](Options& o, const std::string& t) { o.map_pixel_mm = parse_pitch(t); },
        [](const Options& o) { return o.map_pixel_mm ? pitch_option_text(*o.map_pixel_mm) : std::string(); }, true},
-      {"map-unit", "map_unit", "UNIT", "unit of the heights: nm, um, mm or m (default as the file says, else nm)",
-       false, false, [](Options& o, const std::string& t) { height_unit_nm(t), o.map_unit = t; },
+      {"map-unit", "map_unit", "UNIT",
+       "unit of the heights: nm, um, mm, m or waves (default as the file says, else nm); waves need --wavelength and "
+       "--wave-scale",
+       false, false, [](Options& o, const std::string& t) { check_height_unit(t), o.map_unit = t; },
        [](const Options& o) { return o.map_unit; }},
+      {"wavelength", "wavelength_nm", "NM", "wavelength in nm, of heights in waves; 632.8 of a HeNe laser", false, true,
+       [](Options& o, const std::string& t) { o.wavelength_nm = number(t, ranges::kWavelength); },
+       [](const Options& o) { return shown(o.wavelength_nm); }},
+      {"wave-scale", "wave_scale", "0.5|1|X",
+       "height of the surface for each wave, in wavelengths, and of an OPD in nm for each nm of it: 0.5 for a mirror "
+       "measured at normal incidence, 1 where the values are heights of the surface; required for waves and for data "
+       "called OPD, wavefront or WFR",
+       false, true, [](Options& o, const std::string& t) { o.wave_scale = number(t, ranges::kWaveScale); },
+       [](const Options& o) { return shown(o.wave_scale); }},
       {"map-origin", "map_origin_mm", "X,Y",
        "position of the map's first pixel in mm (default 0,0 or what the file says)", false, false,
        [](Options& o, const std::string& t) { o.map_origin_mm = parse_point(t); },

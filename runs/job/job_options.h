@@ -27,8 +27,10 @@ namespace dwell {
 /// (job_option_table) feeds the command line, the job file, the validation and the help text; defaults are those below.
 struct JobOptions {
   std::string map;
-  std::optional<Point> map_pixel_mm;  // in x and y
-  std::string map_unit;               // empty: as the file says, else nm
+  std::optional<Point> map_pixel_mm;    // in x and y
+  std::string map_unit;                 // empty: as the file says, else nm
+  std::optional<double> wavelength_nm;  // of heights in waves
+  std::optional<double> wave_scale;     // height of the surface for each wave, or for each nm of path difference
   std::optional<Point> map_origin_mm;
   std::optional<NoDataMarkers> map_no_data;
   std::optional<double> map_max_pv_mm;  // nothing: 10 mm

@@ -127,7 +127,7 @@ TEST(MapIo, HeaderAndOptionsMustAgree) {
   other.scale.reset();
   EXPECT_EQ(read_map(file, other).at(0, 1), 2e3) << "without an option the file is taken at its word";
   const auto waves = folder.file("b.csv", "# unit: waves\n# pitch_mm: 1\n1,2\n");
-  test::expect_input_error([&] { read_map(waves); }, {"'waves'", "nm, um"});
+  test::expect_input_error([&] { read_map(waves); }, {"b.csv", "unit waves", "`wavelength` [nm]", "`wave scale`"});
 }
 
 TEST(MapIo, PitchOfPixelsThatAreNotSquareIsComparedBothWays) {

@@ -12,6 +12,7 @@
 #include "tests/core/form/spread.h"
 #include "tests/core/formats/byte_flips.h"
 #include "tests/core/formats/zygo_dat_bytes.h"
+#include "tests/core/map/same_map.h"
 
 namespace dwell {
 namespace {
@@ -143,6 +144,22 @@ TEST(ZygoDat, AgreesWithAPitchAsItIsPrinted) {
   EXPECT_EQ(read_map(folder.path() / "a.dat", options).grid.pitch_x, static_cast<double>(2e-4F) * 1e3);
   options.pitch = square_pitch(0.20001);
   test::expect_input_error([&] { read_map(folder.path() / "a.dat", options); }, {"pitch_mm", "`map pixel`", "agree"});
+}
+
+// The file says its own scale: an option that says another would be a factor of two that nobody sees.
+TEST(ZygoDat, StatesWavelengthAndScale) {
+  const test::TemporaryFolder folder;
+  const auto file = folder.file("wavefront.dat", ZygoDatFile().bytes());
+  MapReadOptions options;
+  options.max_pv = 1e8;
+  const HeightMap expected = read_map(file, options);
+  options.waves = {true, 632.8, 0.5 * 1.25};
+  test::expect_same_map(read_map(file, options), expected);
+  options.waves = {false, {}, 0.5};
+  test::expect_input_error([&] { read_map(file, options); },
+                           {"wavefront.dat", "byte 164", "says 0.625 wavelengths", "`wave scale` 0.5", "agree"});
+  options.waves = {false, 543.5, {}};
+  test::expect_input_error([&] { read_map(file, options); }, {"byte 168", "632.8", "`wavelength` 543.5 nm"});
 }
 
 /// The file that comes with prysm (425 x 432 pixels of MetroPro 8.3.5). Reference: read_zygo_dat of prysm's io.py (the

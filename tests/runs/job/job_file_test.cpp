@@ -24,6 +24,8 @@ JobOptions unusual() {
   o.map = "/data/a map \"of\" C:\\parts.csv";
   o.map_pixel_mm = Point{0.1, 1.0 / 3.0};
   o.map_unit = "um";
+  o.wavelength_nm = 632.8;
+  o.wave_scale = 0.5;
   o.map_origin_mm = Point{-12.5, 1.0 / 3.0};
   o.map_no_data = NoDataMarkers{{-9999.0, 0.1}};
   o.map_max_pv_mm = 25.0;
