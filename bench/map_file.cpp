@@ -87,7 +87,7 @@ MapFile::MapFile(const std::string& format, long size) : file_(folder_.path() / 
 
 void MapFile::read_map() const {
   MapReadOptions options;
-  if (file_.extension() != ".dat") options.pitch = 0.1;
+  if (file_.extension() != ".dat") options.pitch = square_pitch(0.1);
   const HeightMap map = dwell::read_map(file_, options);
   benchmark::DoNotOptimize(map.values.data());
 }

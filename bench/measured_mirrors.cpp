@@ -10,7 +10,7 @@ namespace {
 
 HeightMap read(const std::filesystem::path& file, double pitch) {
   MapReadOptions options;
-  options.pitch = pitch;
+  options.pitch = square_pitch(pitch);
   return read_map(file, options);
 }
 

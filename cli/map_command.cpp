@@ -197,8 +197,9 @@ void add_map_command(CLI::App& program, int& exit_code) {
   command->add_option("file", arguments->file, "a file in any map format, or run.h5:/path/in/it")
       ->type_name("FILE")
       ->required();
-  const std::vector<std::string> flags{"map-pixel", "map-unit", "map-origin", "map-no-data", "map-max-pv", "map-table",
-                                       "map-rows",  "map-grid", "map-steps",  "max-pixels",  "aperture",   "threads"};
+  const std::vector<std::string> flags{"map-pixel",   "map-unit",   "wavelength", "wave-scale", "map-origin",
+                                       "map-no-data", "map-max-pv", "map-table",  "map-rows",   "map-grid",
+                                       "map-steps",   "max-pixels", "aperture",   "threads"};
   arguments->job = std::make_unique<JobArguments>(*command, flags, false);
   add_report_options(*command, *arguments);
   command->add_option("--write", arguments->write, "write the map after all steps [nm]: " + written_map_extensions())

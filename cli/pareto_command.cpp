@@ -11,6 +11,8 @@
 #include "cli/terminal.h"
 #include "core/base/duration_text.h"
 #include "runs/campaigns/pareto_output.h"
+#include "runs/reports/aim.h"
+#include "runs/reports/map_line.h"
 #include "runs/reports/tool_sheet.h"
 
 namespace dwell::cli {
@@ -25,7 +27,9 @@ struct ParetoArguments {
 
 /// The text for people: the front of the sweep.
 std::string front_text(const ParetoSweep& sweep) {
-  std::string text = tool_lines(tool_sheet(sweep.job.part->tif));
+  const Part& part = *sweep.job.part;
+  std::string text = map_line(part.map.grid, part.before.valid_pixels) + aim_line(correction_aim(sweep.job)) +
+                     tool_lines(tool_sheet(part.tif));
   const auto on_front =
       std::count_if(sweep.points.begin(), sweep.points.end(), [](const auto& p) { return p.on_front; });
   long applications = 0;

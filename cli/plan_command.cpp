@@ -12,8 +12,10 @@
 #include "core/base/duration_text.h"
 #include "core/base/units.h"
 #include "runs/job/job_file.h"
+#include "runs/reports/aim.h"
 #include "runs/reports/exact_lines.h"
 #include "runs/reports/front_lines.h"
+#include "runs/reports/map_line.h"
 #include "runs/reports/plan_files.h"
 #include "runs/reports/plan_output.h"
 #include "runs/reports/tool_sheet.h"
@@ -31,11 +33,9 @@ struct PlanArguments {
 
 /// The text for people.
 std::string plan_text(const PlannedJob& plan, const WrittenPlan& written) {
-  std::string text;
-  const Grid& g = plan.part().map.grid;
-  text += fmt::format("map       {} rows x {} columns of {:.6g} mm, {} pixels in the aperture\n", g.rows, g.cols,
-                      g.pitch_x, plan.part().before.valid_pixels);
+  std::string text = map_line(plan.part().map.grid, plan.part().before.valid_pixels);
   text += fmt::format("before    {} ({} removed)\n", in_words(plan.part().before), to_string(plan.part().form));
+  text += aim_line(correction_aim(plan.job));
   text += tool_lines(tool_sheet(plan.part().tif));
   text += fmt::format("path      {}, {} points, {:.6g} mm, longest jump {:.4g} mm, {} lifts\n", plan.laid.path.kind,
                       plan.laid.metrics.points, plan.laid.metrics.length, plan.laid.metrics.longest_jump,

@@ -18,6 +18,7 @@
 #include "runs/drawing/picture.h"
 #include "runs/programs/program_formats.h"
 #include "runs/reports/exact_lines.h"
+#include "runs/reports/map_line.h"
 #include "runs/reports/recorded_plan.h"
 #include "runs/reports/simulation.h"
 #include "runs/reports/tool_sheet.h"
@@ -101,7 +102,7 @@ std::string simulation_text(const Simulation& s) {
   return origin +
          fmt::format("program   {}: {} steps, {:.6g} mm with removal, {}\n", s.program.file, s.program.steps.size(),
                      s.program.removing_length(), duration_text(s.program.total_seconds())) +
-         notes + tool_lines(tool_sheet(s.tif)) +
+         notes + map_line(s.map.grid, s.before.valid_pixels) + tool_lines(tool_sheet(s.tif)) +
          fmt::format("before    {} ({} removed, {} pixels)\n", in_words(s.before), to_string(s.terms),
                      s.before.valid_pixels) +
          fmt::format("after     {} ({} removed)\n", in_words(s.after.statistics), to_string(s.terms)) +
@@ -138,10 +139,10 @@ void add_simulate_command(CLI::App& program, int& exit_code) {
       program.add_subcommand("simulate", "predict the surface that a feed table or G-code program leaves");
   auto arguments = std::make_shared<SimulateArguments>();
   const std::vector<std::string> flags{
-      "map",      "map-pixel", "map-unit",       "map-origin", "map-no-data",  "map-max-pv",  "map-table", "map-rows",
-      "map-grid", "map-steps", "max-pixels",     "tif",        "tif-pixel",    "tif-no-data", "tif-table", "tif-rows",
-      "tif-grid", "tif-unit",  "tif-dwell-time", "tif-steps",  "tif-pedestal", "tif-centre",  "tif-angle", "tif-flip",
-      "remove",   "aperture",  "threads"};
+      "map",       "map-pixel", "map-unit", "wavelength", "wave-scale",     "map-origin", "map-no-data",  "map-max-pv",
+      "map-table", "map-rows",  "map-grid", "map-steps",  "max-pixels",     "tif",        "tif-pixel",    "tif-no-data",
+      "tif-table", "tif-rows",  "tif-grid", "tif-unit",   "tif-dwell-time", "tif-steps",  "tif-pedestal", "tif-centre",
+      "tif-angle", "tif-flip",  "remove",   "aperture",   "threads"};
   command
       ->add_option("plan", arguments->plan,
                    "folder of a plan: its program, with the map, the removal function and all options that it was made "

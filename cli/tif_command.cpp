@@ -137,9 +137,9 @@ void add_tif_command(CLI::App& program, int& exit_code) {
   add_inputs(*command, *arguments);
   add_outputs(*command, *arguments);
   const std::vector<std::string> flags{
-      "map-pixel", "map-unit",     "map-origin", "map-no-data", "map-max-pv", "map-table", "map-rows", "map-grid",
-      "map-steps", "max-pixels",   "tif-pixel",  "tif-no-data", "tif-table",  "tif-rows",  "tif-grid", "tif-unit",
-      "tif-steps", "tif-pedestal", "tif-centre", "tif-angle",   "tif-flip",   "threads"};
+      "map-pixel", "map-unit", "wavelength", "wave-scale",   "map-origin", "map-no-data", "map-max-pv", "map-table",
+      "map-rows",  "map-grid", "map-steps",  "max-pixels",   "tif-pixel",  "tif-no-data", "tif-table",  "tif-rows",
+      "tif-grid",  "tif-unit", "tif-steps",  "tif-pedestal", "tif-centre", "tif-angle",   "tif-flip",   "threads"};
   arguments->options = std::make_unique<JobArguments>(*command, flags, false);
   command->footer(
       "Example:\n"

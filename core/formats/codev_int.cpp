@@ -11,6 +11,7 @@
 #include "core/base/number_text.h"
 #include "core/base/units.h"
 #include "core/formats/text_grid.h"
+#include "core/formats/wavefront_words.h"
 
 namespace dwell {
 namespace {
@@ -39,6 +40,7 @@ bool find_data_line(TextLines& lines) {
 struct DataLine {
   TextGrid grid;
   std::optional<double> wavelength_um, scale, no_data, x_scale;
+  bool wavefront = false;  // WFR in place of SUR
 };
 
 class DataLineReader {
@@ -76,13 +78,9 @@ class DataLineReader {
   }
 
   void check_quantity() {
-    if (next_word() == "SUR") return;
-    if (word_ == "WFR") {
-      refuse("quantity", word_,
-             "SUR, a surface. What surface error makes a wavefront error depends on the test: at normal incidence on a "
-             "mirror it is half of it; there, write SUR for WFR and double SSZ");
-    }
-    refuse("quantity", word_, "SUR, a surface (filters, coatings, birefringence are no heights)");
+    data_.wavefront = next_word() == "WFR";
+    if (word_ == "SUR" || data_.wavefront) return;
+    refuse("quantity", word_, "SUR, a surface, or WFR, a wavefront (filters, coatings, birefringence are no heights)");
   }
 
   void take_field() {
@@ -121,6 +119,15 @@ class DataLineReader {
   DataLine data_;
 };
 
+/// A surface is given in waves of height. Of a wavefront only whoever measured it knows the height.
+void add_waves(const DataLine& data, const std::string& place, MapHeader& header) {
+  header.wavelength = *data.wavelength_um * units::kNmPerUm;
+  header.from_waves = true;
+  header.wave_field = data.wavefront ? "the data line (WFR, WVL)" : "the data line (SUR, WVL)";
+  if (!data.wavefront) header.wave_scale = 1.0;
+  if (data.wavefront) note_wavefront("WFR", place, "WFR, the quantity,", header);
+}
+
 }  // namespace
 
 bool is_codev_int(std::string_view text) {
@@ -139,12 +146,13 @@ MapSource parse_codev_int(std::string_view text, const std::string& where, const
   DataLine data = DataLineReader(lines.line(), fmt::format("{}, line {}", where, lines.number())).read();
   constexpr double kDefaultNoData = 32767.0;
   const double no_data = data.no_data.value_or(kDefaultNoData);
+  MapSource source;
+  add_waves(data, fmt::format("{}, line {}", where, lines.number()), source.header);
   const double nm = *data.wavelength_um * units::kNmPerUm / *data.scale;
   if (!std::isfinite(nm)) throw InputError(fmt::format("{}: WVL / SSZ is beyond any height", where));
   data.grid.limit = limit;
   data.grid.no_data = fmt::format("{} (NDA)", no_data);
   TextWords words(lines, kCodevComment);
-  MapSource source;
   source.rows = data.grid.rows;
   source.cols = data.grid.cols;
   source.header.unit = "nm";

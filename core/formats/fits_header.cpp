@@ -15,6 +15,8 @@
 #include "core/base/word_list.h"
 #include "core/formats/field_name.h"
 #include "core/formats/remark_guard.h"
+#include "core/formats/said_wavelength.h"
+#include "core/formats/wavefront_words.h"
 #include "core/map/value_units.h"
 
 namespace dwell {
@@ -142,7 +144,8 @@ std::optional<double> unit_of_comment(const std::string& comment) {
 /// The same card as a field; nothing if neither its name nor its text can speak of a map.
 std::optional<MapField> field_of_card(const Card& card, const Keywords& keywords) {
   const FieldName name = parse_field_name(card.name);
-  if (is_read_elsewhere(card.name) || (name.topic == MapTopic::Other && !card.is_text())) return std::nullopt;
+  const bool says_nothing = name.topic == MapTopic::Other && !card.is_text() && !names_wavelength(card.name);
+  if (is_read_elsewhere(card.name) || says_nothing) return std::nullopt;
   MapField field;
   field.name = card.name;
   field.shown = "FITS keyword " + card.name;
@@ -223,6 +226,15 @@ void take_binning(const Keywords& keywords, SaidOfMap& said) {
   said.pitch_field.clear();
 }
 
+/// What a card of any kind, EXTNAME too, calls a path difference; not HISTORY, which tells what was done.
+void add_wavefronts(const std::vector<Card>& cards, const std::string& where, MapHeader& header) {
+  for (const Card& card : cards) {
+    if (card.name == "HISTORY" || card.name.starts_with("MADE")) continue;
+    const std::string words = card.name + " " + card.value + " / " + card.comment;
+    note_wavefront(words, where, fmt::format("FITS card {}", in_quotes(words)), header);
+  }
+}
+
 /// World coordinates without a unit, or in none of length, leave the origin open; unless they are of the sky, which no
 /// map is laid out in.
 std::string unclear_world(const Keywords& keywords) {
@@ -281,6 +293,7 @@ FitsHeader read_fits_header(fitsfile* file, const std::string& where) {
   header.said = read_map_fields(fields, where);
   guard_remarks(cards, where, header.said.header);
   if (!keywords.number("PITCHMM")) take_binning(keywords, header.said);
+  add_wavefronts(cards, where, header.said.header);
   add_world(keywords, header.said, where);
   for (int step = 1; const auto made = keywords.text(fmt::format("MADE{}", step)); ++step) {
     header.said.header.history.push_back(*made);

@@ -80,6 +80,10 @@ std::vector<MapField> fields_of_group(const Hdf5File& file, const std::string& g
 void add_what_is_new(SaidOfMap& said, SaidOfMap more) {
   std::move(more.header.unclear.begin(), more.header.unclear.end(), std::back_inserter(said.header.unclear));
   if (!said.header.unit) said.header.unit = std::move(more.header.unit);
+  if (!said.header.wavelength && said.header.wave_field.empty()) {
+    said.header.wavelength = more.header.wavelength;
+    said.header.wave_field = std::move(more.header.wave_field);
+  }
   if (said.header.no_data.empty()) said.header.no_data = std::move(more.header.no_data);
   if (!said.header.pitch) {
     said.header.pitch = more.header.pitch;
@@ -105,6 +109,7 @@ std::string unit_of_array_name(const std::string& name) {
   const auto is_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; };
   const auto begin = std::find_if_not(name.rbegin(), name.rend(), is_word).base();
   const std::string unit(begin, name.end());
+  if (begin != name.begin() && is_wave_unit(unit)) return unit;  // heights_waves
   if (begin == name.begin() || unit.empty() || !known_length_unit(unit)) return unit_of_label(name);
   std::string before(name.begin(), begin);
   while (!before.empty() && !is_word(before.back())) before.pop_back();

@@ -12,6 +12,7 @@
 #include "core/formats/hdf5_packing.h"
 #include "core/formats/hdf5_waves.h"
 #include "core/formats/isolated_reader.h"
+#include "core/formats/wavefront_words.h"
 #include "core/formats/zygo_datx.h"
 #include "core/map/value_units.h"
 
@@ -64,6 +65,7 @@ MapSource read_plain_matrix(const Hdf5File& file, const std::string& path, const
                             const PixelLimit& limit) {
   SaidOfMap said = said_of_data_set(file, path, where);
   said.header.history = history_of(file, path, where);
+  note_wavefront(path, where, fmt::format("the name of HDF5 data set '{}'", path), said.header);
   Hdf5Matrix matrix = file.matrix(path, limit);
   // Markers are stored values here, so they go before scale and offset.
   const std::vector<double> markers = std::exchange(said.header.no_data, {});

@@ -52,6 +52,9 @@ MapSource read_measurement_in_waves(const Hdf5File& file, const std::string& pat
   }
   source.pitch_hint = fmt::format("; HDF5 group '{}' has no attribute xpix", group);
   source.header.unit = "nm";
+  source.header.wavelength = nm;
+  source.header.from_waves = true;
+  source.header.wave_field = fmt::format("attribute wavelength of HDF5 group '{}'", group);
   source.header.history = {
       fmt::format("heights in waves of {:.9g} nm, the first row on top, as 4D writes {}", nm, path)};
   Hdf5Matrix matrix = file.matrix(path, limit);

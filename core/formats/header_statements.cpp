@@ -83,9 +83,9 @@ bool speaks_of_everything(const HeaderKey& key) {
 }
 
 bool is_optical_unit(std::string_view text) {
-  constexpr std::array<std::string_view, 16> kWords{"mrad",   "wave",    "waves",  "wv",      "fringe", "fringes",
-                                                    "lambda", "rad",     "radian", "radians", "urad",   "counts",
-                                                    "count",  "degrees", "lsb",    "\xce\xbb"};
+  constexpr std::array<std::string_view, 9> kWords{"mrad",   "rad",   "radian",  "radians", "urad",
+                                                   "counts", "count", "degrees", "lsb"};
+  if (is_wave_unit(text)) return true;
   std::string word = lower_case(trim(text));
   if (word.size() > 2 && (word.front() == '(' || word.front() == '[')) word = word.substr(1, word.size() - 2);
   return is_among(word, kWords);

@@ -16,7 +16,7 @@ std::vector<std::string> header_statements(std::string_view text);
 /// "x, y in mm, z in um". Empty if anything else stands there.
 std::vector<HeaderKey> header_captions(std::string_view text);
 
-/// Units of heights that need a wavelength or a conversion which no text map states: "waves", "fringes", "rad".
+/// Units of heights that need a conversion which no text map states: waves (is_wave_unit), "rad", "counts".
 bool is_optical_unit(std::string_view text);
 
 /// Whether a number with a unit of length stands somewhere in the text.

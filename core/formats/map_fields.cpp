@@ -11,6 +11,8 @@
 #include "core/base/word_list.h"
 #include "core/formats/field_name.h"
 #include "core/formats/remark_guard.h"
+#include "core/formats/said_wavelength.h"
+#include "core/formats/wavefront_words.h"
 #include "core/map/value_units.h"
 
 namespace dwell {
@@ -52,6 +54,7 @@ class MapFieldsReader {
     // Units first: a field of pitch or origin may need that of another.
     for (const MapField& field : fields_) read_unit(field, parse_field_name(field.name));
     for (const MapField& field : fields_) read_other(field, parse_field_name(field.name));
+    for (const MapField& field : fields_) read_waves_of(field);
     settle_unit();
     settle_pitch();
     settle_origin();
@@ -75,7 +78,7 @@ class MapFieldsReader {
   /// "z = 'um'" is a unit whatever else the name may be of; pixels have a height too.
   static bool is_unit_of_values(const MapField& field, const FieldName& name) {
     return (name.values || name.topic == MapTopic::Label) && name.axis == FieldAxis::Both && field.texts.size() == 1 &&
-           field.numbers.empty() && known_value_unit(field.texts.front());
+           field.numbers.empty() && (known_value_unit(field.texts.front()) || is_wave_unit(field.texts.front()));
   }
 
   void read_unit(const MapField& field, const FieldName& name) {
@@ -111,7 +114,8 @@ class MapFieldsReader {
   }
 
   static bool same_unit(const std::string& a, const std::string& b) {
-    return a == b || (known_length_unit(a) && known_length_unit(a) == known_length_unit(b)) ||
+    return a == b || (is_wave_unit(a) && is_wave_unit(b)) ||
+           (known_length_unit(a) && known_length_unit(a) == known_length_unit(b)) ||
            (known_rate_unit(a) && known_rate_unit(a) == known_rate_unit(b));
   }
 
@@ -139,6 +143,17 @@ class MapFieldsReader {
       default:
         return;
     }
+  }
+
+  /// A wavelength with its unit, and what calls the values a path difference. Of several wavelengths none counts.
+  void read_waves_of(const MapField& field) {
+    const auto is_remark = [](const std::string& text) { return text.size() <= kLongestRemark; };
+    std::string words = field.name;
+    for (const std::string& text : field.texts) words += is_remark(text) ? " " + text : "";
+    note_wavefront(words, where_, said(field), said_.header);
+    if (!names_wavelength(field.name)) return;
+    const std::vector<double> mm = lengths(field, parse_field_name(field.name));
+    if (mm.size() == 1) add_wavelength(mm.front() * units::kNmPerMm, said(field), said_.header);
   }
 
   static void add_unclear(std::string& list, const MapField& field) {
@@ -306,7 +321,7 @@ std::string unit_of_label(const std::string& label) {
     const std::size_t at = text.rfind(open);
     if (at == std::string_view::npos) return "";
     const std::string unit(trim(text.substr(at + 1, text.size() - at - 2)));
-    return known_value_unit(unit) ? unit : "";
+    return known_value_unit(unit) || is_wave_unit(unit) ? unit : "";
   }
   return "";
 }

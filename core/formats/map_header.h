@@ -20,6 +20,7 @@ struct UnclearStatement {
     Origin,
     Rows,  // which way rows and columns run
     NoData,
+    Wavefront,  // the values are a path difference, and a surface is mostly half as high
   };
   About about;
   std::string message;  // where it stands, what it says and how it would be clear
@@ -35,6 +36,10 @@ struct MapHeader {
   bool places_known = false;         // of points: their unit is said
   std::vector<std::string> history;  // how the map was made, a step each, oldest first
   double pitch_rounding = 1e-9;      // relative: how well a pitch that the user gives can agree with the file's
+  std::optional<double> wavelength;  // [nm]
+  std::optional<double> wave_scale;  // height for each wave, in wavelengths, by which the values are heights already
+  bool from_waves = false;           // the file holds waves, and the values are those times the wavelength
+  std::string wave_field;            // what says so, for messages
 };
 
 /// pitch_rounding of formats that hold the pitch in single precision.

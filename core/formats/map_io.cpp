@@ -19,6 +19,8 @@
 #include "core/formats/npy_sidecar.h"
 #include "core/formats/part_size.h"
 #include "core/formats/point_grid.h"
+#include "core/formats/wave_scale.h"
+#include "core/formats/wavefront_words.h"
 #include "core/formats/xyz_text.h"
 #include "core/map/value_units.h"
 
@@ -30,8 +32,9 @@ constexpr double kSame = 1e-9;  // relative difference up to which an option and
 bool same(double a, double b, double size) { return std::abs(a - b) <= kSame * size; }
 
 void check_options(const MapReadOptions& options, const std::string& where) {
-  if (options.pitch && !(std::isfinite(*options.pitch) && *options.pitch > 0.0)) {
-    const std::string value = fmt::format("{} mm", *options.pitch);
+  const auto is_pitch = [](double mm) { return std::isfinite(mm) && mm > 0.0; };
+  if (options.pitch && !(is_pitch(options.pitch->x) && is_pitch(options.pitch->y))) {
+    const std::string value = pitch_option_text(*options.pitch) + " mm";
     throw InputError(
         options.name + " pixel", value, "a finite pixel pitch > 0",
         fmt::format("`{} pixel` = {} for {}; a finite pixel pitch > 0 is required", options.name, value, where));
@@ -41,6 +44,7 @@ void check_options(const MapReadOptions& options, const std::string& where) {
     throw InputError(options.name + " origin", value, "finite numbers",
                      fmt::format("`{} origin` = {} for {}; finite numbers are required", options.name, value, where));
   }
+  check_wave_options(options.waves, where);
   if (options.scale && !(std::isfinite(*options.scale) && *options.scale > 0.0)) {
     throw InputError(options.name + " unit", fmt::format("{}", *options.scale), "a factor that is finite and > 0",
                      fmt::format("`{} unit` gives a factor of {} for {}; it must be finite and > 0", options.name,
@@ -51,17 +55,19 @@ void check_options(const MapReadOptions& options, const std::string& where) {
 /// Pitch of header and option, which must agree; nothing if neither says it.
 std::optional<Point> known_pitch(const MapHeader& header, const MapReadOptions& options, const std::string& where) {
   if (!options.pitch) return header.pitch;
-  const double pitch = *options.pitch;
-  if (!header.pitch) return Point{pitch, pitch};
-  const double rounding = header.pitch_rounding * pitch;
-  if (!(std::abs(header.pitch->x - pitch) <= rounding && std::abs(header.pitch->y - pitch) <= rounding)) {
-    throw InputError(
-        fmt::format("{}: header says pitch_mm = {},{} but `{} pixel` says {}; they must agree (or the option "
-                    "be left out)",
-                    where, fewest_digits(header.pitch->x), fewest_digits(header.pitch->y), options.name, pitch));
+  const Point pitch = *options.pitch;
+  if (!header.pitch) return pitch;
+  const auto agree = [&header](double said, double given) {
+    return std::abs(said - given) <= header.pitch_rounding * given;
+  };
+  if (!agree(header.pitch->x, pitch.x) || !agree(header.pitch->y, pitch.y)) {
+    throw InputError(fmt::format(
+        "{}: header says pitch_mm = {},{} but `{} pixel` says {}; they must agree (or the option "
+        "be left out)",
+        where, fewest_digits(header.pitch->x), fewest_digits(header.pitch->y), options.name, pitch_option_text(pitch)));
   }
   // What the file rounds more than single precision would, as the size of a field, the user may know better.
-  if (header.pitch_rounding > kSinglePitchRounding) return Point{pitch, pitch};
+  if (header.pitch_rounding > kSinglePitchRounding) return pitch;
   return header.pitch;
 }
 
@@ -90,13 +96,14 @@ std::string unit_hint(const std::string& unit, MapQuantity quantity) {
   return "";
 }
 
-/// The factor to nm (nm/s). A file that names its unit must be read with that unit: no file is scaled twice, or not at
-/// all, unnoticed.
-double known_scale(const MapHeader& header, const MapReadOptions& options, const std::string& where) {
-  if (!header.unit) return options.scale.value_or(1.0);
+/// The factor of a unit to nm (nm/s). A file that names its unit must be read with that unit: no file is scaled twice,
+/// or not at all, unnoticed. `wave`: of a unit that is waves [nm].
+double known_unit(const MapHeader& header, const std::optional<double>& wave, const MapReadOptions& options,
+                  const std::string& where) {
+  if (!header.unit) return wave.value_or(options.scale.value_or(1.0));
   double factor = 0.0;
   try {
-    factor = unit_factor(*header.unit, options.quantity);
+    factor = wave ? *wave : unit_factor(*header.unit, options.quantity);
   } catch (const InputError& error) {
     throw InputError(
         fmt::format("{}: header says unit {}{}", where, error.what(), unit_hint(*header.unit, options.quantity)));
@@ -110,6 +117,18 @@ double known_scale(const MapHeader& header, const MapReadOptions& options, const
   return factor;
 }
 
+/// The factor to nm (nm/s) of the surface. What was done about waves is appended to the header's history.
+double known_scale(MapHeader& header, const MapReadOptions& options, const std::string& where) {
+  const WaveReading waves = read_waves(options.waves, header, options.quantity, options.name, where);
+  return waves.scale * known_unit(header, waves.wave, options, where);
+}
+
+/// What the name of the file itself calls its data.
+void read_file_name(MapHeader& header, const MapName& name, const MapReadOptions& options, const std::string& where) {
+  if (options.quantity != MapQuantity::Height) return;
+  note_wavefront(name.file.stem().string(), where, "the name of the file", header);
+}
+
 /// Refuses what the header says unclearly and neither it nor an option says clearly. The places of points say pitch and
 /// origin as well.
 void settle_unclear(const MapHeader& header, const MapReadOptions& options, bool points) {
@@ -118,9 +137,9 @@ void settle_unclear(const MapHeader& header, const MapReadOptions& options, bool
     const auto [settled, option] = [&]() -> std::pair<bool, std::string> {
       switch (unclear.about) {
         case About::Unit:
-          return {header.unit || options.scale, "unit"};
+          return {header.unit || options.scale || options.waves.in_waves, "unit"};
         case About::Factor:
-          return {options.scale.has_value(), "unit"};
+          return {options.scale || options.waves.in_waves, "unit"};
         case About::Pitch:
           return {points || header.pitch || options.pitch, "pixel"};
         case About::Places:
@@ -131,10 +150,14 @@ void settle_unclear(const MapHeader& header, const MapReadOptions& options, bool
           return {points || options.rows, "rows"};
         case About::NoData:
           return {!header.no_data.empty() || options.no_data, "no data"};
+        case About::Wavefront:
+          return {options.waves.scale || states_wave_scale(header), ""};
       }
       return {false, ""};
     }();
     if (settled) continue;
+    if (unclear.about == About::Wavefront)
+      throw InputError(unclear.message + way_out_of_wavefront(options.name == "map"));
     // The origin of a removal function is where its tool axis says; no option gives it.
     const bool has_option = !option.empty() && (unclear.about != About::Origin || options.name == "map");
     throw InputError(unclear.message + (has_option ? fmt::format("; or give `{} {}`", options.name, option) : ""));
@@ -216,11 +239,12 @@ std::vector<std::string> remove_no_data_of_points(XyzText& xyz, const MapReadOpt
 
 HeightMap fit_points_of(const XyzText& xyz, const MapReadOptions& options, const std::string& where,
                         const Progress& progress) {
-  if (options.pitch && !same(*options.pitch, options.grid->pitch, options.grid->pitch)) {
-    throw InputError(
-        fmt::format("{}: `{} pixel` is {} mm, but `{} grid` has a pitch of {} mm; they must agree (or `{} "
-                    "pixel` be left out)",
-                    where, options.name, *options.pitch, options.name, options.grid->pitch, options.name));
+  const double wanted = options.grid->pitch;
+  if (options.pitch && !(same(options.pitch->x, wanted, wanted) && same(options.pitch->y, wanted, wanted))) {
+    throw InputError(fmt::format(
+        "{}: `{} pixel` is {} mm, but `{} grid` has a pitch of {} mm; they must agree (or `{} "
+        "pixel` be left out)",
+        where, options.name, pitch_option_text(*options.pitch), options.name, options.grid->pitch, options.name));
   }
   std::vector<HeightPoint> points;
   for (const XyzPoint& point : xyz.points) points.push_back({point.position, point.height});
@@ -237,13 +261,14 @@ HeightMap fit_points_of(const XyzText& xyz, const MapReadOptions& options, const
   }
 }
 
-HeightMap read_xyz(std::string_view text, const MapReadOptions& options, const std::string& where,
+HeightMap read_xyz(const MapName& name, std::string_view text, const MapReadOptions& options, const std::string& where,
                    const Progress& progress) {
   if (options.table || options.rows) {
     throw InputError(fmt::format("{}: `{} {}` is for a matrix, but the file holds points x y z; leave it out", where,
                                  options.name, options.table ? "table" : "rows"));
   }
   XyzText xyz = parse_xyz_text(text, where);
+  read_file_name(xyz.header, name, options, where);
   settle_unclear(xyz.header, options, true);
   const double scale = known_scale(xyz.header, options, where);
   append(xyz.header.history, remove_no_data_of_points(xyz, options, where));
@@ -258,11 +283,13 @@ HeightMap read_xyz(std::string_view text, const MapReadOptions& options, const s
   return map;
 }
 
-HeightMap read_matrix(std::string_view text, const MapReadOptions& options, const std::string& where) {
+HeightMap read_matrix(const MapName& name, std::string_view text, const MapReadOptions& options,
+                      const std::string& where) {
   const bool headed = options.table && options.table->kind != MatrixTable::Kind::Heights;
   bool named_columns = false;
   MapSource matrix = parse_matrix_text(text, where, headed ? &named_columns : nullptr);
   apply_matrix_table(matrix, options.table, named_columns, where, options.name);
+  read_file_name(matrix.header, name, options, where);
   return map_of_source(std::move(matrix), options, where);
 }
 
@@ -289,6 +316,7 @@ HeightMap parse_map(const MapName& name, std::string_view bytes, const MapReadOp
     }
     MapSource source = read_array(*format, bytes, name.inside, where, options.limit);
     if (is_npy(bytes)) add_npy_sidecar(name.file, bytes, source);
+    read_file_name(source.header, name, options, where);
     return map_of_source(std::move(source), options, where);
   }
   const std::string binary = kind_of_binary(bytes);
@@ -299,8 +327,8 @@ HeightMap parse_map(const MapName& name, std::string_view bytes, const MapReadOp
     throw InputError(fmt::format("{}: the file is text, which holds one array; leave out ':{}'", where, name.inside));
   }
   if (extension == ".npy") throw InputError(fmt::format("{}: not an NPY array but text; name it .csv or .xyz", where));
-  if (extension == ".xyz" || names_xyz_columns(bytes)) return read_xyz(bytes, options, where, progress);
-  return read_matrix(bytes, options, where);
+  if (extension == ".xyz" || names_xyz_columns(bytes)) return read_xyz(name, bytes, options, where, progress);
+  return read_matrix(name, bytes, options, where);
 }
 
 /// One value at least, and no more than a part can span.

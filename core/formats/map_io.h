@@ -5,11 +5,13 @@
 #include <string>
 
 #include "core/base/grid_limit.h"
+#include "core/base/pitch.h"
 #include "core/base/progress.h"
 #include "core/base/staged_files.h"
 #include "core/formats/map_rows.h"
 #include "core/formats/matrix_table.h"
 #include "core/formats/no_data.h"
+#include "core/formats/wave_options.h"
 #include "core/map/height_map.h"
 #include "core/map/scattered_surface.h"
 
@@ -17,7 +19,7 @@ namespace dwell {
 
 /// What a map file does not say about itself.
 struct MapReadOptions {
-  std::optional<double> pitch;  // pixel pitch [mm]; required by files that carry none
+  std::optional<Point> pitch;   // pixel pitch in x and y [mm], both > 0; required by files that carry none
   std::optional<Point> origin;  // centre of pixel (0, 0) [mm]; default (0, 0), or what the file says
   std::optional<double> scale;  // factor from the file's unit to nm (or nm/s); default: what it says, or 1
   std::string name = "map";     // what error messages call it: "map" or "tif"
@@ -26,6 +28,7 @@ struct MapReadOptions {
   /// Whether places in the file's own coordinates count. Not for a removal function that is centred by its grid or its
   /// centroid: what only seems to say an origin is skipped then.
   bool origin_counts = true;
+  WaveOptions waves;                     // of heights in waves, and of path differences
   std::optional<NoDataMarkers> no_data;  // numbers of the file that stand for no data, besides what it says
   std::optional<double> max_pv;          // the most that heights or rates may span [nm], [nm/s]; default kMostSpan
   std::optional<MatrixTable> table;      // what the first row and column of a matrix as text are

@@ -12,7 +12,9 @@
 #include "core/base/word_list.h"
 #include "core/formats/header_statements.h"
 #include "core/formats/remark_guard.h"
+#include "core/formats/said_wavelength.h"
 #include "core/formats/text_comment.h"
+#include "core/formats/wavefront_words.h"
 #include "core/map/value_units.h"
 
 namespace dwell {
@@ -20,7 +22,7 @@ namespace {
 
 using About = UnclearStatement::About;
 
-constexpr const char* kAcceptedUnits = "a unit of height (nm, um, mm, m) or of rate (nm/s, um/s, um/min, m/s)";
+constexpr const char* kAcceptedUnits = "a unit of height (nm, um, mm, m, waves) or of rate (nm/s, um/s, um/min, m/s)";
 
 /// Text behind a name whose value should be a number: "Gugolz 64" behind a pitch is what polishes.
 bool begins_with_a_letter(std::string_view text) {
@@ -71,9 +73,8 @@ void TextHeader::read_comment(std::string_view comment, long line) {
     if (!step.empty()) header_.history.emplace_back(step);
     return;
   }
-  if (is_optical_unit(comment))
-    throw InputError(fmt::format("{}: {}; {} required", place(), in_quotes(comment), kAcceptedUnits));
-  if (known_value_unit(comment)) return take_unit(comment, "the comment");
+  note_wavefront(comment, place(), in_quotes(comment), header_);
+  if (known_value_unit(comment) || is_optical_unit(comment)) return take_unit(comment, "the comment");
   for (const std::string& statement : header_statements(comment)) read_statement(statement);
 }
 
@@ -120,6 +121,7 @@ bool TextHeader::read_loose(std::string_view text) {
 
 void TextHeader::take_caption(const HeaderKey& key) {
   if (key.axis == 'x' || key.axis == 'y' || speaks_of_coordinates(key)) return take_lateral_unit(key.unit, key.shown);
+  if (is_wave_unit(key.remark)) return take_unit(key.remark, key.shown);
   if (is_optical_unit(key.remark)) refuse(key, key.remark, kAcceptedUnits);
   take_unit(key.unit, key.shown);
   if (key.every_axis || speaks_of_everything(key)) take_lateral_unit(key.unit, key.shown);
@@ -128,6 +130,7 @@ void TextHeader::take_caption(const HeaderKey& key) {
 /// Whether it was a statement, or something that is now kept as unclear. With `loose` there was no ':' or '=', so that
 /// the line may be prose.
 bool TextHeader::take(HeaderKey key, std::string_view value, bool loose) {
+  if (add_wavelength(key, value, fmt::format("line {}", line_), header_)) return true;
   const HeaderMeaning meaning = meaning_of(key);
   if (key.stem == "channel" || key.stem == "valueunits") layout_.set_gwyddion();
   constexpr std::size_t kWordsOfProse = 2;
@@ -176,9 +179,9 @@ bool TextHeader::take_prose_pitch(const HeaderKey& key, std::string_view value) 
 }
 
 void TextHeader::take_unit(std::string_view unit, const std::string& key) {
-  const auto factor = known_value_unit(unit);
+  const auto factor = is_wave_unit(unit) ? std::optional(0.0) : known_value_unit(unit);
   if (!factor) throw InputError(fmt::format("{}: {} = '{}'; {} required", place(), key, unit, kAcceptedUnits));
-  const bool rate = !known_length_unit(unit), rate_before = header_.unit && !known_length_unit(*header_.unit);
+  const bool rate = known_rate_unit(unit).has_value(), rate_before = header_.unit && known_rate_unit(*header_.unit);
   if (header_.unit && (!statements_agree(*factor, *unit_factor_) || rate != rate_before)) {
     throw InputError(fmt::format("{}: {} says '{}', but {} = '{}' above; they must agree", place(), key, unit,
                                  unit_key_, *header_.unit));
@@ -195,7 +198,7 @@ void TextHeader::take_unit(std::string_view unit, const std::string& key) {
 }
 
 bool TextHeader::take_value_unit(const HeaderKey& key, std::string_view value, bool sure) {
-  if (known_value_unit(value)) {
+  if (known_value_unit(value) || is_wave_unit(value)) {
     only_once(key, MapTopic::ValueUnit);
     take_unit(value, key.shown);
     if (key.every_axis || fold_letters(key.shown).starts_with("all")) take_lateral_unit(value, key.shown);

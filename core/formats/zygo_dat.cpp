@@ -120,8 +120,8 @@ Block phase_block(const Header& header, std::size_t file_size, const std::string
   return block;
 }
 
-/// Factor from a stored number to nm.
-double height_factor(const Header& header) {
+/// Factor from a stored number to nm; what the header says of waves goes into that of the map.
+double height_factor(const Header& header, MapHeader& said) {
   const std::uint32_t code = header.unsigned16(218);
   if (code >= kResolutions.size()) {
     header.refuse(218, "code of the phase resolution", code, "0, 1 and 2 (4096, 32768, 131072 to a fringe) are known");
@@ -135,6 +135,11 @@ double height_factor(const Header& header) {
   const double scale = header.positive(164, "interferometric scale factor");
   const double obliquity = header.positive(176, "obliquity factor");
   const double wavelength = header.positive(168, "wavelength");
+  said.wavelength = wavelength * units::kNmPerM;
+  said.wave_scale = scale * obliquity;
+  said.from_waves = true;
+  said.wave_field =
+      "the Zygo header (interferometric scale factor, byte 164, times obliquity factor; wavelength, byte 168)";
   return scale * obliquity * wavelength / kResolutions[code] * units::kNmPerM;
 }
 
@@ -146,12 +151,12 @@ MapSource parse_zygo_dat(std::string_view bytes, const std::string& where, const
   const Header header(bytes, where);
   const Block block = phase_block(header, bytes.size(), where);
   check_pixels(static_cast<double>(block.rows), static_cast<double>(block.cols), limit, where);
-  const double factor = height_factor(header);
+  MapSource source;
+  const double factor = height_factor(header, source.header);
   const double resolution = header.real(184);
   if (!(std::isfinite(resolution) && resolution >= 0.0)) {
     header.refuse(184, "lateral resolution", resolution, "a finite number >= 0 is required");
   }
-  MapSource source;
   source.rows = static_cast<Index>(block.rows);
   source.cols = static_cast<Index>(block.cols);
   source.header.unit = "nm";

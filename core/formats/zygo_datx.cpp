@@ -74,8 +74,8 @@ double fringe_factor(const Surface& surface, const std::string& name, std::size_
   return *value;
 }
 
-/// Factor from a stored number to nm.
-double height_factor(const Surface& surface) {
+/// Factor from a stored number to nm; what the surface says of waves goes into the header.
+double height_factor(const Surface& surface, MapHeader& header) {
   const auto stated = surface.attribute("Unit");
   const std::string converter = surface.base_unit("Z Converter");
   const std::string unit = stated && stated->texts.size() == 1 ? stated->texts.front() : converter;
@@ -84,10 +84,19 @@ double height_factor(const Surface& surface) {
   }
   const std::string known = lower_case(unit);
   if (known == "fringes") {
-    return fringe_factor(surface, "Wavelength", 1) * fringe_factor(surface, "Interferometric Scale Factor", 2) *
-           fringe_factor(surface, "Obliquity Factor", 3) * units::kNmPerM;
+    header.wavelength = fringe_factor(surface, "Wavelength", 1) * units::kNmPerM;
+    header.wave_scale =
+        fringe_factor(surface, "Interferometric Scale Factor", 2) * fringe_factor(surface, "Obliquity Factor", 3);
+    header.from_waves = true;
+    header.wave_field =
+        fmt::format("the surface {} (Wavelength, Interferometric Scale Factor, Obliquity Factor)", surface.path);
+    return *header.wavelength * *header.wave_scale;
   }
-  if (const auto nm = known_length_unit(unit)) return *nm;
+  if (const auto nm = known_length_unit(unit)) {
+    header.wave_scale = surface.number("Interferometric Scale Factor");  // by which the heights were made
+    header.wave_field = fmt::format("attribute 'Interferometric Scale Factor' of the surface {}", surface.path);
+    return *nm;
+  }
   surface.refuse("Unit", unit, "Fringes, NanoMeters, MicroMeters, MilliMeters, Meters or Angstroms is required");
 }
 
@@ -140,10 +149,10 @@ bool is_datx_surface(const Hdf5File& file, const std::string& path) {
 MapSource read_datx_surface(const Hdf5File& file, const std::string& path, const std::string& where,
                             const PixelLimit& limit) {
   const Surface surface{file, path, where};
-  const double factor = height_factor(surface);
+  MapSource source;
+  const double factor = height_factor(surface, source.header);
   const std::optional<double> no_data = surface.number("No Data");
   const std::optional<double> x = pitch(surface, "X Converter"), y = pitch(surface, "Y Converter");
-  MapSource source;
   if (x && y) source.header.pitch = Point{*x, *y};
   source.pitch_field = "parameter 1 of 'X Converter' and 'Y Converter' [m]";
   source.pitch_hint = "; its 'X Converter' and 'Y Converter' say 0, unknown, or are not there";

@@ -138,6 +138,36 @@ std::optional<double> known_value_unit(std::string_view text) {
   return length ? length : known_rate_unit(text);
 }
 
+bool is_wave_unit(std::string_view text) {
+  constexpr std::array<std::string_view, 26> kWaves{"wave",
+                                                    "waves",
+                                                    "wv",
+                                                    "wvs",
+                                                    "lambda",
+                                                    "lambdas",
+                                                    "\xce\xbb",
+                                                    "wavelength",
+                                                    "wavelengths",
+                                                    "fringe",
+                                                    "fringes",
+                                                    "welle",
+                                                    "wellen",
+                                                    "streifen",
+                                                    "wellenl\xc3\xa4nge",
+                                                    "wellenl\xc3\xa4ngen",
+                                                    "wellenlaenge",
+                                                    "wellenlaengen",
+                                                    "onde",
+                                                    "ondes",
+                                                    "frange",
+                                                    "franges",
+                                                    "longueur d'onde",
+                                                    "longueurs d'onde",
+                                                    "interferenzstreifen",
+                                                    "longueurs d'ondes"};
+  return std::find(kWaves.begin(), kWaves.end(), lower_case(bare(text))) != kWaves.end();
+}
+
 double height_unit_nm(const std::string& unit) {
   if (const auto factor = known_length_unit(unit)) return *factor;
   throw InputError(fmt::format("'{}'{}; accepted: {}", unit, known_rate_unit(unit) ? " is a rate, not a height" : "",

@@ -21,6 +21,10 @@ std::optional<double> known_rate_unit(std::string_view text);
 /// neither.
 std::optional<double> known_value_unit(std::string_view text);
 
+/// Whether the text names waves as a unit: wave, fringe, lambda, Wellenlänge, frange, one or many, in any case, in
+/// brackets or quotes or not. A fringe is a wave of path difference. How high one is depends on wavelength and test.
+bool is_wave_unit(std::string_view text);
+
 /// Factor from a unit of height (known_length_unit) to nm. Throws InputError naming accepted ones, and saying so of a
 /// rate.
 double height_unit_nm(const std::string& unit);

@@ -7,6 +7,7 @@
 
 #include "runs/base/inputs_json.h"
 #include "runs/campaigns/pareto_picture.h"
+#include "runs/reports/aim.h"
 #include "runs/reports/figure_output.h"
 #include "runs/reports/options_json.h"
 #include "runs/reports/plan_blocks.h"
@@ -39,6 +40,7 @@ std::string pareto_json_text(const ParetoSweep& sweep) {
   for (const char* unused : {"smoothness", "time_price_nm2_per_s", "gcode", "lift_height_mm"}) options.erase(unused);
   Json summary = json_of_command("pareto");
   summary.update({{"map", plan_map_block(sweep.job)},
+                  {"aim", aim_block(correction_aim(sweep.job))},
                   {"tif", plan_tif_block(sweep.job)},
                   {"tool", tool_block(tool_sheet(sweep.job.part->tif))},
                   {"path", plan_path_block(sweep.laid)},

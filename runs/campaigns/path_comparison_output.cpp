@@ -10,7 +10,9 @@
 #include "core/base/utf8_text.h"
 #include "runs/base/inputs_json.h"
 #include "runs/drawing/line_chart.h"
+#include "runs/reports/aim.h"
 #include "runs/reports/figure_output.h"
+#include "runs/reports/map_line.h"
 #include "runs/reports/options_json.h"
 #include "runs/reports/plan_blocks.h"
 #include "runs/reports/plan_files.h"
@@ -217,6 +219,7 @@ std::string path_comparison_json(const PathComparison& comparison) {
   options.erase("path");
   Json summary = json_of_command("paths");
   summary.update({{"map", plan_map_block(comparison.job)},
+                  {"aim", aim_block(correction_aim(comparison.job))},
                   {"tif", plan_tif_block(comparison.job)},
                   {"tool", tool_block(tool_sheet(comparison.job.part->tif))},
                   {"pitch_mm", comparison.pitch},
@@ -231,8 +234,10 @@ std::string path_comparison_json(const PathComparison& comparison) {
 std::string path_comparison_text(const PathComparison& comparison) {
   std::size_t widest = 4;
   for (const ComparedPath& p : comparison.paths) widest = std::max(widest, p.listed.name.size());
+  const Part& part = *comparison.job.part;
   std::string text =
-      fmt::format("before    {}; pitch {:.6g} mm where a path says none ({})\n", in_words(comparison.job.part->before),
+      map_line(part.map.grid, part.before.valid_pixels) + aim_line(correction_aim(comparison.job)) +
+      fmt::format("before    {}; pitch {:.6g} mm where a path says none ({})\n", in_words(part.before),
                   comparison.pitch, comparison.pitch_given ? "given" : "a quarter of the removal function's FWHM");
   text += fmt::format("  {:<{}} {:>12} {:>11} {:>9} {:>13} {:>8} {:>11} {:>8} {:>10} {:>6} {:>9} {:>10}\n", "path",
                       widest, "residual[nm]", "mid RMS[nm]", "total[s]", "h:min:s", "lift[s]", "step RMS[s]", "points",

@@ -44,7 +44,9 @@ MapReadOptions map_reading(const JobOptions& options) {
   MapReadOptions read;
   read.pitch = options.map_pixel_mm;
   read.origin = options.map_origin_mm;
-  if (!options.map_unit.empty()) read.scale = factor_of_option("map-unit", options.map_unit, MapQuantity::Height);
+  read.waves = {is_wave_unit(options.map_unit), options.wavelength_nm, options.wave_scale};
+  if (!options.map_unit.empty() && !read.waves.in_waves)
+    read.scale = factor_of_option("map-unit", options.map_unit, MapQuantity::Height);
   read.limit = {options.max_pixels};
   read.no_data = options.map_no_data;
   if (options.map_max_pv_mm) read.max_pv = *options.map_max_pv_mm * units::kNmPerMm;

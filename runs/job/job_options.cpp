@@ -7,6 +7,7 @@
 #include "core/base/errors.h"
 #include "core/base/grid_limit.h"
 #include "core/base/number_text.h"
+#include "core/base/pitch.h"
 #include "core/base/value_range.h"
 #include "core/form/form.h"
 #include "core/map/aperture.h"
@@ -32,9 +33,24 @@ double number(const std::string& text, const ValueRange& range) {
   return *value;
 }
 
+double share(const std::string& text) {
+  const auto value = parse_number(text);
+  if (value && *value > 0.0 && *value <= 1.0) return *value;
+  throw InputError(fmt::format("'{}'; required a number > 0 and at most 1", text));
+}
+
 void check_height_or_rate_unit(const std::string& unit) {
   const bool rate = known_rate_unit(unit) || unit.find('/') != std::string::npos;
   unit_factor(unit, rate ? MapQuantity::Rate : MapQuantity::Height);
+}
+
+void check_height_unit(const std::string& unit) {
+  if (is_wave_unit(unit)) return;
+  try {
+    height_unit_nm(unit);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}, waves", error.what()));
+  }
 }
 
 double pixel_count(const std::string& text) {
@@ -83,12 +99,25 @@ std::vector<JobOptionRecord> make_table() {
   return {
       {"map", "map", "FILE", "height-error map: a file in any map format; NaN = outside the part", true, false,
        [](Options& o, const std::string& t) { o.map = t; }, [](const Options& o) { return o.map; }},
-      {"map-pixel", "map_pixel_mm", "MM", "pixel pitch of the map, for formats that carry none", false, true,
-       [](Options& o, const std::string& t) { o.map_pixel_mm = number(t, ranges::kPitch); },
-       [](const Options& o) { return shown(o.map_pixel_mm); }},
-      {"map-unit", "map_unit", "UNIT", "unit of the heights: nm, um, mm or m (default as the file says, else nm)",
-       false, false, [](Options& o, const std::string& t) { height_unit_nm(t), o.map_unit = t; },
+      {"map-pixel", "map_pixel_mm", "MM|X,Y",
+       "pixel pitch of the map in mm, for formats that carry none: one number of square pixels, else that along x and "
+       "that along y",
+       false, true, [](Options& o, const std::string& t) { o.map_pixel_mm = parse_pitch(t); },
+       [](const Options& o) { return o.map_pixel_mm ? pitch_option_text(*o.map_pixel_mm) : std::string(); }, true},
+      {"map-unit", "map_unit", "UNIT",
+       "unit of the heights: nm, um, mm, m or waves (default as the file says, else nm); waves need --wavelength and "
+       "--wave-scale",
+       false, false, [](Options& o, const std::string& t) { check_height_unit(t), o.map_unit = t; },
        [](const Options& o) { return o.map_unit; }},
+      {"wavelength", "wavelength_nm", "NM", "wavelength in nm, of heights in waves; 632.8 of a HeNe laser", false, true,
+       [](Options& o, const std::string& t) { o.wavelength_nm = number(t, ranges::kWavelength); },
+       [](const Options& o) { return shown(o.wavelength_nm); }},
+      {"wave-scale", "wave_scale", "0.5|1|X",
+       "height of the surface for each wave, in wavelengths, and of an OPD in nm for each nm of it: 0.5 for a mirror "
+       "measured at normal incidence, 1 where the values are heights of the surface; required for waves and for data "
+       "called OPD, wavefront or WFR",
+       false, true, [](Options& o, const std::string& t) { o.wave_scale = number(t, ranges::kWaveScale); },
+       [](const Options& o) { return shown(o.wave_scale); }},
       {"map-origin", "map_origin_mm", "X,Y",
        "position of the map's first pixel in mm (default 0,0 or what the file says)", false, false,
        [](Options& o, const std::string& t) { o.map_origin_mm = parse_point(t); },
@@ -131,9 +160,11 @@ std::vector<JobOptionRecord> make_table() {
                    "disc:slope=NM/S/MM,radius=MM, or another model ({}) with its keys",
                    other_models()),
        true, false, [](Options& o, const std::string& t) { o.tif = t; }, [](const Options& o) { return o.tif; }},
-      {"tif-pixel", "tif_pixel_mm", "MM", "pixel pitch of the removal function's file, for formats that carry none",
-       false, true, [](Options& o, const std::string& t) { o.tif_pixel_mm = number(t, ranges::kPitch); },
-       [](const Options& o) { return shown(o.tif_pixel_mm); }},
+      {"tif-pixel", "tif_pixel_mm", "MM|X,Y",
+       "pixel pitch of the removal function's file in mm, for formats that carry none: one number, or that along x and "
+       "that along y",
+       false, true, [](Options& o, const std::string& t) { o.tif_pixel_mm = parse_pitch(t); },
+       [](const Options& o) { return o.tif_pixel_mm ? pitch_option_text(*o.tif_pixel_mm) : std::string(); }, true},
       {"tif-unit", "tif_unit", "UNIT",
        "unit of the removal rates: nm/s, um/s, um/min or m/s (of the surface that spots left: nm, um, mm or m); "
        "default "
@@ -200,6 +231,10 @@ std::vector<JobOptionRecord> make_table() {
        "polygon:X,Y,X,Y,...[/HOLE...] in mm",
        false, false, [](Options& o, const std::string& t) { o.aperture = parse_aperture(t); },
        [](const Options& o) { return to_string(o.aperture); }},
+      {"fraction", "fraction", "SHARE",
+       "share of the error that the plan removes, form terms aside, > 0 and at most 1: 0.8 leaves a fifth of it", false,
+       true, [](Options& o, const std::string& t) { o.fraction = share(t); },
+       [](const Options& o) { return shown(o.fraction); }},
       {"min-dwell", "min_dwell_s", "S", "shortest dwell time at a point in s", false, true,
        [](Options& o, const std::string& t) { o.min_dwell_s = number(t, ranges::kDwell); },
        [](const Options& o) { return shown(o.min_dwell_s); }},

@@ -27,8 +27,10 @@ namespace dwell {
 /// (job_option_table) feeds the command line, the job file, the validation and the help text; defaults are those below.
 struct JobOptions {
   std::string map;
-  std::optional<double> map_pixel_mm;
-  std::string map_unit;  // empty: as the file says, else nm
+  std::optional<Point> map_pixel_mm;    // in x and y
+  std::string map_unit;                 // empty: as the file says, else nm
+  std::optional<double> wavelength_nm;  // of heights in waves
+  std::optional<double> wave_scale;     // height of the surface for each wave, or for each nm of path difference
   std::optional<Point> map_origin_mm;
   std::optional<NoDataMarkers> map_no_data;
   std::optional<double> map_max_pv_mm;  // nothing: 10 mm
@@ -38,7 +40,7 @@ struct JobOptions {
   std::string map_steps;
   std::optional<double> max_pixels;  // nothing: kMaxPixels, and no file that unpacks to many times its size
   std::string tif;
-  std::optional<double> tif_pixel_mm;
+  std::optional<Point> tif_pixel_mm;
   std::string tif_unit;  // empty: as the file says, else nm/s
   std::optional<NoDataMarkers> tif_no_data;
   std::optional<MatrixTable> tif_table;
@@ -53,6 +55,7 @@ struct JobOptions {
   PathSpec path;
   Motion motion = Motion::Moving;
   FormTerms remove{true, true};
+  double fraction = 1.0;  // of the error that a plan removes
   Aperture aperture;
   double min_dwell_s = 0.0;
   double max_feed_mm_per_min = 3000.0;

@@ -21,6 +21,19 @@
 namespace dwell {
 namespace {
 
+std::optional<double> number_within(const MapStep& step, const std::string& name, const ValueRange& range) {
+  const auto value = step.optional_number(name);
+  if (value && !range.holds(*value)) step.refuse(fmt::format("{} = {}; required {}", name, *value, range.text()));
+  return value;
+}
+
+/// A unit of its own: what the first map's options say of waves is not said of this one.
+void take_unit(const std::string& unit, MapReadOptions& read) {
+  read.waves = {is_wave_unit(unit), {}, {}};
+  read.scale.reset();
+  if (!read.waves.in_waves) read.scale = height_unit_nm(unit);
+}
+
 /// Another map, read as the first was unless the step has its own pixel, unit or origin; table and gridding are those
 /// of the first map's file alone.
 HeightMap read_other(const std::string& file, const MapStep& step, MapStepContext& context) {
@@ -28,9 +41,11 @@ HeightMap read_other(const std::string& file, const MapStep& step, MapStepContex
   read.table.reset();
   read.rows.reset();
   read.grid.reset();
-  if (const auto pixel = step.optional_number("pixel")) read.pitch = *pixel;
+  if (const auto pixel = step.pitch("pixel")) read.pitch = *pixel;
   if (const auto origin = step.point("origin")) read.origin = *origin;
-  if (step.has("unit")) read.scale = height_unit_nm(step.word("unit"));
+  if (step.has("unit")) take_unit(step.word("unit"), read);
+  if (const auto nm = number_within(step, "wavelength", ranges::kWavelength)) read.waves.wavelength = nm;
+  if (const auto scale = number_within(step, "wave-scale", ranges::kWaveScale)) read.waves.scale = scale;
   HeightMap map = read_map(file, read, context.progress);
   context.inputs->push_back({step.record->name, file, sha256_of_file(file)});
   return map;

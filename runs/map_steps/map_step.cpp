@@ -144,6 +144,18 @@ std::optional<Point> MapStep::point(const std::string& name) const {
                      ranges::kPlace.text()));
 }
 
+std::optional<Point> MapStep::pitch(const std::string& name) const {
+  const std::string text = word(name);
+  if (text.empty()) return std::nullopt;
+  const std::vector<std::string_view> fields = split(text, '/');
+  if (fields.size() <= 2) {
+    const auto x = finite_number(fields.front()), y = finite_number(fields.back());
+    if (x && y && ranges::kPitch.holds(*x) && ranges::kPitch.holds(*y)) return Point{*x, *y};
+  }
+  refuse(fmt::format("{} = '{}'; required {}, or two of them, X/Y, for pixels that are not square", name, text,
+                     ranges::kPitch.text()));
+}
+
 void MapStep::refuse(const std::string& why) const { refuse_text(to_string(*this, false), why); }
 
 MapStep parse_map_step(const std::string& text, const std::vector<MapStepRecord>& table) {

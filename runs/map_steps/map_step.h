@@ -47,6 +47,8 @@ struct MapStep {
   Index whole(const std::string& name, Index least, Index most) const;
   /// "X/Y" [mm].
   std::optional<Point> point(const std::string& name) const;
+  /// A pixel pitch [mm]: one number of square pixels, or "X/Y".
+  std::optional<Point> pitch(const std::string& name) const;
   std::vector<std::string> values(const std::string& name) const;
   /// Throws InputError that begins with the step as given.
   [[noreturn]] void refuse(const std::string& why) const;

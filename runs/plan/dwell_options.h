@@ -17,6 +17,7 @@ struct DwellOptions {
   SolverKind solver = SolverKind::Auto;
   double max_seconds = 3600.0;  // wall clock for the set-up and all solves together [s]; > 0
   double used_seconds = 0.0;    // of these, before find_dwell was called: by reading the input, planning the path
+  double fraction = 1.0;        // of the error, form terms aside, that is to be removed; > 0, <= 1
 };
 
 /// The clock of max_seconds, of which `used` went before [s]. The phases before a solve have a second even where

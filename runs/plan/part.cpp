@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/base/errors.h"
+#include "core/base/pitch.h"
 #include "core/base/threads.h"
 
 namespace dwell {
@@ -20,8 +21,8 @@ Part make_part(HeightMap map, RemovalFunction tif, const FormTerms& form, int th
   progress.check();
   part.before = map_statistics(part.figure, {}, part.threads);
   const Grid& grid = part.map.grid;
-  progress.step(fmt::format("map: {} x {} pixels of {:.4g} mm, {} in the aperture, RMS {:.4g} nm", grid.rows, grid.cols,
-                            grid.pitch_x, part.before.valid_pixels, part.before.rms));
+  progress.step(fmt::format("map: {} x {} pixels of {}, {} in the aperture, RMS {:.4g} nm", grid.rows, grid.cols,
+                            pitch_text(grid), part.before.valid_pixels, part.before.rms));
   part.tif = std::move(tif);
   if (const auto note = wider_than_map(part.tif, grid)) part.tif.notes.push_back(*note);
   part.kernel = pixel_kernel(part.tif, grid.pitch_x, grid.pitch_y);
@@ -38,10 +39,10 @@ void check_tool_fits(const RemovalFunction& tif, const Grid& map) {
   throw InputError(fmt::format(
       "removal function with a FWHM of {:.4g} mm, over {:g} times the map of {:.4g} x {:.4g} mm; check {} and `map "
       "pixel` "
-      "(the map has {:.6g} mm)",
+      "(the map has {})",
       tif.fwhm, kTimesTheMap, map.width(), map.height(),
-      measured ? fmt::format("`tif pixel` (the file has {:.6g} mm)", tif.samples.grid.pitch_x) : "`tif` (its size)",
-      map.pitch_x));
+      measured ? fmt::format("`tif pixel` (the file has {})", pitch_text(tif.samples.grid)) : "`tif` (its size)",
+      pitch_text(map)));
 }
 
 std::optional<std::string> wider_than_map(const RemovalFunction& tif, const Grid& map) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "core/base/errors.h"
 #include "core/base/memory.h"
 #include "core/form/form.h"
 #include "core/removal/removal_geometry.h"
@@ -23,18 +24,30 @@ void require_memory_to_solve(const Part& part, const LaidPath& laid, SolverKind 
                  fmt::format("the solution for {} pixels and {} dwell points", pixels, points));
 }
 
-/// What the dwell has to remove: the map, less what the moves between halts remove on their way.
+/// What the dwell has to remove: a fraction of the map, less what the moves between halts remove on their way.
 Vector target_of(const Part& part, const LaidPath& laid, const std::vector<Index>& pixels, const RemovalKernel& kernel,
-                 double max_feed) {
+                 double max_feed, double fraction) {
   HeightMap target = part.map;
+  if (fraction != 1.0) {
+    for (double& z : target.values) z *= fraction;
+  }
   if (laid.motion == Motion::Stop) {
     const Program moves = program_of(laid.path, std::vector<double>(laid.path.size(), 0.0), Motion::Stop, max_feed);
-    target = surface_after(part.map, simulate(moves, part.map, kernel, part.threads));
+    target = surface_after(target, simulate(moves, part.map, kernel, part.threads));
   }
   Vector z(static_cast<Index>(pixels.size()));
   for (std::size_t i = 0; i < pixels.size(); ++i)
     z[static_cast<Index>(i)] = target.values[static_cast<std::size_t>(pixels[i])];
   return z;
+}
+
+/// The rest of the map, which a fraction of less than one leaves on the part; empty for one.
+Vector spared_of(const HeightMap& map, const std::vector<Index>& pixels, double fraction) {
+  if (fraction == 1.0) return {};
+  Vector spared(static_cast<Index>(pixels.size()));
+  for (std::size_t i = 0; i < pixels.size(); ++i)
+    spared[static_cast<Index>(i)] = (1.0 - fraction) * map.values[static_cast<std::size_t>(pixels[i])];
+  return spared;
 }
 
 }  // namespace
@@ -48,13 +61,21 @@ PlanProblem::PlanProblem(const Part& part, const LaidPath& laid, const RemovalKe
       geometry_(std::make_shared<const RemovalGeometry>(
           removal_geometry(grid_, pixels_, kernel, laid.strokes, part.threads))),
       removal_(make_removal_operator(*geometry_)) {
+  if (!(options.fraction > 0.0 && options.fraction <= 1.0)) {
+    throw InputError("fraction", fmt::format("{}", options.fraction), "a number > 0 and at most 1");
+  }
   require_memory_to_solve(part, laid, kind_);
   const FeedLimits limits = options.machine.feed_limits();
   progress.step("setting up the target");
   problem_.removal = removal_.get();
-  problem_.target = target_of(part, laid, pixels_, kernel, limits.max_feed);
+  problem_.target = target_of(part, laid, pixels_, kernel, limits.max_feed, options.fraction);
   progress.step("setting up the form terms");
   problem_.form = form_basis(grid_, pixels_, part.form, {}, part.threads);
+  spared_ = spared_of(part.map, pixels_, options.fraction);
+  spared_figure_ = spared_;
+  if (spared_.size() > 0 && problem_.form.cols() > 0) {
+    spared_figure_ -= problem_.form * (problem_.form.transpose() * spared_);
+  }
   progress.step("setting up the smoothness along the path");
   problem_.parts = {{geometry_, path_smoothness(laid.path, laid.strokes, part.threads)}};
   problem_.lower = minimum_dwell(laid.strokes, limits);
@@ -80,7 +101,8 @@ WeightedDwell PlanProblem::solve(const Weights& weights, Vector start, double ma
   progress.check();
   if (!found.solver.usable()) throw std::runtime_error("solver " + to_string(kind_) + ": " + found.solver.message);
   Vector residual;
-  DwellObjective(problem_).residual(found.dwell, residual);
+  DwellObjective(problem_).residual(found.dwell, residual);  // removed less target
+  if (spared_figure_.size() > 0) residual -= spared_figure_;
   found.trade_off = {residual.norm() / std::sqrt(static_cast<double>(problem_.pixels())), found.dwell.sum(),
                      step_rms(problem_, found.dwell)};
   return found;
@@ -101,7 +123,8 @@ HeightMap PlanProblem::left_by(const Vector& dwell) const {
   HeightMap left(grid_);
   for (std::size_t i = 0; i < pixels_.size(); ++i) {
     const auto k = static_cast<Index>(i);
-    left.values[static_cast<std::size_t>(pixels_[i])] = problem_.target[k] - removed[k];
+    left.values[static_cast<std::size_t>(pixels_[i])] =
+        problem_.target[k] - removed[k] + (spared_.size() > 0 ? spared_[k] : 0.0);
   }
   return left;
 }

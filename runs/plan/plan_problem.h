@@ -22,7 +22,8 @@ struct WeightedDwell {
   TradeOff trade_off;
 };
 
-/// The dwell problem of a part and a path laid on it, with the weights left open.
+/// The dwell problem of a part and a path laid on it, with the weights left open. Its target is the fraction of the
+/// error that the options ask for; what it states of a dwell is what remains on the part, the rest of the error too.
 class PlanProblem {
  public:
   /// kernel: of the part's removal function, on the lattice of the removal operator. Cost: the removal operator's
@@ -48,7 +49,7 @@ class PlanProblem {
 
   /// The problem with the weights set.
   const DwellProblem& with(const Weights& weights);
-  /// The surface that a dwell leaves of the target, form terms included [nm].
+  /// The surface that a dwell leaves of the part, form terms included [nm].
   HeightMap left_by(const Vector& dwell) const;
 
  private:
@@ -59,6 +60,8 @@ class PlanProblem {
   std::shared_ptr<const RemovalGeometry> geometry_;
   std::unique_ptr<RemovalOperator> removal_;
   DwellProblem problem_;
+  Vector spared_;         // of the map, what the target leaves out on purpose [nm]; empty: nothing
+  Vector spared_figure_;  // the same without the form terms
 };
 
 }  // namespace dwell

@@ -7,6 +7,7 @@
 #include "core/base/number_text.h"
 #include "core/base/units.h"
 #include "runs/base/inputs_json.h"
+#include "runs/reports/aim.h"
 #include "runs/reports/options_json.h"
 #include "runs/reports/plan_blocks.h"
 #include "runs/reports/tool_sheet.h"
@@ -66,6 +67,7 @@ Json program_json(const WrittenPlan& written) {
 std::string plan_summary_text(const PlannedJob& plan, const WrittenPlan& written) {
   Json summary = json_of_command("plan");
   summary.update({{"map", plan_map_block(plan.job)},
+                  {"aim", aim_block(correction_aim(plan.job))},
                   {"tif", plan_tif_block(plan.job)},
                   {"tool", tool_block(tool_sheet(plan.part().tif))},
                   {"path", plan_path_block(plan.laid)},

@@ -45,6 +45,8 @@ void refuse_unused(const TifJob& job) {
   only(o.map_pixel_mm || o.map_origin_mm || !o.map_unit.empty() || !o.map_steps.empty(), measured,
        "--map-pixel, --map-origin, --map-unit or --map-steps",
        "--spot or --trench (for a file of rates: --tif-pixel, --tif-unit)");
+  only(o.wavelength_nm || o.wave_scale, measured, "--wavelength or --wave-scale",
+       "--spot or --trench (a file of rates is in a length per time)");
   only(o.map_no_data || o.map_max_pv_mm || o.map_table || o.map_rows || o.map_grid, measured,
        "--map-no-data, --map-max-pv, --map-table, --map-rows or --map-grid",
        "--spot or --trench (for a file of rates: --tif-no-data, --tif-table, --tif-rows, --tif-grid)");

@@ -37,6 +37,78 @@ TEST(PlanCommand, WritesEveryFileAndPrintsWhatItDid) {
   EXPECT_EQ(read_whole_file(inputs / "plan/before.png").substr(1, 3), "PNG");
 }
 
+TEST(PlanCommand, ShowsBothPitchesOfPixelsThatAreNotSquare) {
+  const SmallInputs inputs;
+  const ProgramResult result = inputs.run(SmallInputs::plan({"--map-pixel", "0.5,0.4", "--tif-pixel", "0.5,0.625"}));
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  expect_has(result.out, "22 rows x 30 columns of 0.5 x 0.4 mm");
+  const json summary = summary_of(inputs);
+  EXPECT_EQ(summary["map"]["pixel_mm"], json({0.5, 0.4}));
+  EXPECT_EQ(summary["options"]["map_pixel_mm"], "0.5,0.4");
+  const ProgramResult simulated = inputs.run({"simulate", "plan", "--json"});
+  ASSERT_EQ(simulated.exit_code, 0) << simulated.err;
+  EXPECT_EQ(json::parse(simulated.out)["map"]["pixel_mm"], json({0.5, 0.4}));
+  expect_has(inputs.run({"simulate", "plan"}).out, "of 0.5 x 0.4 mm");
+  const ProgramResult map = inputs.run({"map", "map.csv", "--map-pixel", "0.5,0.4"});
+  expect_has(map.out, "0.5 mm in x, 0.4 mm in y");
+  const ProgramResult tif = inputs.run({"tif", "tif.csv", "--tif-pixel", "0.5,0.625"});
+  expect_has(tif.out, "pitch 0.5 x 0.625 mm");
+}
+
+TEST(PlanCommand, SaysWhatAPartialCorrectionAimsAt) {
+  const SmallInputs inputs;
+  const ProgramResult result = inputs.run(SmallInputs::plan({"--fraction", "0.8"}));
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const json summary = summary_of(inputs);
+  const double before = summary["map"]["rms_nm"], left = summary["program"]["residual_rms_nm"];
+  EXPECT_NEAR(left, 0.2 * before, 0.1 * before);
+  expect_has(result.out, "aim       80 % of the error: RMS ");
+  const ProgramResult simulated = inputs.run({"simulate", "plan", "--json"});
+  ASSERT_EQ(simulated.exit_code, 0) << simulated.err;
+  EXPECT_NEAR(json::parse(simulated.out)["program"]["residual_rms_nm"].get<double>(), left, 1e-9 * before);
+  for (const char* wrong : {"0", "-0.5", "1.0001", "80", "nan"}) {
+    const ProgramResult refused = inputs.run(SmallInputs::plan({"--fraction", wrong}));
+    EXPECT_EQ(refused.exit_code, 2);
+    expect_has(refused.err, std::string("--fraction: '") + wrong + "'; required a number > 0 and at most 1");
+  }
+  EXPECT_EQ(inputs.run({"simulate", "plan", "--fraction", "0.5"}).exit_code, 2) << "has no say in what is removed";
+}
+
+// n-fold by hand: a wave of 500 nm is 250 nm of height on a mirror.
+TEST(PlanCommand, ReadsWavesWithWavelengthAndScale) {
+  const SmallInputs inputs;
+  inputs.folder.file("opd.csv", "1,2,4\n3,5,9\n");
+  const std::vector<std::string> map{"map", "opd.csv", "--map-pixel", "0.5", "--remove", "none", "--write", "nm.csv"};
+  const auto refused = [&](const std::vector<std::string>& more, std::initializer_list<const char*> words) {
+    const ProgramResult result = inputs.run(test::with(map, more));
+    EXPECT_EQ(result.exit_code, 2) << result.out;
+    for (const char* word : words) expect_has(result.err, word);
+  };
+  refused({}, {"opd.csv", "path difference", "give --wave-scale", "0.5 for a mirror"});
+  refused({"--map-unit", "waves", "--wave-scale", "0.5"}, {"opd.csv", "--map-unit says waves", "--wavelength [nm]"});
+  refused({"--map-unit", "waves", "--wave-scale", "0.5", "--wavelength", "0.6328"},
+          {"--wavelength: '0.6328'", "from 100 to 20000 (nm)"});
+  refused({"--wave-scale", "0"}, {"--wave-scale: '0'", "from 0.01 to 100"});
+  refused({"--wave-scale", "0.5", "--wavelength", "632.8"}, {"--wavelength is 632.8 nm", "not in waves"});
+  refused({"--map-unit", "radians"}, {"--map-unit: 'radians'", "nm, um, mm, m, waves"});
+  const ProgramResult read =
+      inputs.run(test::with(map, {"--map-unit", "waves", "--wavelength", "500", "--wave-scale", "0.5"}));
+  ASSERT_EQ(read.exit_code, 0) << read.err;
+  expect_has(read.out, "made      wave scale 0.5: the values were waves of 500 nm");
+  expect_has(read_whole_file(inputs / "nm.csv"), "750,1250,2250");
+  EXPECT_EQ(inputs.run({"map", "nm.csv"}).exit_code, 0);
+  const ProgramResult plan = inputs.run(
+      SmallInputs::plan({"--map-unit", "waves", "--wavelength", "500", "--wave-scale", "0.5", "--map-max-pv", "100"}));
+  ASSERT_EQ(plan.exit_code, 0) << plan.err;
+  const json options = summary_of(inputs)["options"];
+  EXPECT_EQ(options["wavelength_nm"], "500");
+  EXPECT_EQ(options["wave_scale"], "0.5");
+  EXPECT_EQ(inputs.run({"simulate", "plan"}).exit_code, 0);
+  const ProgramResult alone = inputs.run({"simulate", "--program", "plan/program.nc", "--map", "map.csv", "--map-pixel",
+                                          "0.5", "--tif", "tif.csv", "--tif-pixel", "0.5"});
+  expect_has(alone.out, "--wave-scale is not given, but was 0.5 when the program was made");
+}
+
 TEST(PlanCommand, WritesFiguresInTheFormatsAskedForAndReplacesThem) {
   const SmallInputs inputs;
   std::vector<std::string> vectors = SmallInputs::plan();

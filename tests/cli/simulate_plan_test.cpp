@@ -38,7 +38,7 @@ struct PlanInputs : SmallInputs {
   /// Another map, or rates, of the same size.
   void scale(const std::string& from, const std::string& to, double factor) const {
     MapReadOptions half_millimetre;
-    half_millimetre.pitch = 0.5;
+    half_millimetre.pitch = square_pitch(0.5);
     const HeightMap map = read_map(*this / from, half_millimetre);
     std::string text;
     for (Index r = 0; r < map.grid.rows; ++r) {

@@ -73,7 +73,7 @@ TEST(MapStatistics, MeasuredMirrorHasItsPublishedRms) {
   const std::string file = DWELL_SHARED_DATA "/udo-raster/map_nm.csv";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "no " << file;
   MapReadOptions options;
-  options.pitch = 0.1;  // piston alone does not depend on it
+  options.pitch = square_pitch(0.1);  // piston alone does not depend on it
   const HeightMap map = read_map(file, options);
   EXPECT_EQ(map.grid.rows, 168);
   EXPECT_EQ(map.grid.cols, 985);

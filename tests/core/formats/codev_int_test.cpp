@@ -52,8 +52,7 @@ TEST(CodevInt, NamesWhatItRefuses) {
   refused("", {"map a.int", "no Code V interferogram", "GRD"});
   refused("title\n1 2 3\nGRD 1 1 SUR WVL 1 SSZ 1\n1\n", {"no Code V interferogram"});
   refused("t\nZFR 4 WFR WVL 1 SSZ 1\n1 2 3 4\n", {"line 2", "ZFR", "Zernike"});
-  refused("t\nGRD 2 1 WFR WVL 1 SSZ 1\n1 2\n", {"line 2", "'WFR'", "SUR", "double SSZ"});
-  refused("t\nGRD 2 1 FIL WVL 1 SSZ 1\n1 2\n", {"'FIL'", "SUR"});
+  refused("t\nGRD 2 1 FIL WVL 1 SSZ 1\n1 2\n", {"'FIL'", "SUR", "WFR"});
   refused("t\nGRD 0 1 SUR WVL 1 SSZ 1\n1 2\n", {"number of columns = '0'", ">= 1"});
   refused("t\nGRD 2 x SUR WVL 1 SSZ 1\n1 2\n", {"number of rows = 'x'"});
   refused("t\nGRD 2\n1 2\n", {"number of rows = ''"});
@@ -74,11 +73,29 @@ TEST(CodevInt, NamesWhatItRefuses) {
   refused("t\nGRD 2 1 SUR WVL 1 SSZ 1\n1 2\n3\n", {"line 4", "'3'", "nothing more"});
 }
 
+TEST(CodevInt, AWavefrontNeedsTheHeightOfItsWaves) {
+  const test::TemporaryFolder folder;
+  const auto wavefront = folder.file("a.int", "t\nGRD 2 1 WFR WVL 0.5 SSZ 1000\n100 -40\n");
+  const auto surface = folder.file("b.int", "t\nGRD 2 1 SUR WVL 0.5 SSZ 1000\n100 -40\n");
+  MapReadOptions options;
+  options.pitch = square_pitch(0.5);
+  test::expect_input_error([&] { read_map(wavefront, options); }, {"a.int, line 2", "WFR", "`wave scale`", "0.5 for"});
+  EXPECT_EQ(read_map(surface, options).values, (std::vector<double>{50, -20}));
+  options.waves.scale = 0.5;
+  EXPECT_EQ(read_map(wavefront, options).values, (std::vector<double>{25, -10}));
+  test::expect_input_error([&] { read_map(surface, options); },
+                           {"b.int", "SUR", "says 1 wavelengths", "`wave scale` 0.5"});
+  options.waves = {true, 500.0, 1.0};
+  EXPECT_EQ(read_map(surface, options).values, (std::vector<double>{50, -20})) << "what the file says as well";
+  options.waves.wavelength = 632.8;
+  test::expect_input_error([&] { read_map(surface, options); }, {"b.int", "500 nm", "`wavelength` 632.8 nm", "agree"});
+}
+
 TEST(CodevInt, IsChosenByContentOrExtension) {
   const test::TemporaryFolder folder;
   const std::string text = "t\nGRD 2 3 SUR WVL 1 SSZ 1000\n1 2\n3 4\n5 6\n";
   MapReadOptions options;
-  options.pitch = 0.5;
+  options.pitch = square_pitch(0.5);
   const HeightMap expected(Grid{3, 2, 0.5, 0.5, {}}, {5, 6, 3, 4, 1, 2});
   test::expect_same_map(read_map(folder.file("a.int", text), options), expected);
   test::expect_same_map(read_map(folder.file("a.txt", text), options), expected);

@@ -65,7 +65,7 @@ TEST(Fits, ReadsEveryTypeScaledWithItsBlank) {
   expect(-64, big_endian(std::vector<double>{1, NAN, 100}));
   const test::TemporaryFolder folder;
   MapReadOptions options;
-  options.pitch = 1.0;
+  options.pitch = square_pitch(1.0);
   const auto file =
       folder.file("a.fits", header(primary(-32, 3, 1)) + big_endian(std::vector<float>{1, HUGE_VALF, 100}));
   test::expect_input_error([&] { read_map(file, options); }, {"a.fits", "infinite", "column 2"});
@@ -94,22 +94,42 @@ TEST(Fits, ListsSeveralImagesAndTakesTheOneThatIsNamed) {
   using test::FitsUnit;
   const std::string bytes = test::fits_file({FitsUnit{},
                                              {"PUPIL", 2, 1, {0, 1}, {"PITCHMM = 0.5"}},
-                                             {"OPD", 3, 2, kOneToSix, {"PITCHMM = 0.25"}},
-                                             {"OPD", 1, 1, {7}, {"PITCHMM = 1.0"}}});
+                                             {"SURF", 3, 2, kOneToSix, {"PITCHMM = 0.25"}},
+                                             {"SURF", 1, 1, {7}, {"PITCHMM = 1.0"}}});
   const test::TemporaryFolder folder;
   const std::string name = folder.file("a.fits", bytes).string();
   test::expect_input_error([&] { read_map(name); },
-                           {"a.fits", "3 images", "1 or PUPIL (2 x 1 pixels)", "2 or OPD (3 x 2 pixels)", "':3'"});
+                           {"a.fits", "3 images", "1 or PUPIL (2 x 1 pixels)", "2 or SURF (3 x 2 pixels)", "':3'"});
   EXPECT_EQ(read_map(name + ":2").values, kOneToSix);
   EXPECT_EQ(read_map(name + ":2").grid.pitch_x, 0.25);
   EXPECT_EQ(read_map(name + ":pupil").values, (std::vector<double>{0, 1}));
-  test::expect_input_error([&] { read_map(name + ":OPD"); }, {"2 images", "called 'OPD'", "2 or OPD", "3 or OPD"});
+  test::expect_input_error([&] { read_map(name + ":SURF"); }, {"2 images", "called 'SURF'", "2 or SURF", "3 or SURF"});
   for (const char* wrong : {":0", ":4", ":none", ":/2"}) {
     test::expect_input_error([&] { read_map(name + wrong); }, {"0 images", "1 or PUPIL"});
   }
   const std::string single =
       folder.file("b.fits", test::fits_file({{"", 3, 2, kOneToSix, {"PITCHMM = 1.0"}}})).string();
   EXPECT_EQ(read_map(single + ":0").values, kOneToSix);
+}
+
+TEST(Fits, QuestionsPathDifferencesByNameKeywordAndComment) {
+  const test::TemporaryFolder folder;
+  const auto refused = [&](const std::string& name, const std::vector<std::string>& more, const char* shown) {
+    std::vector<std::string> cards{"PITCHMM = 0.5"};
+    cards.insert(cards.end(), more.begin(), more.end());
+    const auto file = folder.file("a.fits", test::fits_file({{}, {name, 3, 2, kOneToSix, cards}}));
+    test::expect_input_error([&] { read_map(file); }, {"a.fits", shown, "`wave scale`", "0.5", "1 if"});
+    MapReadOptions options;
+    options.waves.scale = 0.5;
+    EXPECT_EQ(read_map(file, options).at(1, 2), 3.0) << shown;
+  };
+  refused("OPD", {}, "EXTNAME");
+  refused("MAP", {"BTYPE   = 'Wavefront'"}, "BTYPE");
+  refused("MAP", {"WFE_RMS = 75.2"}, "WFE_RMS");
+  refused("MAP", {"COMMENT OPD of the pupil"}, "COMMENT");
+  const auto made = folder.file(
+      "b.fits", test::fits_file({{"", 3, 2, kOneToSix, {"PITCHMM = 0.5", "HISTORY half of the wavefront"}}}));
+  EXPECT_EQ(read_map(made).values, kOneToSix) << "history tells what was done";
 }
 
 TEST(Fits, KnowsPitchOriginAndUnit) {

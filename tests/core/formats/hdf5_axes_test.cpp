@@ -88,7 +88,7 @@ TEST(Hdf5Axes, WithoutAUnitOfLengthLeaveOpenWhatTheySay) {
   test::expect_input_error([&] { read_map(path, options); }, {"coordinates '/y' without", "`map origin`"});
   options.origin = Point{};
   test::expect_input_error([&] { read_map(path, options); }, {"`map pixel`", "'/x'"});
-  options.pitch = 0.5;
+  options.pitch = square_pitch(0.5);
   EXPECT_EQ(read_map(path, options).grid, (Grid{2, 3, 0.5, 0.5, {}}));
 }
 

@@ -35,6 +35,7 @@ TEST(Hdf5Fields, AUnitMayHaveOtherNamesAndPlaces) {
   EXPECT_EQ(read_with([](auto& f) { f.text("/", "units", "um"); }).header.unit, "um") << "of the file";
   EXPECT_EQ(read_with([](auto& f) { f.text_set("/run/units", "um"); }).header.unit, "um") << "beside it";
   EXPECT_EQ(read_with([](auto&) {}, "/run/heights_um").header.unit, "um") << "in its name";
+  EXPECT_EQ(read_with([](auto&) {}, "/run/heights_waves").header.unit, "waves");
   EXPECT_FALSE(read_with([](auto&) {}, "/run/map_m1").header.unit);
   const MapSource nearest = read_with([](auto& f) { f.text("/run/z", "unit", "nm"), f.text("/", "units", "um"); });
   EXPECT_EQ(nearest.header.unit, "nm");
@@ -55,7 +56,8 @@ TEST(Hdf5Fields, AWordOfAUnitIsUnderstoodOrRefusedByName) {
   };
   for (const char* unit : {"um", "\xc2\xb5m", "\xce\xbcm", "micron", "Micrometers"}) EXPECT_EQ(read(unit), 2e3) << unit;
   test::expect_input_error([&] { read("nm"); }, {"a.h5", "unit nm", "`map unit`"});
-  test::expect_input_error([&] { read("waves"); }, {"a.h5", "'waves'", "accepted: nm, um, mm, m"});
+  test::expect_input_error([&] { read("waves"); }, {"a.h5", "unit waves", "`wavelength`", "`wave scale`"});
+  test::expect_input_error([&] { read("radians"); }, {"a.h5", "'radians'", "accepted: nm, um, mm, m"});
 }
 
 TEST(Hdf5Fields, APitchMayHaveOtherNamesAndPlaces) {

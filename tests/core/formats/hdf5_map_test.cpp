@@ -89,7 +89,7 @@ TEST(Hdf5Map, ListsTheMatricesOfAFileThatHoldsSeveral) {
   const std::string name = folder.file("a.h5", file.bytes()).string();
   test::expect_input_error([&] { read_map(name); }, {"a.h5", "2 two-dimensional", ":/again", ":/runs/after"});
   MapReadOptions options;
-  options.pitch = 1.0;
+  options.pitch = square_pitch(1.0);
   EXPECT_EQ(read_map(name + ":/runs/after", options).at(2, 1), 6.0);
   EXPECT_EQ(read_map(name + ":/before", options).at(1, 2), 6.0);
   EXPECT_EQ(read_map(name + ":runs/after", options).at(2, 1), 6.0) << "with or without the slash";

@@ -165,10 +165,10 @@ inline std::string npy_part_bytes() {
 struct InstrumentFile {
   const char* name;
   std::string (*bytes)();
-  Grid grid;                    // as it is to be read
-  double tolerance;             // half a step of its numbers [nm]
-  std::optional<double> pitch;  // that the user gives [mm], for formats that carry none
-  double scale = 1.0;           // from the file's unit to nm
+  Grid grid;                   // as it is to be read
+  double tolerance;            // half a step of its numbers [nm]
+  std::optional<Point> pitch;  // that the user gives [mm], for formats that carry none
+  double scale = 1.0;          // from the file's unit to nm
 };
 
 inline std::vector<InstrumentFile> instrument_files() {
@@ -179,11 +179,11 @@ inline std::vector<InstrumentFile> instrument_files() {
   return {{"part.dat", dat_bytes, square(dat, 100 * dat, -67 * dat), 0.005, {}},
           {"part.datx", datx_bytes, oblong(100 * 0.4, -67 * 0.25), 1e-9, {}},
           {"part.sdf", sdf_bytes, oblong(0.0, 0.0), 1e-9, {}},
-          {"part.int", int_bytes, square(0.3, 0.0, 0.0), 0.064, 0.3},
+          {"part.int", int_bytes, square(0.3, 0.0, 0.0), 0.064, square_pitch(0.3)},
           {"part.fits", fits_part_bytes, oblong(-4.0, 2.5), 1e-9, {}},
           {"part.xyz", xyz_bytes, oblong(-4.0, 2.5), 1e-9, {}, 1e3},
           {"part.csv", csv_bytes, oblong(-4.0, 2.5), 1e-9, {}},
-          {"part.npy", npy_part_bytes, square(0.3, 0.0, 0.0), 1e-9, 0.3}};
+          {"part.npy", npy_part_bytes, oblong(0.0, 0.0), 1e-9, Point{0.4, 0.25}}};
 }
 
 }  // namespace dwell::test

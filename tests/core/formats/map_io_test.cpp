@@ -26,7 +26,7 @@ HeightMap asymmetric() {
 
 MapReadOptions with_pitch(double pitch) {
   MapReadOptions options;
-  options.pitch = pitch;
+  options.pitch = square_pitch(pitch);
   return options;
 }
 
@@ -116,7 +116,7 @@ TEST(MapIo, HeaderAndOptionsMustAgree) {
   EXPECT_EQ(read_map(file, options).grid, (Grid{1, 2, 0.1, 0.1, {0.0, -2.0}}));
 
   MapReadOptions other = options;
-  other.pitch = 0.1000001;
+  other.pitch = square_pitch(0.1000001);
   test::expect_input_error([&] { read_map(file, other); }, {"a.csv", "pitch_mm = 0.1,0.1", "`map pixel`", "0.1000001"});
   other = options;
   other.origin = Point{0.001, -2.0};
@@ -127,7 +127,25 @@ TEST(MapIo, HeaderAndOptionsMustAgree) {
   other.scale.reset();
   EXPECT_EQ(read_map(file, other).at(0, 1), 2e3) << "without an option the file is taken at its word";
   const auto waves = folder.file("b.csv", "# unit: waves\n# pitch_mm: 1\n1,2\n");
-  test::expect_input_error([&] { read_map(waves); }, {"'waves'", "nm, um"});
+  test::expect_input_error([&] { read_map(waves); }, {"b.csv", "unit waves", "`wavelength` [nm]", "`wave scale`"});
+}
+
+TEST(MapIo, PitchOfPixelsThatAreNotSquareIsComparedBothWays) {
+  const TemporaryFolder folder;
+  const auto plain = folder.file("a.csv", "1,2,3\n4,,6\n"), said = folder.file("b.csv", "# pitch_mm: 0.5,0.25\n1,2\n");
+  MapReadOptions options;
+  options.pitch = Point{0.5, 0.25};
+  const HeightMap map = read_map(plain, options);
+  EXPECT_EQ(map.grid, (Grid{2, 3, 0.5, 0.25, {}}));
+  EXPECT_EQ(map.at(1, 2), 6.0);
+  EXPECT_EQ(map.grid.centre(1, 2), (Point{1.0, 0.25}));
+  EXPECT_EQ(read_map(said, options).grid, (Grid{1, 2, 0.5, 0.25, {}}));
+  for (const Point other : {Point{0.5, 0.5}, Point{0.25, 0.25}, Point{0.25, 0.5}, Point{0.5, 0.25001}}) {
+    options.pitch = other;
+    test::expect_input_error([&] { read_map(said, options); }, {"b.csv", "pitch_mm = 0.5,0.25", "`map pixel`"});
+  }
+  options.pitch = Point{0.5, -0.25};
+  test::expect_input_error([&] { read_map(plain, options); }, {"`map pixel` = 0.5,-0.25 mm", "> 0"});
 }
 
 TEST(MapIo, SaysOfARateThatHeightsAreRequiredAndOfNothingElse) {
@@ -173,7 +191,7 @@ TEST(MapIo, FitsASurfaceToScatteredPoints) {
   }
   ASSERT_EQ(map.history.size(), 1u);
   EXPECT_NE(map.history[0].find("grid pitch=0.25,reach=0.6: 200 points"), std::string::npos) << map.history[0];
-  options.pitch = 0.3;
+  options.pitch = square_pitch(0.3);
   test::expect_input_error([&] { read_map(file, options); }, {"a.xyz", "`map pixel` is 0.3 mm", "0.25 mm"});
   options.pitch.reset();
   const auto matrix = folder.file("a.csv", "# pitch_mm: 1\n1,2\n3,5\n");

@@ -17,7 +17,7 @@ using test::expect_input_error;
 HeightMap read_table(const std::string& text, const std::string& table = "", std::optional<double> pitch = 0.5) {
   const test::TemporaryFolder folder;
   MapReadOptions options;
-  options.pitch = pitch;
+  if (pitch) options.pitch = square_pitch(*pitch);
   if (!table.empty()) options.table = parse_matrix_table(table);
   return read_map(folder.file("a.csv", text), options);
 }

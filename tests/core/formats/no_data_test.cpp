@@ -127,13 +127,13 @@ TEST(NoData, ComparesWithTheNumbersOfTheFile) {
   map = read_map(folder.file("a.xyz", "0 0 -9999\n1 0 2\n0 1 3\n1 1 4\n"), options);
   EXPECT_EQ(map.valid_pixels(), 3);
   write_whole_file(folder.path() / "a.npy", npy_bytes(HeightMap({2, 2, 1, 1, {}}, {1.0, -9999.0, 3.0, 7.0})));
-  options.pitch = 1.0;
+  options.pitch = square_pitch(1.0);
   map = read_map(folder.path() / "a.npy", options);
   EXPECT_TRUE(std::isnan(map.at(0, 1)));
   EXPECT_EQ(map.at(1, 1), 7000.0);
   const std::string grid = "GRD 3 2 SUR WVL 0.5 SSZ -1000\n-9999 1 2\n3 4 5\n";
   MapReadOptions coded;
-  coded.pitch = 1.0;
+  coded.pitch = square_pitch(1.0);
   coded.no_data = NoDataMarkers{{-9999.0}};
   map = read_map(folder.file("a.int", grid), coded);
   EXPECT_EQ(map.valid_pixels(), 5) << "counted as in the file, not in nm";

@@ -38,7 +38,7 @@ TEST(NpySidecar, OptionsMustAgree) {
   const auto file = folder.path() / "a.npy";
   write_map(file, asymmetric(1));
   MapReadOptions options;
-  options.pitch = 0.1;
+  options.pitch = square_pitch(0.1);
   test::expect_input_error([&] { read_map(file, options); }, {"a.npy", "0.1,0.25", "`map pixel`"});
   options = {};
   options.origin = Point{-1.7, 0.4};

@@ -25,7 +25,7 @@ TEST(PartSize, AcceptsPartsFromAPixelOfAnAtomToTheLargestMirror) {
 TEST(PartSize, IsAskedOfEveryReader) {
   const test::TemporaryFolder folder;
   MapReadOptions options;
-  options.pitch = 2e4;
+  options.pitch = square_pitch(2e4);
   const auto plain = folder.file("a.csv", "1,2\n3,4\n");
   test::expect_input_error([&] { read_map(plain, options); }, {"a.csv", "`map pixel`", "40000 x 40000 mm"});
   const auto header = folder.file("b.csv", "# pitch_mm: 1e-8\n1,2\n3,4\n");

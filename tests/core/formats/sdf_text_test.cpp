@@ -189,7 +189,7 @@ TEST(SdfText, OptionsMustAgree) {
   const test::TemporaryFolder folder;
   const auto path = folder.file("a.sdf", file("aISO-1.0"));
   MapReadOptions options;
-  options.pitch = 0.1;
+  options.pitch = square_pitch(0.1);
   test::expect_input_error([&] { read_map(path, options); }, {"a.sdf", "0.01,0.25", "`map pixel`"});
   options = {};
   options.scale = 1e3;

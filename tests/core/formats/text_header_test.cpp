@@ -116,14 +116,17 @@ TEST(TextHeader, TakesAUnitThatStandsAlone) {
     EXPECT_EQ(known_length_unit(*header.unit), 1e3) << line;
   }
   EXPECT_EQ(header_of("# um/s").unit, "um/s");
-  for (const char* line : {"# waves", "# lambda", "# [mrad]"}) {
-    test::expect_input_error([&] { header_of(line); }, {"line 1", "a unit of height"});
+  for (const char* line : {"# waves", "# lambda", "# [fringes]"}) {
+    const MapHeader header = header_of(line);
+    ASSERT_TRUE(header.unit) << line;
+    EXPECT_TRUE(is_wave_unit(*header.unit)) << line;
   }
+  test::expect_input_error([&] { header_of("# [mrad]"); }, {"line 1", "a unit of height"});
 }
 
 TEST(TextHeader, FindsAUnitInBracketsBehindAnyWords) {
   for (const char* line : {"# measured through the window of the long chamber (nm)", "# dz [um]", "# TIF [um/s]",
-                           "# wavefront (nm)", "# slope [urad]", "# sag of run 7 [m]"}) {
+                           "# slope [urad]", "# sag of run 7 [m]"}) {
     expect_unclear(line, About::Unit, {"line 2", "unit of the values"});
   }
   EXPECT_TRUE(says_nothing(header_of("# aperture [mm]")));
@@ -212,6 +215,37 @@ TEST(TextHeader, TakesTheValueForNoData) {
   expect_unclear("# missing: -9999", About::NoData, {"missing", "-9999", "nodata"});
 }
 
+TEST(TextHeader, TakesWavesForAUnitAndKnowsTheirLength) {
+  for (const char* line : {"# Unit: waves", "# heights in fringes", "# z [waves]", "# heights in \xce\xbb",
+                           "# Einheit: Wellenl\xc3\xa4ngen"}) {
+    const MapHeader header = header_of(line);
+    ASSERT_TRUE(header.unit) << line;
+    EXPECT_TRUE(is_wave_unit(*header.unit)) << line;
+    EXPECT_TRUE(header.unclear.empty()) << line;
+  }
+  for (const char* line : {"# wavelength: 632.8 nm", "# Wavelength [nm]: 632.8", "# laser wavelength = 0.6328 um",
+                           "# Wellenl\xc3\xa4nge: 632.8 nm"}) {
+    ASSERT_TRUE(header_of(line).wavelength) << line;
+    EXPECT_NEAR(*header_of(line).wavelength, 632.8, 1e-9) << line;
+  }
+  for (const char* line : {"# wavelength: 632.8", "# wavelength: 5 mm", "# wavelengths: 633, 532 nm",
+                           "# wavelength: 633 nm\n# second wavelength: 532 nm"}) {
+    EXPECT_FALSE(header_of(line).wavelength) << line;
+  }
+}
+
+TEST(TextHeader, QuestionsPathDifferences) {
+  for (const char* line : {"# OPD", "# OPD [nm]", "# quantity: wavefront", "# WFE map in nm", "# Wellenfrontfehler",
+                           "# wavefront error, transmitted", "# front d'onde"}) {
+    const MapHeader header = header_of(line);
+    ASSERT_FALSE(header.unclear.empty()) << line;
+    EXPECT_EQ(header.unclear.front().about, About::Wavefront) << line;
+    EXPECT_NE(header.unclear.front().message.find("line 1"), std::string::npos) << header.unclear.front().message;
+  }
+  EXPECT_TRUE(header_of("# surface of the opdrachtgever").unclear.empty());
+  EXPECT_TRUE(header_of("# made: wave scale 0.5: the values were an OPD").unclear.empty()) << "history";
+}
+
 TEST(TextHeader, KeepsWhatIsUnclearForWhoeverKnowsTheOptions) {
   expect_unclear("# pitch: 0.25", About::Pitch, {"map a.csv, line 2", "pitch", "'0.25'", "without a unit", "pitch_mm"});
   expect_unclear("# resolution: 0.1 mm", About::Pitch, {"resolution"});
@@ -221,7 +255,7 @@ TEST(TextHeader, KeepsWhatIsUnclearForWhoeverKnowsTheOptions) {
   expect_unclear("# height [10 nm]", About::Factor, {"factor"});
   expect_unclear("# nm/count: 0.5", About::Factor, {"factor"});
   expect_unclear("# laser unit: um", About::Unit, {"laser unit um"});
-  expect_unclear("# OPD in waves at 633 nm", About::Unit, {"no length"});
+  expect_unclear("# values in waves at 633 nm", About::Unit, {"no length"});
   expect_unclear("# row 0 = top", About::Rows, {"orientation"});
   expect_unclear("# dz: 2 nm", About::Factor, {"dz", "unit"});
   expect_unclear("# measured height map of Tuesday (um)", About::Unit, {"looks like the unit", "# unit: um"});
@@ -236,9 +270,11 @@ TEST(TextHeader, RefusesByNameWhatItCannotRead) {
     test::expect_input_error([&] { header_of("# first\n" + line); }, {"map a.csv, line 2"});
     test::expect_input_error([&] { header_of("# first\n" + line); }, words);
   };
-  refused("# Unit: waves", {"Unit", "'waves'", "nm, um, mm, m"});
-  refused("# heights in fringes", {"'fringes'", "nm, um"});
-  refused("# z [waves]", {"'waves'", "nm, um"});
+  refused("# Unit: radians", {"Unit", "'radians'", "nm, um, mm, m, waves"});
+  refused("# heights in counts", {"'counts'", "nm, um"});
+  refused("# z [rad]", {"'rad'", "nm, um"});
+  test::expect_input_error([&] { header_of("# z unit: nm\n# Unit: waves"); }, {"line 2", "'waves'", "'nm'", "agree"});
+  test::expect_input_error([&] { header_of("# z [waves]\n# unit: nm"); }, {"line 2", "'nm'", "'waves'", "agree"});
   refused("# Pitch_mm: 0", {"Pitch_mm", "'0'"});
   refused("# pixel size: 0.5 furlongs", {"pixel size", "'0.5 furlongs'"});
   refused("# pitch_um: 250 mm", {"pitch_um", "'250 mm'", "um"});
@@ -306,7 +342,7 @@ TEST(TextHeader, AnOptionSettlesWhatIsUnclear) {
     test::expect_input_error([&] { read_map(file, options); }, {"a.csv", key, option});
   };
   refused("pitch = '250'", "`map pixel`");
-  options.pitch = 0.25;
+  options.pitch = square_pitch(0.25);
   refused("origin = '1,2'", "`map origin`");
   options.origin = Point{1.0, 2.0};
   refused("scale = '1e-3'", "`map unit`");

@@ -36,7 +36,7 @@ TEST(UnpackedSize, RefusesAnHdf5FileMadeToFillTheMemory) {
   const test::TemporaryFolder folder;
   const auto path = folder.file("a.h5", bytes);
   MapReadOptions options;
-  options.pitch = 0.01;
+  options.pitch = square_pitch(0.01);
   test::expect_input_error([&] { read_map(path, options); }, {"a.h5", "'/m'", "6144 x 6144", "`max pixels` 37748736"});
   options.limit = {37748736.0};
   EXPECT_EQ(read_map(path, options).grid.rows, 6144);
@@ -57,7 +57,7 @@ TEST(PixelLimit, IsThatOfEveryReader) {
     write_map(folder.path() / name, map);
     refused(folder.path() / name);
   }
-  options.pitch = 0.5;
+  options.pitch = square_pitch(0.5);
   refused(folder.file("a.int", "title\nGRD 3 2 SUR WVL 1 SSZ 1000\n4 5 6 1 2 3\n").parent_path() / "a.int");
 }
 

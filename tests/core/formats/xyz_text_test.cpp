@@ -115,7 +115,7 @@ TEST(XyzText, NamesTheLineItRefuses) {
   expect_refused("x_mm y_um z\n0 0 1\n", {"line 1", "'um'", "agree"});
   expect_refused("x_mm y z_nm\n0 0 1\n", {"line 1", "only one of x and y", "x_mm y_mm z_nm"});
   expect_refused("x, y, z [um]\n0 0 1\n", {"line 1", "'um'", "of z alone, or of all", "x_mm y_mm z_um"});
-  expect_refused("x y z_waves\n0 0 1\n", {"line 1", "'waves'", "nm, um"});
+  expect_refused("x y z_counts\n0 0 1\n", {"line 1", "'counts'", "nm, um"});
   expect_refused("xpos ypos z(nm)\n0 0 1\n", {"line 1", "'xpos ypos z(nm)'", "'x_mm y_mm z_nm'"});
   expect_refused("0,0 0,0 1,5\n0,5 0,0 2,5\n", {"line 1", "'0,0 0,0 1,5'", "decimal commas", "points"});
   expect_refused("0,0\t1\t1,5\n", {"line 1", "'0,0\\t1\\t1,5'", "decimal commas"});
@@ -166,7 +166,7 @@ TEST(XyzText, RefusesPlacesInAUnitThatIsNotClear) {
     test::expect_input_error([&] { read_map(file, options); }, {"a.xyz, line 1", "mm"});
     options.scale =
         comment == std::string("# unit: m") || comment == std::string("# data in inches") ? options.scale : 1.0;
-    options.pitch = 0.5;
+    options.pitch = square_pitch(0.5);
     test::expect_input_error([&] { read_map(file, options); }, {"a.xyz, line 1"});
   }
 }

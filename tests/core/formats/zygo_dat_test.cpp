@@ -12,6 +12,7 @@
 #include "tests/core/form/spread.h"
 #include "tests/core/formats/byte_flips.h"
 #include "tests/core/formats/zygo_dat_bytes.h"
+#include "tests/core/map/same_map.h"
 
 namespace dwell {
 namespace {
@@ -82,7 +83,7 @@ TEST(ZygoDat, LeavesThePitchOpenWhereTheFileDoes) {
   const auto path = folder.file("a.dat", file.bytes());
   test::expect_input_error([&] { read_map(path); }, {"a.dat", "`map pixel`", "lateral resolution", "byte 184"});
   MapReadOptions options;
-  options.pitch = 0.25;
+  options.pitch = square_pitch(0.25);
   options.max_pv = 1e8;
   EXPECT_EQ(read_map(path, options).grid, (Grid{2, 3, 0.25, 0.25, {7 * 0.25, -12 * 0.25}}));
   options.origin = Point{1.0, 2.0};
@@ -138,11 +139,27 @@ TEST(ZygoDat, AgreesWithAPitchAsItIsPrinted) {
   const test::TemporaryFolder folder;
   write_whole_file(folder.path() / "a.dat", ZygoDatFile().bytes());
   MapReadOptions options;
-  options.pitch = 0.2;
+  options.pitch = square_pitch(0.2);
   options.max_pv = 1e8;
   EXPECT_EQ(read_map(folder.path() / "a.dat", options).grid.pitch_x, static_cast<double>(2e-4F) * 1e3);
-  options.pitch = 0.20001;
+  options.pitch = square_pitch(0.20001);
   test::expect_input_error([&] { read_map(folder.path() / "a.dat", options); }, {"pitch_mm", "`map pixel`", "agree"});
+}
+
+// The file says its own scale: an option that says another would be a factor of two that nobody sees.
+TEST(ZygoDat, StatesWavelengthAndScale) {
+  const test::TemporaryFolder folder;
+  const auto file = folder.file("wavefront.dat", ZygoDatFile().bytes());
+  MapReadOptions options;
+  options.max_pv = 1e8;
+  const HeightMap expected = read_map(file, options);
+  options.waves = {true, 632.8, 0.5 * 1.25};
+  test::expect_same_map(read_map(file, options), expected);
+  options.waves = {false, {}, 0.5};
+  test::expect_input_error([&] { read_map(file, options); },
+                           {"wavefront.dat", "byte 164", "says 0.625 wavelengths", "`wave scale` 0.5", "agree"});
+  options.waves = {false, 543.5, {}};
+  test::expect_input_error([&] { read_map(file, options); }, {"byte 168", "632.8", "`wavelength` 543.5 nm"});
 }
 
 /// The file that comes with prysm (425 x 432 pixels of MetroPro 8.3.5). Reference: read_zygo_dat of prysm's io.py (the

@@ -100,7 +100,7 @@ TEST(ZygoDatx, LeavesThePitchOpenWhereTheFileDoes) {
   const auto path = folder.file("a.datx", datx.bytes());
   test::expect_input_error([&] { read_map(path); }, {"a.datx", "`map pixel`", "'Y Converter'"});
   MapReadOptions options;
-  options.pitch = 0.5;
+  options.pitch = square_pitch(0.5);
   EXPECT_EQ(read_map(path, options).grid, (Grid{2, 3, 0.5, 0.5, {7.5, -11.5}}));
 }
 
@@ -112,10 +112,26 @@ TEST(ZygoDatx, TakesAPitchThatAgreesInSinglePrecision) {
   const test::TemporaryFolder folder;
   const auto path = folder.file("a.datx", datx.bytes());
   MapReadOptions options;
-  options.pitch = 0.1;
+  options.pitch = square_pitch(0.1);
   EXPECT_NEAR(read_map(path, options).grid.pitch_x, 0.1, 1e-8);
-  options.pitch = 0.10001;
+  options.pitch = square_pitch(0.10001);
   test::expect_input_error([&] { read_map(path, options); }, {"a.datx", "0.10001", "agree"});
+}
+
+// Heights in fringes and in nm were both made with the factor that the surface states.
+TEST(ZygoDatx, StatesItsScale) {
+  const test::TemporaryFolder folder;
+  Datx in_nm;
+  in_nm.unit = in_nm.base_unit = "NanoMeters";
+  const auto fringes = folder.file("opd.datx", Datx().bytes()), nm = folder.file("b.datx", in_nm.bytes());
+  MapReadOptions options;
+  const double high = read_map(fringes, options).at(0, 0), low = read_map(nm, options).at(0, 0);
+  options.waves.scale = 0.5 * 1.25;
+  EXPECT_EQ(read_map(fringes, options).at(0, 0), high);
+  test::expect_input_error([&] { read_map(nm, options); }, {"b.datx", "'Interferometric Scale Factor'", "says 0.5 "});
+  options.waves.scale = 0.5;
+  EXPECT_EQ(read_map(nm, options).at(0, 0), low);
+  test::expect_input_error([&] { read_map(fringes, options); }, {"opd.datx", "says 0.625 ", "`wave scale` 0.5"});
 }
 
 TEST(ZygoDatx, FollowsTheLinksToTheSurface) {

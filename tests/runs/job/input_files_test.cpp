@@ -32,7 +32,7 @@ TEST(LoadMap, ScalesPlacesAndRecordsTheFile) {
   const TemporaryFolder folder;
   JobOptions options;
   options.map = folder.file("map.csv", "1,2,nan\n4,5,6\n").string();
-  options.map_pixel_mm = 0.5;
+  options.map_pixel_mm = square_pitch(0.5);
   options.map_unit = "um";
   options.map_origin_mm = Point{-1.0, 7.0};
   std::vector<InputFile> inputs;
@@ -88,7 +88,7 @@ TEST(LoadRemovalFunction, ReadsAFileWithItsUnitPitchAndAxis) {
   const TemporaryFolder folder;
   JobOptions options;
   options.tif = folder.file("spot.csv", "0,0,0,0,0\n0,0,0,0,0\n0,0,6,3,0\n0,0,0,0,0\n0,0,0,0,0\n").string();
-  options.tif_pixel_mm = 0.5;
+  options.tif_pixel_mm = square_pitch(0.5);
   options.tif_unit = "um/min";
   options.tif_centre = parse_tif_centre("middle");
   std::vector<InputFile> inputs;
@@ -176,7 +176,7 @@ TEST(LoadRemovalFunction, CalibratesTheSurfaceThatASpotLeft) {
 TEST(LoadRemovalFunction, RefusesASpotThatRemovesNothing) {
   const TemporaryFolder folder;
   JobOptions options;
-  options.tif_pixel_mm = 0.5;
+  options.tif_pixel_mm = square_pitch(0.5);
   std::vector<InputFile> inputs;
   for (const char* rates : {"0,0\n0,0\n", "-1,-2\n-3,-1\n", "1,-2\n-3,nan\n"}) {
     options.tif = folder.file("spot.csv", rates).string();

@@ -22,8 +22,10 @@ JobOptions read(const TemporaryFolder& folder, const std::string& text, JobOptio
 JobOptions unusual() {
   JobOptions o;
   o.map = "/data/a map \"of\" C:\\parts.csv";
-  o.map_pixel_mm = 0.1;
+  o.map_pixel_mm = Point{0.1, 1.0 / 3.0};
   o.map_unit = "um";
+  o.wavelength_nm = 632.8;
+  o.wave_scale = 0.5;
   o.map_origin_mm = Point{-12.5, 1.0 / 3.0};
   o.map_no_data = NoDataMarkers{{-9999.0, 0.1}};
   o.map_max_pv_mm = 25.0;
@@ -33,7 +35,7 @@ JobOptions unusual() {
   o.map_steps = "crop:data; subtract:file=/data/b.csv,how=resample";
   o.max_pixels = 1e6;
   o.tif = "gaussian:peak=1,fwhm=2.8,radius=5";
-  o.tif_pixel_mm = 0.2;
+  o.tif_pixel_mm = square_pitch(0.2);
   o.tif_unit = "um/min";
   o.tif_no_data = NoDataMarkers{};
   o.tif_table = parse_matrix_table("index");
@@ -49,6 +51,7 @@ JobOptions unusual() {
   o.motion = Motion::Stop;
   o.remove = {true, true, true};
   o.aperture = parse_aperture("rect:0,0,1,2");
+  o.fraction = 0.8;
   o.min_dwell_s = 1.0 / 7.0;
   o.max_feed_mm_per_min = 1e7;
   o.smoothness = {1e-9};
@@ -103,6 +106,19 @@ TEST(JobFile, ComesOverTheOptionsItIsReadInto) {
   const JobOptions after = read(folder, "smoothness = 0.75\n", before);
   EXPECT_EQ(after.smoothness, WeightGoal{0.75});
   EXPECT_EQ(after.min_dwell_s, 0.25);
+}
+
+TEST(JobFile, TakesOnePitchAsANumberAndTwoInQuotes) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(read(folder, "map_pixel_mm = 0.5\n").map_pixel_mm, (Point{0.5, 0.5}));
+  EXPECT_EQ(read(folder, "map_pixel_mm = '0.5,0.25'\n").map_pixel_mm, (Point{0.5, 0.25}));
+  EXPECT_EQ(read(folder, "tif_pixel_mm = '0.125, 0.2'\n").tif_pixel_mm, (Point{0.125, 0.2}));
+  expect_input_error([&] { read(folder, "map_pixel_mm = '1,5'\n"); },
+                     {"job.toml: map_pixel_mm", "'1,5'", "decimal comma", "1.5 mm", "1.0,5.0"});
+  for (const std::string wrong : {"'0.5,0.25,0.1'", "'0.5,'", "'0.5,-0.25'", "'0.5;0.25'", "'0.5,2e4'"}) {
+    expect_input_error([&] { read(folder, "map_pixel_mm = " + wrong + "\n"); },
+                       {"job.toml: map_pixel_mm", "required a number from 1e-06", "X,Y"});
+  }
 }
 
 TEST(JobFile, TakesWordsWhereAWeightIsLeftOpen) {

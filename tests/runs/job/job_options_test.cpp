@@ -51,6 +51,13 @@ TEST(JobOptionTable, AcceptsItsOwnDefaults) {
 TEST(JobOptionTable, GivesBackWhatItIsGiven) {
   for (const auto& [flag, text] :
        std::initializer_list<std::pair<const char*, const char*>>{{"map-pixel", "0.0938"},
+                                                                  {"map-pixel", "0.5,0.25"},
+                                                                  {"tif-pixel", "0.2,0.125"},
+                                                                  {"fraction", "0.8"},
+                                                                  {"map-unit", "waves"},
+                                                                  {"wavelength", "632.8"},
+                                                                  {"wave-scale", "0.5"},
+                                                                  {"fraction", "1"},
                                                                   {"map-unit", "um"},
                                                                   {"map-origin", "-12.5,3"},
                                                                   {"map-no-data", "-9999,32767"},

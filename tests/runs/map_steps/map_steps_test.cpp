@@ -151,6 +151,34 @@ TEST(MapSteps, SubtractAverageAndRegisterReadOtherMaps) {
   EXPECT_GT(prepared(map, "average:" + file("finer.csv") + ",resample").valid_pixels(), 4000);
 }
 
+TEST(MapSteps, ReadOtherMapsOfPixelsThatAreNotSquare) {
+  const test::TemporaryFolder folder;
+  const HeightMap map(Grid{2, 3, 0.5, 0.25, {}}, {1.0, 2.0, 3.0, 4.0, 5.0, 7.0});
+  const std::string file = folder.file("other.csv", "1,1,1\n0,0,2\n").string();
+  const HeightMap less = prepared(map, "subtract:file=" + file + ",pixel=0.5/0.25");
+  EXPECT_EQ(less.at(1, 2), 5.0);
+  EXPECT_EQ(less.at(0, 1), 1.0);
+  expect_input_error([&] { prepared(map, "subtract:file=" + file + ",pixel=0.25/0.5"); }, {"different grids"});
+  for (const std::string wrong : {"0.5/0.25/1", "0.5/x", "-0.5", "0.5/0"}) {
+    expect_input_error([&] { prepared(map, "subtract:file=" + file + ",pixel=" + wrong); },
+                       {"pixel = '" + wrong + "'", "X/Y", "not square"});
+  }
+}
+
+TEST(MapSteps, ReadOtherMapsInWavesByTheirOwnScale) {
+  const test::TemporaryFolder folder;
+  const HeightMap map(Grid{1, 3, 0.5, 0.5, {}}, {100.0, 200.0, 400.0});
+  const std::string waves = folder.file("other.csv", "0.1,0.2,0.6\n").string(),
+                    opd = folder.file("other_opd.csv", "1,2,6\n").string();
+  const std::string in_waves = "subtract:file=" + waves + ",pixel=0.5,unit=waves";
+  EXPECT_NEAR(prepared(map, in_waves + ",wavelength=500,wave-scale=0.5").at(0, 2), 400.0 - 150.0, 1e-9);
+  expect_input_error([&] { prepared(map, in_waves); }, {"other.csv", "`wavelength` [nm] and `wave scale`"});
+  expect_input_error([&] { prepared(map, in_waves + ",wavelength=0.5,wave-scale=0.5"); },
+                     {"wavelength = 0.5", "from 100 to 20000 (nm)"});
+  expect_input_error([&] { prepared(map, "subtract:file=" + opd + ",pixel=0.5"); }, {"other_opd.csv", "`wave scale`"});
+  EXPECT_EQ(prepared(map, "subtract:file=" + opd + ",pixel=0.5,wave-scale=0.5").at(0, 2), 397.0);
+}
+
 TEST(MapSteps, RefuseNamingTheStepAndWhatIsAccepted) {
   const auto refused = [](const std::string& steps, std::initializer_list<std::string> words) {
     expect_input_error([&] { prepared(uneven_map(), steps); }, words);

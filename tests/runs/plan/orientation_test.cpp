@@ -21,8 +21,8 @@
 namespace dwell {
 namespace {
 
-constexpr double kPitch = 0.5;
-constexpr Index kRows = 44, kCols = 60;
+constexpr Point kPitch{0.5, 0.4};
+constexpr Index kRows = 55, kCols = 60;
 constexpr Point kOrigin{-9.0, 3.0};
 constexpr Point kBump{12.0, 17.5};  // the middle of the map is (5.75, 13.75)
 
@@ -39,12 +39,12 @@ double rate(double x, double y) {
 }
 
 std::string matrix_csv(Index rows, Index cols, Point origin, double (*value)(double, double)) {
-  std::string text = fmt::format("# pitch_mm: {}\n# origin_mm: {},{}\n", kPitch, origin.x, origin.y);
+  std::string text = fmt::format("# pitch_mm: {},{}\n# origin_mm: {},{}\n", kPitch.x, kPitch.y, origin.x, origin.y);
   for (Index r = 0; r < rows; ++r) {
     for (Index c = 0; c < cols; ++c) {
-      text +=
-          fmt::format("{}{:.9g}", c > 0 ? "," : "",
-                      value(origin.x + kPitch * static_cast<double>(c), origin.y + kPitch * static_cast<double>(r)));
+      text += fmt::format(
+          "{}{:.9g}", c > 0 ? "," : "",
+          value(origin.x + kPitch.x * static_cast<double>(c), origin.y + kPitch.y * static_cast<double>(r)));
     }
     text += '\n';
   }
@@ -56,7 +56,7 @@ std::string xyz() {
   std::string text = "x y z\n";
   for (Index c = kCols; c-- > 0;) {
     for (Index r = 0; r < kRows; ++r) {
-      const double x = kOrigin.x + kPitch * static_cast<double>(c), y = kOrigin.y + kPitch * static_cast<double>(r);
+      const double x = kOrigin.x + kPitch.x * static_cast<double>(c), y = kOrigin.y + kPitch.y * static_cast<double>(r);
       text += fmt::format("{} {} {:.9g}\n", x, y, height(x, y));
     }
   }
@@ -74,7 +74,8 @@ std::string npy() {
   bytes += header;
   for (Index r = 0; r < kRows; ++r) {
     for (Index c = 0; c < kCols; ++c) {
-      const double z = height(kOrigin.x + kPitch * static_cast<double>(c), kOrigin.y + kPitch * static_cast<double>(r));
+      const double z =
+          height(kOrigin.x + kPitch.x * static_cast<double>(c), kOrigin.y + kPitch.y * static_cast<double>(r));
       bytes.append(reinterpret_cast<const char*>(&z), sizeof z);
     }
   }
@@ -105,7 +106,7 @@ class Orientation : public testing::TestWithParam<Case> {
       o.map_pixel_mm = kPitch;
       o.map_origin_mm = kOrigin;
     }
-    o.tif = folder.file("tif.csv", matrix_csv(15, 15, {-3.5, -3.5}, rate)).string();
+    o.tif = folder.file("tif.csv", matrix_csv(19, 15, {-3.5, -3.6}, rate)).string();
     o.tif_centre = parse_tif_centre("0,0");
     o.path = parse_path_spec(fmt::format("raster:pitch=0.5,angle={}", GetParam().angle));
     o.remove = {};
@@ -140,11 +141,11 @@ Point centroid(const Grid& g, const std::vector<double>& weights) {
 
 void expect_removal_at_the_bump(const HeightMap& removal) {
   const Grid& g = removal.grid;
-  ASSERT_EQ(g, (Grid{kRows, kCols, kPitch, kPitch, kOrigin}));
+  ASSERT_EQ(g, (Grid{kRows, kCols, kPitch.x, kPitch.y, kOrigin}));
   ASSERT_EQ(removal.valid_pixels(), g.size());
   std::vector<double> bump;
   for (Index i = 0; i < g.size(); ++i) bump.push_back(height(g.centre(i).x, g.centre(i).y));
-  EXPECT_LE(distance(centroid(g, removal.values), centroid(g, bump)), kPitch);
+  EXPECT_LE(distance(centroid(g, removal.values), centroid(g, bump)), kPitch.x);
   const double here = rms_difference(removal, 1, 1),
                before = std::sqrt(Eigen::Map<Eigen::VectorXd>(bump.data(), g.size()).squaredNorm() /
                                   static_cast<double>(g.size()));

@@ -50,6 +50,22 @@ TEST(PlanSearch, ReportedFiguresAreThoseOfTheDwell) {
   EXPECT_EQ(plan.dwell.weights, (Weights{0.05, 1e-4}));
 }
 
+TEST(PlanSearch, AResidualTargetIsOfAllThatRemainsWhereAFractionIsRemoved) {
+  SmallJob job;
+  job.options.fraction = 0.75;
+  const double rough = plan_with(job, {1e-4, 0.0}).dwell.residual.rms,
+               smooth = plan_with(job, {10.0, 0.0}).dwell.residual.rms;
+  ASSERT_LT(rough, smooth);
+  const double target = std::sqrt(rough * smooth);
+  job.options.smoothness = {target, GoalKind::ResidualAtMost};
+  const PlannedJob plan = plan_job(job.options, {});
+  EXPECT_TRUE(plan.limits().empty());
+  EXPECT_LE(plan.dwell.residual.rms_about_zero(), target * (1.0 + 1e-6));
+  EXPECT_GE(plan.dwell.residual.rms_about_zero(), 0.97 * target);
+  const TriedWeights& chosen = plan.dwell.search->trials.at(plan.dwell.search->chosen);
+  EXPECT_NEAR(chosen.trade_off.residual_rms, plan.dwell.residual.rms_about_zero(), 1e-6 * target);
+}
+
 TEST(PlanSearch, AStepTargetIsMetByThePlan) {
   SmallJob job;
   const double rough = plan_with(job, {1e-4, 0.0}).dwell.step_rms, smooth = plan_with(job, {1.0, 0.0}).dwell.step_rms;

@@ -93,6 +93,30 @@ TEST(MakePlan, StopMotionCountsWhatTheMovesBetweenHaltsRemove) {
   EXPECT_GT(std::abs(rms_after(plan, halts) - plan.dwell.residual.rms), 0.1 * plan.dwell.residual.rms);
 }
 
+// The rest of the error is left on purpose, and is part of every residual that is stated.
+TEST(MakePlan, RemovesTheFractionOfTheErrorThatIsAskedFor) {
+  for (const Motion motion : {Motion::Moving, Motion::Stop}) {
+    SmallJob job;
+    job.options.motion = motion;
+    const PlannedJob whole = plan_job(job.options, {});
+    job.options.fraction = 0.75;
+    const PlannedJob plan = plan_job(job.options, {});
+    const double spared = 0.25 * plan.part().before.rms;
+    EXPECT_NEAR(plan.dwell.residual.rms, spared, 0.1 * spared);
+    EXPECT_NEAR(rms_after(plan, program_of(plan.program.table)), plan.dwell.residual.rms, 1e-3 * spared);
+    EXPECT_NEAR(plan.dwell.exact.statistics.rms, plan.dwell.residual.rms, 0.02 * spared);
+    EXPECT_LT(plan.dwell.seconds.sum(), 0.9 * whole.dwell.seconds.sum());
+    EXPECT_LT(plan.dwell.certificate.residual_rms, 0.5 * spared) << "what the solver was asked for";
+    const OutputFolder folder(job.options.out, plan_files());
+    const auto summary = nlohmann::json::parse(write_plan(plan, folder, {}).summary);
+    EXPECT_EQ(summary["aim"]["fraction"], 0.75);
+    EXPECT_NEAR(summary["aim"]["would_remain_rms_nm"].get<double>(), spared, 1e-6 * spared);
+    EXPECT_EQ(summary["options"]["fraction"], "0.75");
+    EXPECT_NEAR(summary["program"]["residual_rms_nm"].get<double>(), plan.dwell.residual.rms, 0.02 * spared);
+    EXPECT_TRUE(summary["limits"].empty()) << summary["limits"];
+  }
+}
+
 TEST(MakePlan, PlansForTheApertureAlone) {
   for (const char* aperture : {"rect:0,3,6,9.3", "circle:3,6,3.3"}) {
     SmallJob job;

@@ -107,6 +107,21 @@ TEST(MakeTif, TakesAModel) {
   EXPECT_TRUE(result.inputs.empty());
 }
 
+// An interferometer's path differences of a spot would make a tool twice as fast.
+TEST(MakeTif, HalvesPathDifferencesOfASpotAndSaysSoInItsFile) {
+  SpotFolder spot;
+  const TifResult whole = make_tif(spot.job);
+  spot.job.job.wave_scale = 0.5;
+  const TifResult half = make_tif(spot.job);
+  EXPECT_NEAR(half.rates.at(20, 25), 0.5 * whole.rates.at(20, 25), 1e-9 * std::abs(whole.rates.at(20, 25)) + 1e-12);
+  write_map(spot.file("opd_tif.csv"), half.rates);
+  EXPECT_NE(read_whole_file(spot.file("opd_tif.csv")).find("# made: wave scale 0.5"), std::string::npos);
+  MapReadOptions rates;
+  rates.name = "tif";
+  rates.quantity = MapQuantity::Rate;
+  EXPECT_EQ(read_map(spot.file("opd_tif.csv"), rates).at(20, 25), half.rates.at(20, 25));
+}
+
 TEST(MakeTif, RefusesOptionsThatWouldMeanNothing) {
   const auto with = [](auto change) {
     return [change] {
@@ -120,13 +135,17 @@ TEST(MakeTif, RefusesOptionsThatWouldMeanNothing) {
   expect_input_error(with([](TifJob& j) { j.feed_mm_per_min = 10.0; }), {"--feed", "--trench"});
   expect_input_error(with([](TifJob& j) { j.dwell_time_s.reset(); }), {"--dwell-time", "required"});
   expect_input_error(with([](TifJob& j) { j.dwell_time_s = -3.0; }), {"after.csv", "`dwell time` = -3"});
-  expect_input_error(with([](TifJob& j) { j.job.tif_pixel_mm = 0.1; }), {"--tif-pixel", "--map-pixel"});
+  expect_input_error(with([](TifJob& j) { j.job.tif_pixel_mm = square_pitch(0.1); }), {"--tif-pixel", "--map-pixel"});
   expect_input_error(with([](TifJob& j) { j.baseline = "none"; }), {"--baseline none", "--before"});
   expect_input_error(with([](TifJob& j) { j.centre = "top"; }), {"--centre", "'top'"});
   expect_input_error(with([](TifJob& j) { j.at = {"1;2"}; }), {"--at", "'1;2'"});
   expect_input_error(with([](TifJob& j) { j.robust = true; }), {"--robust", "--fit"});
   expect_input_error(with([](TifJob& j) { j.fits = {"gauss"}; }), {"--fit", "'gauss'", "gaussian"});
   expect_input_error(with([](TifJob& j) { j.before = j.spot + "x"; }), {"after.csvx"});
+  TifJob formula;
+  formula.job.tif = "gaussian:peak=1,fwhm=2";
+  formula.job.wave_scale = 0.5;
+  expect_input_error([&] { make_tif(formula); }, {"--wavelength or --wave-scale", "--spot or --trench"});
   TifJob trench;
   trench.trench = "t.csv";
   trench.feed_mm_per_min = 5.0;

@@ -188,7 +188,7 @@ TEST(FitRemovalFunction, FindsThePublishedGaussian) {
   const std::filesystem::path file = std::filesystem::path(DWELL_SHARED_DATA) / "pvt-demo/tif_nm_per_s.csv";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "no shared data";
   MapReadOptions options;
-  options.pitch = 0.1;
+  options.pitch = square_pitch(0.1);
   options.quantity = MapQuantity::Rate;
   const RemovalFit fit = fit_removal(read_map(file, options), removal_model("gaussian"));
   EXPECT_NEAR(fit.at("peak").value, 20.0, 1e-6);
