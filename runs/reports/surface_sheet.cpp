@@ -47,6 +47,7 @@ std::string surface_lines(const SurfaceSheet& sheet) {
                               *after.rms, wavelengths_text(before), before.note.empty() ? "" : " (" + before.note + ")")
                 : fmt::format("band      wavelengths {} {}\n", wavelengths_text(before), before.note);
   }
+  text += "          (bands under a Hann window, which weighs the middle of the part more than its edge)\n";
   return text;
 }
 

@@ -329,5 +329,16 @@ TEST(MapCommand, SaysOnStandardErrorWhichLimitWasReached) {
   expect_has(above.err, limits[0]);
 }
 
+// The demo is the example: its job file says what every option is, and must not say what it was.
+TEST(ExampleCommand, IsTheDemoOfTheSources) {
+  const std::filesystem::path demo = DWELL_SOURCE_DIR "/data";
+  if (!std::filesystem::is_directory(demo)) GTEST_SKIP() << "no folder data beside the sources";
+  const SmallInputs inputs;
+  ASSERT_EQ(inputs.run({"example", "--out", "demo"}).exit_code, 0);
+  for (const char* file : {"demo.toml", "mirror.csv", "tif.csv"}) {
+    EXPECT_TRUE(read_whole_file(inputs / "demo" / file) == read_whole_file(demo / file)) << file;
+  }
+}
+
 }  // namespace
 }  // namespace dwell
