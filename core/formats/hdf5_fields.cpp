@@ -108,7 +108,7 @@ std::string last_name(const std::string& path) { return path.substr(path.rfind('
 std::string unit_of_array_name(const std::string& name) {
   const auto is_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; };
   const auto begin = std::find_if_not(name.rbegin(), name.rend(), is_word).base();
-  const std::string unit(begin, name.end());
+  std::string unit(begin, name.end());
   if (begin != name.begin() && is_wave_unit(unit)) return unit;  // heights_waves
   if (begin == name.begin() || unit.empty() || !known_length_unit(unit)) return unit_of_label(name);
   std::string before(name.begin(), begin);

@@ -57,7 +57,7 @@ JobOptions options_of(const nlohmann::json& summary, const std::string& file) {
     throw InputError(fmt::format("{}: holds no options; required them in a plan's summary", file));
   }
   for (const auto& option : recorded->items()) {
-    const std::string key = option.key();
+    const std::string& key = option.key();
     const auto& table = job_option_table();
     const auto record = std::find_if(table.begin(), table.end(), [&](const auto& row) { return row.key == key; });
     if (record == table.end()) {
