@@ -67,6 +67,7 @@ SimulationRequest request_of_plan(const SimulateArguments& a) {
   request.source.other.map |= flags.contains("map") || flags.contains("map-steps");
   request.source.other.tif |= flags.contains("tif");
   if (!a.program.empty()) {
+    flags.insert("program");
     request.source.given.push_back(given_sentence("program", a.program, request.program));
     request.program = a.program;
   }

@@ -12,6 +12,7 @@
 #include "core/base/number_text.h"
 #include "core/base/word_list.h"
 #include "core/formats/field_name.h"
+#include "core/formats/header_statements.h"
 #include "core/map/value_units.h"
 
 namespace dwell {
@@ -109,7 +110,8 @@ std::string unit_of_array_name(const std::string& name) {
   const auto is_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; };
   const auto begin = std::find_if_not(name.rbegin(), name.rend(), is_word).base();
   std::string unit(begin, name.end());
-  if (begin != name.begin() && is_wave_unit(unit)) return unit;  // heights_waves
+  if (begin != name.begin() && is_optical_unit(unit))
+    return unit;  // heights_waves, phase_rad: refused unless it is known
   if (begin == name.begin() || unit.empty() || !known_length_unit(unit)) return unit_of_label(name);
   std::string before(name.begin(), begin);
   while (!before.empty() && !is_word(before.back())) before.pop_back();

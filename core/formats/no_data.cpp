@@ -14,7 +14,9 @@ namespace {
 
 constexpr std::size_t kLeastRepeats = 4;
 constexpr double kFarSpans = 10.0;
-constexpr double kLeftOut = 0.01;  // of the values at either end, one at least, for the span of the others
+constexpr std::size_t kMostCodes = 3;  // heights of a step on the part are all different
+constexpr double kNextCode = 1e-3;     // of a code, the distance to the next one
+constexpr double kLeftOut = 0.01;      // of the values at either end, one at least, for the span of the others
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 std::size_t remove_huge(const RawValues& raw, double& largest) {
@@ -39,19 +41,20 @@ std::size_t remove_marker(const RawValues& raw, double marker) {
   return count;
 }
 
-/// An extreme value, and how often it stands there.
+/// An extreme value, and how many values it is or is next to: some programs have a code for each reason (-9999, -9998).
 struct Extreme {
   double value = kNone;
   std::size_t count = 0;
+  std::vector<double> codes;  // different values among them, up to one too many
 
-  void add(double v, bool beyond) {
-    if (count == 0 || beyond)
-      *this = {v, 1};
-    else if (v == value)
-      ++count;
+  bool holds(double v) const { return std::abs(v - value) <= kNextCode * std::abs(value); }
+  void count_if_next(double v) {
+    if (!holds(v)) return;
+    ++count;
+    if (codes.size() <= kMostCodes && std::find(codes.begin(), codes.end(), v) == codes.end()) codes.push_back(v);
   }
   /// Whether it may stand for no data.
-  bool may_mark() const { return count >= kLeastRepeats && value != 0.0; }
+  bool may_mark() const { return count >= kLeastRepeats && codes.size() <= kMostCodes && value != 0.0; }
 };
 
 /// What 98 % of the values besides the two span, from at most a million of them; and the nearest to either end.
@@ -66,7 +69,7 @@ Rest rest_of(const std::vector<double>& values, const Extreme& low, const Extrem
   std::vector<double> samples;
   for (std::size_t i = 0; i < values.size(); ++i) {
     const double v = values[i];
-    const bool marks = (low.may_mark() && v == low.value) || (high.may_mark() && v == high.value);
+    const bool marks = (low.may_mark() && low.holds(v)) || (high.may_mark() && high.holds(v));
     if (std::isnan(v) || marks) continue;
     if (!(v >= rest.low)) rest.low = v;
     if (!(v <= rest.high)) rest.high = v;
@@ -87,18 +90,22 @@ void refuse_lone_extreme(const RawValues& raw, const std::string& where, const s
   Extreme low, high;
   for (const double v : *raw.values) {
     if (std::isnan(v)) continue;
-    low.add(v, v < low.value);
-    high.add(v, v > high.value);
+    if (!(v >= low.value)) low.value = v;
+    if (!(v <= high.value)) high.value = v;
+  }
+  for (const double v : *raw.values) {
+    low.count_if_next(v);
+    high.count_if_next(v);
   }
   if (!low.may_mark() && !high.may_mark()) return;
   const Rest rest = rest_of(*raw.values, low, high);
   const auto refuse = [&](const Extreme& extreme, double nearest) {
     const double shown = extreme.value / raw.factor;
-    throw InputError(
-        fmt::format("{}: {} pixels are {}, and no other is nearer than {} to it: a mark for no data? Give `{} no data` "
-                    "{} if so, or "
-                    "`{} no data` none if it is a height",
-                    where, extreme.count, shown, nearest / raw.factor, name, shown, name));
+    throw InputError(fmt::format(
+        "{}: {} pixels are {} or next to it, and no other is nearer than {}: a mark for no data? Give `{} no data` "
+        "{} if so, or "
+        "`{} no data` none if it is a height",
+        where, extreme.count, shown, nearest / raw.factor, name, shown, name));
   };
   const auto lone = [&](const Extreme& extreme, double nearest) {
     const double gap = std::abs(nearest - extreme.value);

@@ -187,10 +187,12 @@ void TextHeader::take_unit(std::string_view unit, const std::string& key) {
                                  unit_key_, *header_.unit));
   }
   if (header_.unit) return;
-  // Heights are seldom in m or inches by themselves: "unit: m" over points may be that of x and y too.
-  if (!rate && *factor > units::kNmPerMm && !names_heights(key)) {
+  // Heights are seldom in m or inches by themselves: "unit: m" over points may be that of x and y too; "unit: um" may
+  // where the points would make a huge part.
+  if (!rate && *factor != units::kNmPerMm && !names_heights(key)) {
     of_everything_ =
-        fmt::format("{}: {} in '{}': of x and y too? Name the columns as 'x_mm y_mm z_m'", place(), key, unit);
+        fmt::format("{}: {} in '{}': of x and y too? Name the columns as 'x_mm y_mm z_{}'", place(), key, unit, unit);
+    of_everything_for_certain_ = *factor > units::kNmPerMm;
   }
   header_.unit = std::string(unit);
   unit_factor_ = factor;
@@ -379,16 +381,18 @@ bool TextHeader::take_scale(const HeaderKey& key, std::string_view value) {
   return true;
 }
 
-MapHeader TextHeader::header_of_points() const {
+MapHeader TextHeader::header_of_points(double extent_mm) const {
+  constexpr double kHuge = 1000.0;  // of a part in mm; few are larger, and no part in um is
   MapHeader header = header_;
   layout_.add_to(header);
   header.places_known = lateral_.has_value();
-  if (!lateral_ && !of_everything_.empty()) header.unclear.push_back({About::Places, of_everything_});
+  const bool in_doubt = of_everything_for_certain_ || extent_mm > kHuge;
+  if (!lateral_ && !of_everything_.empty() && in_doubt) header.unclear.push_back({About::Places, of_everything_});
   return header;
 }
 
 MapHeader TextHeader::header_of_matrix(Index rows, Index cols) const {
-  MapHeader header = header_of_points();
+  MapHeader header = header_of_points(0.0);
   layout_.add_sizes(header, rows, cols);
   if (lateral_ && !statements_agree(*lateral_, units::kNmPerMm)) {
     header.unclear.push_back(

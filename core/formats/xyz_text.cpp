@@ -107,6 +107,16 @@ void scale_positions(std::vector<XyzPoint>& points, double lateral_nm, const std
   }
 }
 
+/// The longer side of the rectangle about the points [mm].
+double extent_of(const std::vector<XyzPoint>& points) {
+  Point low = points.front().position, high = low;
+  for (const XyzPoint& point : points) {
+    low = {std::min(low.x, point.position.x), std::min(low.y, point.position.y)};
+    high = {std::max(high.x, point.position.x), std::max(high.y, point.position.y)};
+  }
+  return std::max(high.x - low.x, high.y - low.y);
+}
+
 /// Points are always x, y, z: to take other columns for them would turn the part or take a place for a height.
 [[noreturn]] void refuse_columns(std::string_view line, const std::string& where, long number) {
   throw InputError(
@@ -154,7 +164,7 @@ XyzText parse_xyz_text(std::string_view text, const std::string& where) {
   if (xyz.points.empty()) throw InputError(fmt::format("{}: no point; lines x y z are required", where));
   const double lateral = header.lateral_unit().value_or(units::kNmPerMm);
   if (lateral != units::kNmPerMm) scale_positions(xyz.points, lateral, where);
-  xyz.header = header.header_of_points();
+  xyz.header = header.header_of_points(extent_of(xyz.points));
   return xyz;
 }
 

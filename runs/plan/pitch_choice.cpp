@@ -78,10 +78,12 @@ LaidPath lay_searched_raster(const Part& part, const PathSpec& spec, Motion moti
       "pitch=auto: ripple of at most {:.3g} % of the removal would allow {:.4g} mm ({:.3g} % peak to valley, tracks "
       "overlapping by {:.3g} %)",
       100.0 * raster.ripple, by_ripple.ripple.pitch, 100.0 * by_ripple.ripple.pvn, 100.0 * by_ripple.track.overlap));
-  wide.laid.path.notes.push_back(
-      fmt::format("{} with {} dwell points; {} with {}{}", wide.in_words(), wide.laid.path.size(), half.in_words(),
-                  half.laid.path.size(),
-                  costs() ? fmt::format(", more than {:.0f} % less: give a narrower pitch", 100.0 * kPitchCost) : ""));
+  wide.laid.path.notes.push_back(fmt::format(
+      "{} with {} dwell points; {} with {}{}", wide.in_words(), wide.laid.path.size(), half.in_words(),
+      half.laid.path.size(),
+      costs() ? fmt::format(", more than {:.0f} % less; pitches under an eighth of the FWHM are not tried: give one",
+                            100.0 * kPitchCost)
+              : ""));
   return std::move(wide.laid);
 }
 

@@ -9,6 +9,7 @@
 #include "core/base/errors.h"
 #include "core/base/units.h"
 #include "core/base/version.h"
+#include "core/base/whole_file.h"
 #include "core/formats/map_io.h"
 #include "core/formats/npy.h"
 #include "runs/drawing/path_picture.h"
@@ -127,6 +128,7 @@ WrittenPlan write_plan(const PlannedJob& plan, const OutputFolder& folder, const
     written.warnings.push_back(with_option_names(warning, flag_of));
   }
   written.program = program_figures(program, written.exact, to_string(plan.part().form));
+  written.program_sha256 = sha256_of_file(folder.path("program.nc"));
   written.program.file = "program.nc";  // not the path of the temporary folder that it was read from
   compare_with_solver(plan, written);
   compare_with_table(plan, program, program_of(read_feed_table(folder.path("feed.csv"), progress)), written, progress);

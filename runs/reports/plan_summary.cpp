@@ -58,6 +58,7 @@ Json feed_json(const FeedSchedule& feed, Motion motion) {
 /// The program as read back, and how feed.csv was compared with it.
 Json program_json(const WrittenPlan& written) {
   Json program = program_block(written.program);
+  program["sha256"] = written.program_sha256;
   program["feed_table"] = written.table_has_same_steps ? "same steps" : "simulated";
   return program;
 }

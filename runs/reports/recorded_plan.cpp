@@ -78,7 +78,8 @@ std::string flag_of_role(const std::string& role) { return role == "map" || role
 RecordedPlan read_recorded_plan(const std::filesystem::path& folder) {
   const nlohmann::json summary = summary_of(folder);
   const std::string file = (folder / "summary.json").string();
-  RecordedPlan plan{folder, options_of(summary, file), {}};
+  RecordedPlan plan{folder, options_of(summary, file), {}, {}};
+  plan.program_sha256 = text_of(summary.value("program", nlohmann::json::object()), "sha256", file);
   const auto inputs = summary.find("inputs");
   if (inputs == summary.end() || !inputs->is_array()) {
     throw InputError(fmt::format("{}: holds no inputs; required them in a plan's summary", file));
@@ -90,6 +91,12 @@ RecordedPlan read_recorded_plan(const std::filesystem::path& folder) {
 }
 
 void check_recorded_inputs(const RecordedPlan& plan, const std::set<std::string>& given) {
+  if (!given.contains("program") && sha256_of_file(plan.program()) != plan.program_sha256) {
+    throw InputError(
+        fmt::format("{}: is not the program that the plan was made with: its SHA-256 was {}; required the same, or "
+                    "--program {} to take it as it is now",
+                    plan.program().string(), short_hash(plan.program_sha256), plan.program().string()));
+  }
   for (const InputFile& input : plan.inputs) {
     const std::string flag = flag_of_role(input.role);
     if (input.role == "path" || given.contains(flag)) continue;

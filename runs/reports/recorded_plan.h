@@ -15,6 +15,7 @@ struct RecordedPlan {
   std::filesystem::path folder;
   JobOptions options;  // all that were in force; no `out`
   std::vector<InputFile> inputs;
+  std::string program_sha256;
 
   /// The program that the machine runs.
   std::filesystem::path program() const { return folder / "program.nc"; }
@@ -24,10 +25,10 @@ struct RecordedPlan {
 /// what it is, and for a field that this version does not know.
 RecordedPlan read_recorded_plan(const std::filesystem::path& folder);
 
-/// Refuses a map, a map of a step or a removal function that is not there or has changed since the plan was made, by
-/// the SHA-256 of the summary. Names are taken as the plan has them: relative ones from the current folder. What is
-/// given in the plan's place (`given`: flags, as "map", "tif", "map-steps") is not looked at, and neither is the path's
-/// file, which the program holds. Throws InputError naming the file, the option and both hashes.
+/// Refuses a map, a map of a step, a removal function or a program that is not there or has changed since the plan was
+/// made, by the SHA-256 of the summary. Names are taken as the plan has them: relative ones from the current folder.
+/// What is given in the plan's place (`given`: flags, as "map", "tif", "map-steps", "program") is not looked at, and
+/// neither is the path's file, which the program holds. Throws InputError naming the file, the option and both hashes.
 void check_recorded_inputs(const RecordedPlan& plan, const std::set<std::string>& given);
 
 }  // namespace dwell

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
+#include "core/form/map_statistics.h"
 #include "core/spectra/psd.h"
 #include "runs/base/json_blocks.h"
 
@@ -12,16 +14,23 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-SurfaceFigures figures_of(const HeightMap& map, const std::vector<double>& edges, int threads) {
+SurfaceFigures figures_of(HeightMap map, const std::vector<double>& edges, int threads) {
   PsdOptions options;
   options.threads = threads;
-  return {slope_statistics(map, threads), band_rms(areal_psd(map, options), edges).bands};
+  const SlopeStatistics slope = slope_statistics(map, threads);
+  // A mean, where it counts, would leak through the window into the bands.
+  const double mean = map_statistics(map, {}, threads).mean;
+  for (double& value : map.values) value -= mean;
+  BandSplit split = band_rms(areal_psd(map, options), edges);
+  return {slope, std::move(split.bands), split.longer};
 }
 
 std::string slope_of(double urad) { return std::isfinite(urad) ? fmt::format("{:.4g} urad", urad) : "none"; }
 
 Json figures_json(const SurfaceFigures& figures) {
-  return {{"slope_rms_urad", slope_json(figures.slope)}, {"bands", bands_json(figures.bands)}};
+  return {{"slope_rms_urad", slope_json(figures.slope)},
+          {"bands", bands_json(figures.bands)},
+          {"longer_than_resolved_rms_nm", figures.longer}};
 }
 
 }  // namespace
@@ -47,6 +56,8 @@ std::string surface_lines(const SurfaceSheet& sheet) {
                               *after.rms, wavelengths_text(before), before.note.empty() ? "" : " (" + before.note + ")")
                 : fmt::format("band      wavelengths {} {}\n", wavelengths_text(before), before.note);
   }
+  text += fmt::format("          {:.4g} nm RMS before, {:.4g} nm after in waves longer than the part\n",
+                      sheet.before.longer, sheet.after.longer);
   text += "          (bands under a Hann window, which weighs the middle of the part more than its edge)\n";
   return text;
 }

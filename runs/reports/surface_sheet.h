@@ -15,7 +15,8 @@ namespace dwell {
 /// What a surface is like apart from its RMS and PV.
 struct SurfaceFigures {
   SlopeStatistics slope;       // [urad]
-  std::vector<BandRms> bands;  // under a Hann window [nm]
+  std::vector<BandRms> bands;  // under a Hann window, the mean taken out [nm]
+  double longer = 0.0;         // of waves longer than the part, in no band [nm]
 };
 
 /// The surface before a program and the one that it leaves, form terms removed from both.

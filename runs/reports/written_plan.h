@@ -17,6 +17,7 @@ struct WrittenPlan {
   double lift_seconds = 0.0;          // of the lifted moves, whose time program.nc does not say
   std::vector<std::string> warnings;  // what a machine shop would question, a sentence each
   ProgramFigures program;             // of it, for the summary
+  std::string program_sha256;
   /// Whether feed.csv, read back, removes with the steps of program.nc; if not, it is simulated too.
   bool table_has_same_steps = false;
   std::vector<std::string> limits;  // of the plan, and those that reading its files back has shown; a sentence each

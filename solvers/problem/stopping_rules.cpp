@@ -43,7 +43,9 @@ bool StoppingRules::allow(double value) {
   const double work = static_cast<double>(summary_.iterations) + summary_.coarse_pairs;
   if (work >= static_cast<double>(options_.max_iterations)) {
     stop(SolverStatus::IterationLimit,
-         fmt::format("stopped after {} iterations, objective {:.6g}", summary_.iterations, value));
+         fmt::format(
+             "stopped after {} iterations and {:.0f} products on coarse pixels, together {} at most, objective {:.6g}",
+             summary_.iterations, summary_.coarse_pairs, options_.max_iterations, value));
   } else if (seconds() >= options_.max_seconds) {
     stop(SolverStatus::TimeLimit, fmt::format("stopped after {:.1f} s and {} iterations, objective {:.6g}", seconds(),
                                               summary_.iterations, value));

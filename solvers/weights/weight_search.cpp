@@ -10,6 +10,9 @@
 namespace dwell {
 namespace {
 
+// With which the corner of the time price is looked for where the smoothness has a target: that without any option.
+constexpr double kUsualSmoothness = 0.1;
+
 struct Choice {
   const WeightSearchOptions& options;
   const std::vector<WeightTrial>& trials;
@@ -32,9 +35,12 @@ struct Choice {
     return s.kind == GoalKind::ResidualAtMost || p.kind == GoalKind::ResidualAtMost ? -weight : weight;
   }
 
-  std::size_t best() const {
-    std::size_t chosen = 0;
-    for (std::size_t k = 1; k < trials.size(); ++k) {
+  /// Of those that are wanted, the first of which is given.
+  template <class Wanted>
+  std::size_t best(std::size_t first, const Wanted& wanted) const {
+    std::size_t chosen = first;
+    for (std::size_t k = 0; k < trials.size(); ++k) {
+      if (!wanted(trials[k])) continue;
       const bool meets = worst_excess(k) <= 0.0, chosen_meets = worst_excess(chosen) <= 0.0;
       const bool better = meets && chosen_meets   ? preference(k) < preference(chosen)
                           : meets == chosen_meets ? worst_excess(k) < worst_excess(chosen)
@@ -78,20 +84,27 @@ WeightSearchResult search_weights(const WeightSearchOptions& options, const Weig
     throw std::invalid_argument("both weights hold a residual");
   }
   TrialBook book(evaluate, free * static_cast<std::size_t>(std::max(options.evaluations_a_weight, 1)));
-  const bool corner = s.kind == GoalKind::Corner || p.kind == GoalKind::Corner;
-  const Weights given{s.kind == GoalKind::Fixed ? s.value : 0.0, p.kind == GoalKind::Fixed ? p.value : 0.0};
+  const bool corner = s.kind == GoalKind::Corner || p.kind == GoalKind::Corner, target = is_target(s) || is_target(p);
+  Weights given{s.kind == GoalKind::Fixed ? s.value : 0.0, p.kind == GoalKind::Fixed ? p.value : 0.0};
   WeightSearchResult result;
   bool ended = true;  // of itself
   if (corner) {
-    result.chosen = search_corners(options, book);
-  } else if (free == 1) {
-    search_one_target(is_target(s) ? smoothness : price, given, options.tolerance, book);
-  } else {
+    if (is_target(s)) given.smoothness = kUsualSmoothness;
+    result.chosen = search_corners(options, given, book);
+    given = book.trials()[result.chosen].weights;
+  }
+  const std::size_t first = corner ? result.chosen : 0;  // of the trials that the target is chosen from
+  if (is_target(s) && is_target(p)) {
     ended = search_two_targets(smoothness, price, options.tolerance, book);
+  } else if (target) {
+    search_one_target(is_target(s) ? smoothness : price, given, options.tolerance, book);
   }
   result.trials = book.trials();
   const Choice choice{options, result.trials};
-  if (!corner) result.chosen = choice.best();
+  const auto has_corner = [&](const WeightTrial& t) {
+    return is_target(s) ? t.weights.time_price == given.time_price : t.weights.smoothness == given.smoothness;
+  };
+  if (target) result.chosen = choice.best(first, [&](const WeightTrial& t) { return !corner || has_corner(t); });
   if (choice.worst_excess(result.chosen) > 0.0) {
     result.end = book.ended() || !ended ? SearchEnd::Unfinished : SearchEnd::Missed;
     if (is_target(s) && is_target(p)) result.front = choice.front();

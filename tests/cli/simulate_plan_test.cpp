@@ -106,6 +106,16 @@ TEST(SimulatePlan, RefusesFilesThatChangedOrAreGone) {
   inputs.refused({"simulate", "plan", "--map", "map.csv"}, {"tif.csv: the file of the plan's --tif is not there"});
 }
 
+TEST(SimulatePlan, RefusesAProgramThatHasChanged) {
+  const PlanInputs inputs;
+  const std::string program = read_whole_file(inputs / "plan/program.nc");
+  inputs.folder.file("plan/program.nc", program + "(one more line)\n");
+  inputs.refused({"simulate", "plan"}, {"plan/program.nc", "SHA-256", "--program plan/program.nc"});
+  EXPECT_EQ(inputs.run({"simulate", "plan", "--program", "plan/program.nc"}).exit_code, 0);
+  inputs.folder.file("plan/program.nc", program);
+  EXPECT_EQ(inputs.run({"simulate", "plan"}).exit_code, 0);
+}
+
 TEST(SimulatePlan, RefusesAFolderThatIsNoPlan) {
   const PlanInputs inputs;
   for (const char* name : {"empty", "other", "broken", "future"}) std::filesystem::create_directory(inputs / name);

@@ -87,6 +87,22 @@ TEST(NoData, FindsAMarkBesideAnotherAndBesideSpikes) {
   EXPECT_EQ(count_of_data(values), kPart);
 }
 
+// Some programs have a code for each reason: the one beside the other hides neither.
+TEST(NoData, FindsCodesNextToEachOther) {
+  for (const double next : {-9998.0, -9999.5}) {
+    std::vector<double> values = framed(-9999.0);
+    for (std::size_t i = 0; i < 9; ++i) values[i] = next;
+    expect_input_error([&] { remove_from(values); }, {"30 pixels are -9999", "next to it"});
+  }
+  std::vector<double> values = framed(-9999.0);
+  values[3] = -9998.0;
+  expect_input_error([&] { remove_from(values); }, {"30 pixels are -9999"});
+  // A step on the part has heights of its own.
+  std::vector<double> step = framed(5000.0);
+  for (std::size_t i = 0; i < step.size(); ++i) step[i] += 0.01 * static_cast<double>(i % 7);
+  EXPECT_TRUE(remove_from(step).empty());
+}
+
 TEST(NoData, LeavesHeightsAlone) {
   // Zero, flat parts, plateaus of removal functions, quantised and few heights, a spike on its own.
   std::vector<std::vector<double>> maps{framed(0.0), framed(130.0), framed(79.0), {1.0, 1.0, 1.0, 1.0, 50.0, 51.0}};

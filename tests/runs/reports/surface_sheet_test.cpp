@@ -38,6 +38,16 @@ TEST(SurfaceSheet, PutsAWaveIntoItsBandAndGivesItsSlope) {
   EXPECT_NEAR(sheet.before.slope.y, 0.0, 1e-9);
 }
 
+// A piston that counts, as with --remove none, is in no band.
+TEST(SurfaceSheet, AMeanLeaksIntoNoBand) {
+  HeightMap raised = wave(10.0, 4.0);
+  for (double& value : raised.values) value += 500.0;
+  const SurfaceSheet sheet = surface_sheet(wave(10.0, 4.0), raised, 4.0, 1, {});
+  for (std::size_t k = 0; k < 3; ++k)
+    EXPECT_NEAR(sheet.after.bands[k].rms.value(), sheet.before.bands[k].rms.value(), 1e-6);
+  EXPECT_NEAR(sheet.after.longer, sheet.before.longer, 1e-6);
+}
+
 TEST(SurfaceSheet, SaysWhatItGivesWithUnitsAndWhatThePixelsCannotShow) {
   const SurfaceSheet sheet = surface_sheet(wave(10.0, 4.0), wave(3.0, 4.0), 0.3, 1, {});
   const std::string text = surface_lines(sheet);

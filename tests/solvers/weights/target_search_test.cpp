@@ -235,6 +235,26 @@ TEST(TargetSearch, TheRangeOfAStepWidensByItself) {
   }
 }
 
+// The corner first, then the largest price that holds the residual: what is left is close to the target, not far below.
+TEST(TargetSearch, ATargetBesideACornerIsMetClosely) {
+  const SmallProblem problem;
+  const auto evaluate = [&](const Weights& w) { return std::optional(problem(w)); };
+  const auto alone = search_weights(both({0.0, GoalKind::Corner}, {}), evaluate);
+  const Weights corner = alone.trials[alone.chosen].weights;
+  for (const double factor : {1.2, 2.0}) {
+    const double limit = factor * alone.trials[alone.chosen].trade_off.residual_rms;
+    const auto found = search_weights(both({0.0, GoalKind::Corner}, {limit, GoalKind::ResidualAtMost}), evaluate);
+    ASSERT_TRUE(found.met());
+    const WeightTrial& chosen = found.trials[found.chosen];
+    EXPECT_EQ(chosen.weights.smoothness, corner.smoothness);
+    EXPECT_GE(chosen.trade_off.residual_rms, 0.99 * limit);
+    for (const WeightTrial& t : found.trials) {
+      if (t.weights.smoothness != corner.smoothness || t.trade_off.residual_rms > limit) continue;
+      EXPECT_GE(t.trade_off.total, chosen.trade_off.total);
+    }
+  }
+}
+
 TEST(TargetSearch, TheScaleOfTheWeightsMakesNoDifference) {
   const SmallProblem problem;
   const TradeOff t = problem({1.0, 0.1});
