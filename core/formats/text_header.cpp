@@ -47,8 +47,6 @@ bool is_documented(const HeaderKey& key) { return key.shown == "pitch_mm" || key
 
 std::string TextHeader::place() const { return fmt::format("{}, line {}", where_, line_); }
 
-void TextHeader::set_line(long line) { line_ = line; }
-
 void TextHeader::add_unclear(About about, const std::string& message) {
   header_.unclear.push_back({about, fmt::format("{}: {}", place(), message)});
 }
@@ -187,12 +185,10 @@ void TextHeader::take_unit(std::string_view unit, const std::string& key) {
                                  unit_key_, *header_.unit));
   }
   if (header_.unit) return;
-  // Heights are seldom in m or inches by themselves: "unit: m" over points may be that of x and y too; "unit: um" may
-  // where the points would make a huge part.
+  // Over points it may be the unit of x and y too: of m or inches, which heights seldom are in, or of a huge part.
   if (!rate && *factor != units::kNmPerMm && !names_heights(key)) {
     of_everything_ =
         fmt::format("{}: {} in '{}': of x and y too? Name the columns as 'x_mm y_mm z_{}'", place(), key, unit, unit);
-    of_everything_for_certain_ = *factor > units::kNmPerMm;
   }
   header_.unit = std::string(unit);
   unit_factor_ = factor;
@@ -381,18 +377,17 @@ bool TextHeader::take_scale(const HeaderKey& key, std::string_view value) {
   return true;
 }
 
-MapHeader TextHeader::header_of_points(double extent_mm) const {
-  constexpr double kHuge = 1000.0;  // of a part in mm; few are larger, and no part in um is
+MapHeader TextHeader::header_of_points(bool huge) const {
   MapHeader header = header_;
   layout_.add_to(header);
   header.places_known = lateral_.has_value();
-  const bool in_doubt = of_everything_for_certain_ || extent_mm > kHuge;
-  if (!lateral_ && !of_everything_.empty() && in_doubt) header.unclear.push_back({About::Places, of_everything_});
+  const bool asked = !of_everything_.empty() && (*unit_factor_ > units::kNmPerMm || huge);
+  if (!lateral_ && asked) header.unclear.push_back({About::Places, of_everything_});
   return header;
 }
 
 MapHeader TextHeader::header_of_matrix(Index rows, Index cols) const {
-  MapHeader header = header_of_points(0.0);
+  MapHeader header = header_of_points(false);
   layout_.add_sizes(header, rows, cols);
   if (lateral_ && !statements_agree(*lateral_, units::kNmPerMm)) {
     header.unclear.push_back(

@@ -29,14 +29,14 @@ class TextHeader {
   /// A unit of the values, or of x and y, that `key` states; it must agree with what was said before.
   void take_unit(std::string_view unit, const std::string& key);
   void take_lateral_unit(std::string_view unit, const std::string& key);
-  void set_line(long line);
+  void set_line(long line) { line_ = line; }
   void add_unclear(UnclearStatement::About about, const std::string& message);
 
   /// What was said of a matrix of this size. Throws InputError if a field size disagrees with the pitch.
   MapHeader header_of_matrix(Index rows, Index cols) const;
-  /// What was said of points that reach so far: their coordinates tell size, pitch and origin. A unit that may be that
-  /// of the places is left open where these would make a huge part.
-  MapHeader header_of_points(double extent_mm) const;
+  /// What was said of points: their coordinates tell size, pitch and origin. A unit that may be that of the places is
+  /// left open where these would make a `huge` part.
+  MapHeader header_of_points(bool huge) const;
   /// The unit of coordinates and lengths without one of their own [nm].
   std::optional<double> lateral_unit() const { return lateral_; }
 
@@ -66,8 +66,7 @@ class TextHeader {
   long line_ = 0;
   MapHeader header_;
   std::string unit_key_, lateral_key_;
-  std::string of_everything_;               // why the unit of the values may be that of places too; empty: it is not
-  bool of_everything_for_certain_ = false;  // however small the part
+  std::string of_everything_;  // why the unit of the values may be that of places too; empty: it is not
   std::optional<double> unit_factor_, lateral_;
   SaidLayout layout_;
   std::map<std::string, long> seen_;  // topic and name of what was said: line

@@ -24,6 +24,8 @@ constexpr double kFarthest = 1e12;  // [mm]; nothing of a part lies there, and d
 
 bool is_separator(char c) { return c == ' ' || c == '\t' || c == ',' || c == ';'; }
 
+constexpr double kHugePart = 1000.0;  // mm; few are larger
+
 /// What the line that names the columns says of their units.
 void take_columns(const XyzColumns& columns, const std::string& place, TextHeader& header) {
   const auto& [x, y, z] = columns.units;
@@ -164,7 +166,7 @@ XyzText parse_xyz_text(std::string_view text, const std::string& where) {
   if (xyz.points.empty()) throw InputError(fmt::format("{}: no point; lines x y z are required", where));
   const double lateral = header.lateral_unit().value_or(units::kNmPerMm);
   if (lateral != units::kNmPerMm) scale_positions(xyz.points, lateral, where);
-  xyz.header = header.header_of_points(extent_of(xyz.points));
+  xyz.header = header.header_of_points(extent_of(xyz.points) > kHugePart);
   return xyz;
 }
 

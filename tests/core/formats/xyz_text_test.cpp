@@ -157,6 +157,18 @@ TEST(XyzText, TakesAUnitOfEverything) {
   EXPECT_NEAR(map.at(1, 1), 5e3, 1e-9);
 }
 
+// "unit: um" is of the heights, unless the places would make a part that hardly anybody has.
+TEST(XyzText, AsksWhetherAUnitIsOfPlacesTooWhereThePartWouldBeHuge) {
+  const auto unclear = [](const std::string& header, const std::string& far) {
+    return parse_xyz_text(header + "\n0 0 1\n" + far + " 0 2\n0 3 4\n" + far + " 3 1\n", "map a.xyz").header.unclear;
+  };
+  EXPECT_TRUE(unclear("# unit: um", "900").empty());
+  ASSERT_EQ(unclear("# unit: um", "1100").size(), 1u);
+  EXPECT_EQ(unclear("# unit: nm", "1100").front().about, UnclearStatement::About::Places);
+  EXPECT_TRUE(unclear("# x_mm y_mm z_um", "1100").empty());
+  EXPECT_TRUE(unclear("# heights in um", "1100").empty());
+}
+
 TEST(XyzText, RefusesPlacesInAUnitThatIsNotClear) {
   const test::TemporaryFolder folder;
   for (const char* comment : {"# pixel indices, 0.1 mm per pixel", "# all lengths in m", "# x and y in pixels",
