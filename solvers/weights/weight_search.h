@@ -27,10 +27,11 @@ struct WeightSearchResult {
 };
 
 /// Chooses the weights (docs/math.md, "Choosing the weights"): by search_one_target, search_two_targets, or
-/// search_corners where a weight is at its corner. The answer is one of the trials. Of those that meet every target it
+/// search_corners where a weight is at its corner. With a target for the other weight, the corner is found first, and
+/// its weight held while the target's is searched. The answer is one of the trials. Of those that meet every target it
 /// is the one with the least weight of a step or a total alone, the largest of a residual alone, the least third
-/// quantity of two targets, the best corner. If none does, it is the one that exceeds its targets by the smallest
-/// factor at the worst. Deterministic; at most evaluations_a_weight evaluations a free weight. Throws
+/// quantity of two targets; without targets, the best corner. If none does, it is the one that exceeds its targets by
+/// the smallest factor at the worst. Deterministic; at most evaluations_a_weight evaluations a free weight. Throws
 /// std::invalid_argument if no weight is free, both goals are residuals, a range is not ordered, or a trade-off is not
 /// finite and >= 0.
 WeightSearchResult search_weights(const WeightSearchOptions& options, const WeightEvaluator& evaluate);
