@@ -169,7 +169,9 @@ class Model {
       const double root = std::sqrt(p_.alpha_of(part));
       for (Index j = 1; root > 0.0 && !d.empty() && j < points; ++j) {
         if (!d.linked(j)) continue;
-        ceres_.AddResidualBlock(new LinearResidual({-root * d.scale(j - 1), root * d.scale(j)}, {}, 0.0), nullptr,
+        const double before = root * d.scale(j - 1), here = root * d.scale(j);
+        const double of_least = here * p_.lower[first + j] - before * p_.lower[first + j - 1];
+        ceres_.AddResidualBlock(new LinearResidual({-before, here}, {}, of_least), nullptr,
                                 std::vector<double*>{&t_[first + j - 1], &t_[first + j]});
       }
     });

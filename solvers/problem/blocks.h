@@ -4,6 +4,8 @@
 #include <array>
 #include <numeric>
 
+#include "core/base/grid.h"
+
 namespace dwell {
 
 /// Calls body(block, begin, length) for stretches of at most kBlock of 0..n, in parallel where that pays. A sum taken
@@ -28,8 +30,6 @@ double sum_over(Index n, int threads, const Part& part) {
   const Index length = (n + kParts - 1) / kParts;
   std::array<double, kParts> sums{};
 #pragma omp parallel for num_threads(threads) schedule(static) if (threads > 1 && n >= kWorthThreads)
-
-#include "core/base/grid.h"
   for (Index k = 0; k < kParts; ++k) {
     const Index begin = std::min(k * length, n);
     sums[static_cast<std::size_t>(k)] = part(begin, std::min(length, n - begin));

@@ -100,20 +100,38 @@ void validate(const DwellProblem& p) {
   }
 }
 
-double smoothness_term(const DwellProblem& p, const Vector& t) {
-  double sum = 0.0;
+namespace {
+
+/// Calls visit(part, first dwell point, number of dwell points) for the parts whose smoothness counts.
+template <class Visit>
+void for_smooth_parts(const DwellProblem& p, const Visit& visit) {
   for_parts(p, [&](const DwellPart& part, Index first, Index points) {
-    if (p.alpha_of(part) > 0.0 && !part.smoothness.empty())
-      sum += p.alpha_of(part) * part.smoothness.squared_norm(t.segment(first, points));
+    if (p.alpha_of(part) > 0.0 && !part.smoothness.empty()) visit(part, first, points);
+  });
+}
+
+}  // namespace
+
+double squared_steps(const DwellProblem& p, const Vector& d) {
+  double sum = 0.0;
+  for_smooth_parts(p, [&](const DwellPart& part, Index first, Index points) {
+    sum += p.alpha_of(part) * part.smoothness.squared_norm(d.segment(first, points));
   });
   return sum;
 }
 
-void add_smoothness(const DwellProblem& p, const Vector& t, Vector& out) {
-  for_parts(p, [&](const DwellPart& part, Index first, Index points) {
-    if (p.alpha_of(part) > 0.0 && !part.smoothness.empty())
-      part.smoothness.add_normal(p.alpha_of(part), t.segment(first, points), out.segment(first, points));
+void add_smoothness(const DwellProblem& p, const Vector& d, Vector& out) {
+  for_smooth_parts(p, [&](const DwellPart& part, Index first, Index points) {
+    part.smoothness.add_normal(p.alpha_of(part), d.segment(first, points), out.segment(first, points));
   });
+}
+
+double smoothness_term(const DwellProblem& p, const Vector& t) {
+  double sum = 0.0;
+  for_smooth_parts(p, [&](const DwellPart& part, Index first, Index points) {
+    sum += p.alpha_of(part) * part.smoothness.squared_norm(t.segment(first, points), p.lower.segment(first, points));
+  });
+  return sum;
 }
 
 double step_rms(const DwellProblem& p, const Vector& t) {
@@ -121,7 +139,7 @@ double step_rms(const DwellProblem& p, const Vector& t) {
   Index links = 0;
   for_parts(p, [&](const DwellPart& part, Index first, Index points) {
     if (part.smoothness.empty()) return;
-    squares += part.smoothness.squared_norm(t.segment(first, points));
+    squares += part.smoothness.squared_norm(t.segment(first, points), p.lower.segment(first, points));
     links += part.smoothness.links();
   });
   return links == 0 ? 0.0 : std::sqrt(squares / static_cast<double>(links));
@@ -135,7 +153,10 @@ double penalty(const DwellProblem& p, const Vector& t) {
 }
 
 void add_penalty_gradient(const DwellProblem& p, const Vector& t, Vector& g) {
-  add_smoothness(p, t, g);
+  for_smooth_parts(p, [&](const DwellPart& part, Index first, Index points) {
+    part.smoothness.add_normal(p.alpha_of(part), t.segment(first, points), p.lower.segment(first, points),
+                               g.segment(first, points));
+  });
   if (p.beta > 0.0) {
     g += p.beta * t;
     if (p.reference.size() != 0) g -= p.beta * p.reference;
@@ -226,7 +247,7 @@ void DwellObjective::hessian_times(const Vector& d, const Vector& image, Vector&
 }
 
 double DwellObjective::curvature(const Vector& d, const Vector& image) const {
-  double c = squared_norm(image) + smoothness_term(problem_, d);
+  double c = squared_norm(image) + squared_steps(problem_, d);
   if (problem_.beta > 0.0) c += problem_.beta * d.squaredNorm();
   return c;
 }

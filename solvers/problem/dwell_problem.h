@@ -29,14 +29,17 @@ struct DwellPart {
 
 /// The dwell problem (docs/math.md):
 ///
-///   minimise  1/2 |W P (A t - z)|^2 + alpha/2 |D t|^2 + beta/2 |t - t0|^2 + gamma 1't   subject to  l <= t <= u
+///   minimise  1/2 |W P (A t - z)|^2 + alpha/2 |D (t - l)|^2 + beta/2 |t - t0|^2 + gamma 1't   subject to  l <= t <= u
+///
+/// Smoothness acts on the surplus over the least dwell l: where the machine must be slow, as in a turn, the steps that
+/// l has of its own are not the plan's to smooth, and to spread them over their surroundings would only cost residual.
 ///
 /// P removes the form terms that the specification does not count, in the least-squares sense of the weights: W P = (I
 /// - Q Q') W with Q = `form`, orthonormal columns spanning W times the terms. A pixel of weight zero thus influences
 /// neither the fit nor the form.
 ///
 /// Several tools or passes are one problem: A = [A_1 A_2 ...] (StackedRemoval), the dwell vectors one after the other,
-/// and for each a part that says its own smoothness and geometry; alpha |D t|^2 is then the sum over the parts.
+/// and for each a part that says its own smoothness and geometry; alpha |D (t - l)|^2 is then the sum over the parts.
 struct DwellProblem {
   RemovalOperator* removal = nullptr;  // A, not owned [nm/s]
   Vector target;                       // z, m [nm]
@@ -76,19 +79,23 @@ void for_parts(const DwellProblem& problem, const Visit& visit) {
 /// is allowed, a negative weight, l > u.
 void validate(const DwellProblem& problem);
 
-/// Sum over the parts of alpha |D t|^2 [nm^2].
+/// Sum over the parts of alpha |D (t - l)|^2 [nm^2].
 double smoothness_term(const DwellProblem& problem, const Vector& t);
 
-/// out += alpha D'D t, part by part.
-void add_smoothness(const DwellProblem& problem, const Vector& t, Vector& out);
+/// Sum over the parts of alpha |D d|^2 for a change d of the dwell [nm^2].
+double squared_steps(const DwellProblem& problem, const Vector& d);
 
-/// |D t| / sqrt(number of links) over all parts: how much the dwell changes from one stroke to the next [s].
+/// out += alpha D'D d for a change d of the dwell, part by part.
+void add_smoothness(const DwellProblem& problem, const Vector& d, Vector& out);
+
+/// |D (t - l)| / sqrt(number of links) over all parts: how much the dwell, as far as it is the plan's to choose,
+/// changes from one stroke to the next [s]. 0 without links.
 double step_rms(const DwellProblem& problem, const Vector& t);
 
 /// The objective's terms that do not see the surface: smoothness, distance from the reference, price of time [nm^2].
 double penalty(const DwellProblem& problem, const Vector& t);
 
-/// g += gradient of the penalty: alpha D'D t + beta (t - t0) + gamma 1.
+/// g += gradient of the penalty: alpha D'D (t - l) + beta (t - t0) + gamma 1.
 void add_penalty_gradient(const DwellProblem& problem, const Vector& t, Vector& g);
 
 /// Moves t into [l, u] componentwise.
@@ -107,7 +114,7 @@ class DwellObjective {
   double evaluate(const Vector& t, Vector& r, Vector& g);
   /// image = W P A d. One application.
   void image(const Vector& d, Vector& image);
-  /// g = A' P' W' r + alpha D'D t + beta (t - t0) + gamma 1, for r a residual. One application.
+  /// g = A' P' W' r + alpha D'D (t - l) + beta (t - t0) + gamma 1, for r a residual. One application.
   void gradient(const Vector& r, const Vector& t, Vector& g);
   /// h = (A' P' W' W P A + alpha D'D + beta I) d, given image = W P A d. One application.
   void hessian_times(const Vector& d, const Vector& image, Vector& h);

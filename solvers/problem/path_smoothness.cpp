@@ -38,34 +38,48 @@ Index PathSmoothness::links() const {
   return links;
 }
 
-double PathSmoothness::squared_norm(const Eigen::Ref<const Vector>& t) const {
+template <class Dwell>
+double PathSmoothness::sum_of_squares(const Dwell& dwell) const {
   return sum_over(size(), threads_, [&](Index begin, Index length) {
     double sum = 0.0;
     for (Index j = begin; j < begin + length; ++j) {
-      const double d = step(j, 1.0, t.data());
+      const double d = step(j, dwell);
       sum += d * d;
     }
     return sum;
   });
 }
 
-double PathSmoothness::step_rms(const Eigen::Ref<const Vector>& t) const {
-  const Index count = links();
-  return count == 0 ? 0.0 : std::sqrt(squared_norm(t) / static_cast<double>(count));
+double PathSmoothness::squared_norm(const Eigen::Ref<const Vector>& t) const {
+  return sum_of_squares([t = t.data()](Index j) { return t[j]; });
 }
 
-void PathSmoothness::add_normal(double weight, const Eigen::Ref<const Vector>& dwell, Eigen::Ref<Vector> result) const {
-  const double* t = dwell.data();
-  double* out = result.data();
+double PathSmoothness::squared_norm(const Eigen::Ref<const Vector>& t, const Eigen::Ref<const Vector>& least) const {
+  return sum_of_squares([t = t.data(), least = least.data()](Index j) { return t[j] - least[j]; });
+}
+
+template <class Dwell>
+void PathSmoothness::add_normal_of(double weight, const Dwell& dwell, double* out) const {
   for_blocks(size(), threads_, [&](Index, Index begin, Index length) {
-    double before = step(begin, weight, t);
+    double before = weight * step(begin, dwell);
     for (Index j = begin; j < begin + length; ++j) {
-      const double after = step(j + 1, weight, t);
+      const double after = weight * step(j + 1, dwell);
       out[j] += scale_[j] * before;
       out[j] -= scale_[j] * after;
       before = after;
     }
   });
+}
+
+void PathSmoothness::add_normal(double weight, const Eigen::Ref<const Vector>& t, Eigen::Ref<Vector> out) const {
+  add_normal_of(
+      weight, [t = t.data()](Index j) { return t[j]; }, out.data());
+}
+
+void PathSmoothness::add_normal(double weight, const Eigen::Ref<const Vector>& t, const Eigen::Ref<const Vector>& least,
+                                Eigen::Ref<Vector> out) const {
+  add_normal_of(
+      weight, [t = t.data(), least = least.data()](Index j) { return t[j] - least[j]; }, out.data());
 }
 
 Eigen::MatrixXd PathSmoothness::dense_normal() const {

@@ -30,19 +30,27 @@ class PathSmoothness {
   Index links() const;
   /// |D t|^2 [s^2].
   double squared_norm(const Eigen::Ref<const Vector>& t) const;
-  /// |D t| / sqrt(number of links): how much the dwell changes from one stroke to the next [s]. 0 without links.
-  double step_rms(const Eigen::Ref<const Vector>& t) const;
+  /// |D (t - least)|^2 [s^2].
+  double squared_norm(const Eigen::Ref<const Vector>& t, const Eigen::Ref<const Vector>& least) const;
   /// out += weight * D' D t.
   void add_normal(double weight, const Eigen::Ref<const Vector>& t, Eigen::Ref<Vector> out) const;
+  /// out += weight * D' D (t - least).
+  void add_normal(double weight, const Eigen::Ref<const Vector>& t, const Eigen::Ref<const Vector>& least,
+                  Eigen::Ref<Vector> out) const;
   /// Dense D' D, n x n, for oracles and small dense solvers.
   Eigen::MatrixXd dense_normal() const;
 
  private:
-  /// weight * (D t) of the link of point j to j - 1; 0 without one, or beyond the last point.
-  double step(Index j, double weight, const double* t) const {
+  /// (D t) of the link of point j to j - 1; 0 without one, or beyond the last point. dwell(j) is t_j.
+  template <class Dwell>
+  double step(Index j, const Dwell& dwell) const {
     if (j >= size() || !linked(j)) return 0.0;
-    return weight * (scale_[j] * t[j] - scale_[j - 1] * t[j - 1]);
+    return scale_[j] * dwell(j) - scale_[j - 1] * dwell(j - 1);
   }
+  template <class Dwell>
+  double sum_of_squares(const Dwell& dwell) const;
+  template <class Dwell>
+  void add_normal_of(double weight, const Dwell& dwell, double* out) const;
 
   Vector scale_;
   std::vector<char> joined_;

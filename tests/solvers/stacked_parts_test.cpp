@@ -175,10 +175,13 @@ TEST(TwoTools, OfWhichOneIsSplitAreTheSameProblem) {
   twice.removal->apply(both, of_twice);
   EXPECT_LE((of_once - of_twice).norm(), 1e-13 * of_once.norm());
   const double alpha = *once.problem.parts[0].alpha;
-  both << t, 2.0 * t;
-  EXPECT_DOUBLE_EQ(smoothness_term(twice.problem, both), 5.0 * smoothness_term(once.problem, t));
-  EXPECT_DOUBLE_EQ(smoothness_term(once.problem, t), alpha * once.problem.parts[0].smoothness.squared_norm(t));
-  EXPECT_DOUBLE_EQ(step_rms(twice.problem, both), std::sqrt(2.5) * step_rms(once.problem, t));
+  const Vector& least = once.problem.lower;
+  both << least + t, least + 2.0 * t;
+  const double squares = alpha * once.problem.parts[0].smoothness.squared_norm(t);
+  EXPECT_DOUBLE_EQ(squared_steps(once.problem, t), squares);
+  EXPECT_NEAR(smoothness_term(once.problem, least + t), squares, 1e-12 * squares);
+  EXPECT_NEAR(smoothness_term(twice.problem, both), 5.0 * squares, 1e-12 * squares);
+  EXPECT_NEAR(step_rms(twice.problem, both), std::sqrt(2.5) * step_rms(once.problem, least + t), 1e-12);
 }
 
 TEST(TwoTools, AreRefusedWhereTheyDoNotFit) {

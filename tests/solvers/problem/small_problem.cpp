@@ -58,12 +58,15 @@ Quadratic SmallProblem::quadratic() const {
   const Vector t0 = problem.reference.size() ? problem.reference : Vector(Vector::Zero(n));
   Quadratic q;
   q.h = b.transpose() * b + problem.beta * Eigen::MatrixXd::Identity(n, n);
-  if (!lengths.empty()) {
-    const Eigen::MatrixXd d = differences(lengths, joined);
-    q.h += problem.alpha * d.transpose() * d;
-  }
   q.c = -b.transpose() * y - problem.beta * t0 + Vector::Constant(n, problem.gamma);
   q.constant = 0.5 * y.squaredNorm() + 0.5 * problem.beta * t0.squaredNorm();
+  if (!lengths.empty()) {
+    const Eigen::MatrixXd d = differences(lengths, joined);
+    const Vector of_least = d * problem.lower;
+    q.h += problem.alpha * d.transpose() * d;
+    q.c -= problem.alpha * d.transpose() * of_least;
+    q.constant += 0.5 * problem.alpha * of_least.squaredNorm();
+  }
   return q;
 }
 
