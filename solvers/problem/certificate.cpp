@@ -4,13 +4,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
+
+#include "solvers/problem/lower_bound.h"
 
 namespace dwell {
 
 bool Certificate::passes(double tolerance) const {
   return std::isfinite(objective) && std::isfinite(residual_rms) && std::isfinite(complementarity) &&
          bound_violation <= 0.0 && projected_gradient <= tolerance && dual_infeasibility <= tolerance;
+}
+
+double Certificate::gap() const {
+  if (!(lower_bound > 0.0)) return std::numeric_limits<double>::infinity();
+  return std::max(0.0, objective - lower_bound) / lower_bound;
 }
 
 Certificate certify(const DwellProblem& problem, const Vector& t) {
@@ -44,6 +52,7 @@ Certificate certify(const DwellProblem& problem, const Vector& t) {
     if (t[j] >= u) c.dual_infeasibility = std::max(c.dual_infeasibility, t[j] <= l ? 0.0 : g[j] / scale);
     c.complementarity = std::max(c.complementarity, std::abs(t[j] - std::clamp(t[j] - step * g[j], l, u)));
   }
+  c.lower_bound = lower_bound(problem, t, c.objective, g);
   return c;
 }
 

@@ -16,6 +16,12 @@ struct Certificate {
   /// Largest |t - clip(t - s g)| [s]: the change of t in one steepest-descent step, cut off at the bounds. s = |p|^2 /
   /// p'Hp with p the projected gradient and H the Hessian, or 0 where there is no curvature.
   double complementarity = 0.0;
+  /// Proven to be no more than the optimum's objective (lower_bound) [nm^2].
+  double lower_bound = 0.0;
+
+  /// How far the objective may be above the optimum's at most, relative to it: (objective - lower bound) / lower bound.
+  /// Infinite if the bound is not above 0.
+  double gap() const;
 
   /// Every residual finite, no bound violated, projected gradient and dual infeasibility <= tolerance.
   bool passes(double tolerance) const;
