@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "solvers/matched/model_pixels.h"
 #include "solvers/matched/resolution_matched_hessian.h"
 #include "solvers/matched/smooth_dwell.h"
 #include "solvers/native/bounded_lbfgs.h"
@@ -17,17 +18,7 @@
 namespace dwell {
 namespace {
 
-constexpr double kKernelTolerance = 0.01;       // of matched_factor, where the kernel allows
-constexpr double kLooseKernelTolerance = 0.03;  // for measured removal functions, whose noise is not worth pixels
-// Pitch of the finer pixels and of the lattice of smooth dwell, in sigmas: smooth dwell at 0.8 leaves 2 to 9 % of the
-// objective, at 0.4 under 1.5 %.
-constexpr double kFinePitch = 0.5;
-// Of large maps, finer pixels are not worth their stencils: 196 bytes a node, which at a factor of two is six vectors
-// of the map. A small map has them to spare, and a removal function of six of its pixels is worth no more than a factor
-// of two.
-constexpr Index kFinestFactor = 3, kFinestOfSmallMap = 2, kSmallMap = Index{1} << 18;
-// Smooth dwell pays with so many dwell points a variable; finer levels of it only where the points are very many.
-constexpr Index kPointsPerVariable = 3;
+// Finer levels of smooth dwell pay only where the points are very many.
 constexpr Index kPointsPerFinerVariable = 10;
 // Smooth dwell is left for finer when a round lowers the objective by no more than this share.
 constexpr double kSmoothEnough = 0.003;
@@ -48,53 +39,6 @@ constexpr double kSmoothWork = 60.0;
 constexpr double kLeadsOn = 0.1;
 constexpr double kLeadsOnItsOwn = 0.5;
 constexpr double kOwnGradient = 2.5;
-
-/// Pixels that hold the removal function to kKernelTolerance; or, if noise or an edge asks for pixels much finer than a
-/// Gaussian of the same energy would, to kLooseKernelTolerance.
-CoarseFactor pixels_for(const RemovalKernel& kernel) {
-  const CoarseFactor factor = matched_factor(kernel, kKernelTolerance);
-  const double gaussian = 0.8 * equivalent_sigma(kernel);
-  if (static_cast<double>(std::min(factor.x, factor.y)) > 0.6 * gaussian) return factor;
-  return matched_factor(kernel, kLooseKernelTolerance);
-}
-
-/// Of several tools, the narrowest sets the pixels.
-CoarseFactor pixels_for(const DwellProblem& problem) {
-  CoarseFactor least = pixels_for(problem.parts.front().geometry->kernel);
-  for (const DwellPart& part : problem.parts) {
-    const CoarseFactor factor = pixels_for(part.geometry->kernel);
-    least = {std::min(least.x, factor.x), std::min(least.y, factor.y)};
-  }
-  return least;
-}
-
-double narrowest_sigma(const DwellProblem& problem) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const DwellPart& part : problem.parts) least = std::min(least, equivalent_sigma(part.geometry->kernel));
-  return least;
-}
-
-Index finest_factor(const DwellProblem& problem) {
-  return problem.pixels() <= kSmallMap ? kFinestOfSmallMap : kFinestFactor;
-}
-
-/// Of an operator pair of the full problem, by transform_cost.
-double pair_cost(const DwellProblem& problem) {
-  double sum = 0.0;
-  for (const DwellPart& part : problem.parts) sum += transform_cost(part.geometry->lattice, part.geometry->kernel);
-  return sum;
-}
-
-/// A lattice of half the pitch or less, kFinePitch sigmas at most, even if possible, so that it can be halved.
-CoarseFactor fine_pixels(double sigma, CoarseFactor factor) {
-  const double finest = kFinePitch * sigma;
-  const double parts = std::max(2.0, std::ceil(static_cast<double>(std::max(factor.x, factor.y)) / finest));
-  const auto part = [&](Index q) {
-    const auto f = std::max<Index>(1, static_cast<Index>(static_cast<double>(q) / parts));
-    return f >= 4 ? f - f % 2 : f;
-  };
-  return {part(factor.x), part(factor.y)};
-}
 
 /// The options of what finishes a run that took `seconds`: the rest of its limits, and progress that goes on from
 /// there. `options` must outlive them.
@@ -338,7 +282,7 @@ void AutoSolver::do_solve(const DwellProblem& problem, Vector& t, SolverSummary&
   std::string why = "no removal geometry to coarsen";
   double seconds = 0.0;
   if (problem.has_geometry()) {
-    const CoarseFactor factor = pixels_for(problem);
+    const CoarseFactor factor = model_pixels(problem);
     if (std::min(factor.x, factor.y) < finest_factor(problem)) {
       why = "removal function too narrow to coarsen the map";
     } else {
