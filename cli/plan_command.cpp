@@ -14,11 +14,11 @@
 #include "runs/job/job_file.h"
 #include "runs/reports/aim.h"
 #include "runs/reports/exact_lines.h"
-#include "runs/reports/front_lines.h"
 #include "runs/reports/map_line.h"
 #include "runs/reports/plan_files.h"
 #include "runs/reports/plan_output.h"
 #include "runs/reports/tool_sheet.h"
+#include "runs/reports/weight_lines.h"
 #include "solvers/solver_catalogue.h"
 
 namespace dwell::cli {
@@ -41,16 +41,11 @@ std::string plan_text(const PlannedJob& plan, const WrittenPlan& written) {
                       plan.laid.metrics.points, plan.laid.metrics.length, plan.laid.metrics.longest_jump,
                       plan.laid.metrics.lifts);
   for (const std::string& note : plan.laid.path.notes) text += fmt::format("          {}\n", note);
-  text +=
-      fmt::format("weights   smoothness {:.4g}, time price {:.4g} nm^2/s ({})\n", plan.dwell.weights.smoothness,
-                  plan.dwell.weights.time_price,
-                  plan.dwell.search ? fmt::format("chosen from {} solves", plan.dwell.search->trials.size()) : "given");
-  if (plan.dwell.search) {
-    text += front_lines(*plan.dwell.search, plan.job.options.smoothness, plan.job.options.time_price_nm2_per_s);
-  }
+  text += weight_lines(plan);
   text += fmt::format("solver    {}: {} after {} iterations, {} operator applications, {:.2f} s\n",
                       to_string(plan.dwell.solver.kind), to_string(plan.dwell.solver.status),
                       plan.dwell.solver.iterations, plan.dwell.solver.operator_applications, plan.dwell.solver.seconds);
+  text += optimum_line(plan.dwell);
   text += fmt::format("dwell     total {}, from {:.4g} s to {:.4g} s a point, step RMS {:.4g} s\n",
                       duration_text(plan.dwell.seconds.sum()), plan.dwell.seconds.minCoeff(),
                       plan.dwell.seconds.maxCoeff(), plan.dwell.step_rms);

@@ -22,8 +22,12 @@ const PathSpec& required_path(const JobOptions& options) {
 }  // namespace
 
 DwellOptions dwell_options(const JobOptions& o) {
-  DwellOptions options{
-      {o.min_dwell_s, o.max_feed_mm_per_min}, o.smoothness, o.time_price_nm2_per_s, o.solver, o.max_solve_s};
+  DwellOptions options{{o.min_dwell_s, o.max_feed_mm_per_min},
+                       o.smoothness,
+                       o.time_price_nm2_per_s,
+                       o.time_worth,
+                       o.solver,
+                       o.max_solve_s};
   options.fraction = o.fraction;
   return options;
 }

@@ -97,6 +97,16 @@ std::string rebased(const JobOptionRecord& record, const std::string& value, con
   return value;
 }
 
+/// Says so where a word of layout 1 has another meaning now.
+void note_changed_words(int schema, const std::string& source, const std::string& value, JobOptions& options) {
+  const bool is_weight = source.ends_with("smoothness") || source.ends_with("time_price_nm2_per_s");
+  if (schema > 1 || !is_weight || lower_case(trim(value)) != "auto") return;
+  options.notes.push_back(fmt::format(
+      "{} = \"auto\": this is no longer the corner of the L-curve, as in dwell 0.1, but the weight that belongs "
+      "to tool, path and part; the corner is \"corner\" now (`schema = {}` in the file ends this line)",
+      source, kJobSchema));
+}
+
 }  // namespace
 
 void read_job_file(const std::filesystem::path& file, JobOptions& options) {
@@ -109,6 +119,7 @@ void read_job_file(const std::filesystem::path& file, JobOptions& options) {
         fmt::format("{}: line {}: {}", file.string(), error.source().begin.line, std::string(error.description())));
   }
   if (const toml::node* schema = table.get("schema")) check_schema(*schema, file.string());
+  const int schema = table["schema"].value_or(1);
   for (const auto& [key, node] : table) {
     const std::string name(key.str());
     if (name == "schema") continue;
@@ -116,6 +127,7 @@ void read_job_file(const std::filesystem::path& file, JobOptions& options) {
     const std::string source = fmt::format("{}: {}", file.string(), name);
     const std::string value = text_of(node, record, source);
     set_job_option(options, record, rebased(record, value, file.parent_path(), source), source);
+    note_changed_words(schema, source, value, options);
   }
 }
 

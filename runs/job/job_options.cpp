@@ -242,16 +242,22 @@ std::vector<JobOptionRecord> make_table() {
        [](Options& o, const std::string& t) { o.max_feed_mm_per_min = number(t, ranges::kFeed); },
        [](const Options& o) { return shown(o.max_feed_mm_per_min); }},
       {"smoothness", "smoothness", "WEIGHT",
-       "weight of smooth feed against residual, dimensionless: 0 = none, 0.01 light, 1 strong; or auto, step<=S (RMS "
-       "change of dwell between neighbours in s) or residual<=NM",
+       "weight of smooth feed against residual: auto (from tool and path: waves of dwell of 9/8 of the tool's FWHM are "
+       "held back by half), a number without unit (0 = none), corner (of the L-curve), step<=S (RMS change of dwell "
+       "between neighbours in s) or residual<=NM",
        false, true, [](Options& o, const std::string& t) { o.smoothness = parse_weight_goal(t, kSmoothnessTarget); },
        [](const Options& o) { return to_string(o.smoothness); }, true},
       {"time-price", "time_price_nm2_per_s", "NM2/S",
-       "price of machine time: half the mean square residual in nm^2 that a second may cost; or auto, total<=S or "
-       "residual<=NM",
+       "price of machine time: auto (the longest run that is still worth it, see --time-worth), a number (half the "
+       "mean square residual in nm^2 that a second must save), corner (of the L-curve), total<=S or residual<=NM",
        false, true,
        [](Options& o, const std::string& t) { o.time_price_nm2_per_s = parse_weight_goal(t, kTimePriceTarget); },
        [](const Options& o) { return to_string(o.time_price_nm2_per_s); }, true},
+      {"time-worth", "time_worth", "K[,MU]",
+       "with --time-price auto: one per cent more time must lower the mean square left by K per cent, and the next "
+       "second must be worth MU of the average one",
+       false, false, [](Options& o, const std::string& t) { o.time_worth = parse_time_worth(t); },
+       [](const Options& o) { return to_string(o.time_worth); }},
       {"solver", "solver", "NAME", "auto, or another of " + solver_words(), false, false,
        [](Options& o, const std::string& t) { o.solver = parse_solver_kind(t); },
        [](const Options& o) { return to_string(o.solver); }},

@@ -19,7 +19,8 @@
 #include "runs/drawing/figure_format.h"
 #include "runs/programs/gcode_dialect.h"
 #include "solvers/problem/dwell_solver.h"
-#include "solvers/weights/weight_search.h"
+#include "solvers/weights/time_worth.h"
+#include "solvers/weights/weight_goal.h"
 
 namespace dwell {
 
@@ -59,8 +60,9 @@ struct JobOptions {
   Aperture aperture;
   double min_dwell_s = 0.0;
   double max_feed_mm_per_min = 3000.0;
-  WeightGoal smoothness{0.1};
-  WeightGoal time_price_nm2_per_s{0.0};
+  WeightGoal smoothness{0.0, GoalKind::Auto};
+  WeightGoal time_price_nm2_per_s{0.0, GoalKind::Auto};
+  TimeWorth time_worth;
   SolverKind solver = SolverKind::Auto;
   double max_solve_s = 3600.0;
   int threads = 0;
@@ -69,6 +71,7 @@ struct JobOptions {
   std::vector<FigureFormat> figures{FigureFormat::Png};
   FigureRange figure_range = FigureRange::Shared;
   std::string out;
+  std::vector<std::string> notes;  // what the reader of a job file has to say of it, a sentence each; no option
 };
 
 /// One option: how the command line, the job file and messages know it.

@@ -12,10 +12,11 @@ bool weights_are_searched(const DwellOptions& options) {
   if (smoothness.kind == GoalKind::ResidualAtMost && price.kind == GoalKind::ResidualAtMost) {
     throw InputError(fmt::format(
         "`smoothness` '{}' and `time price` '{}' leave open which weight takes up the residual; required for one of "
-        "them: a number, auto, 'step<=S' (smoothness) or 'total<=S' (time price)",
+        "them: a number, auto, corner, 'step<=S' (smoothness) or 'total<=S' (time price)",
         to_string(smoothness), to_string(price)));
   }
-  return smoothness.kind != GoalKind::Fixed || price.kind != GoalKind::Fixed;
+  const auto searched = [](const WeightGoal& goal) { return goal.kind == GoalKind::Corner || is_target(goal); };
+  return searched(smoothness) || searched(price);
 }
 
 }  // namespace dwell

@@ -5,6 +5,7 @@
 #include "core/base/time_limit.h"
 #include "runs/plan/machine_limits.h"
 #include "solvers/problem/dwell_solver.h"
+#include "solvers/weights/time_worth.h"
 #include "solvers/weights/weight_search.h"
 
 namespace dwell {
@@ -12,8 +13,9 @@ namespace dwell {
 /// How dwell times are to be found.
 struct DwellOptions {
   MachineLimits machine;
-  WeightGoal smoothness{0.1};  // weight of smooth feed against residual, dimensionless
-  WeightGoal time_price{0.0};  // price of a second of machine time [nm^2/s]
+  WeightGoal smoothness{0.0, GoalKind::Auto};  // weight of smooth feed against residual, dimensionless
+  WeightGoal time_price{0.0, GoalKind::Auto};  // price of a second of machine time [nm^2/s]
+  TimeWorth time_worth;                        // rules the time price where that is Auto
   SolverKind solver = SolverKind::Auto;
   double max_seconds = 3600.0;  // wall clock for the set-up and all solves together [s]; > 0
   double used_seconds = 0.0;    // of these, before find_dwell was called: by reading the input, planning the path
@@ -27,8 +29,8 @@ inline TimeLimit time_limit(double max_seconds, double used = 0.0) {
   return {std::max(max_seconds, kLeastSetUp), "max solve", used};
 }
 
-/// Whether the options leave a weight to a search. Throws InputError if both weights shall be the largest that hold a
-/// residual: many pairs of weights do, and none of them is the largest.
+/// Whether the options leave a weight to a search over plans: at its corner, or by a target. Throws InputError if both
+/// weights shall be the largest that hold a residual: many pairs of weights do, and none of them is the largest.
 bool weights_are_searched(const DwellOptions& options);
 
 }  // namespace dwell

@@ -11,6 +11,7 @@
 #include "paths/feed/plan_program.h"
 #include "runs/plan/plan_problem.h"
 #include "runs/plan/program_prediction.h"
+#include "runs/plan/usual_smoothness.h"
 #include "runs/plan/weight_choice.h"
 #include "solvers/solver_catalogue.h"
 
@@ -47,17 +48,35 @@ ExactResidual exact_residual_of(const Part& part, const LaidPath& laid, const Ve
   return exact_residual(probe, part.map, left, part.form, part.threads, progress, check);
 }
 
+/// The options with numbers in place of Auto. The price is found with the smoothness that is given, or with the usual
+/// one where the smoothness is searched over plans. A Fourier deconvolution knows no price.
+DwellOptions with_weights(const DwellOptions& options, const Part& part, const LaidPath& laid, PlanProblem& problem,
+                          DwellPlan& plan, const Progress& progress) {
+  DwellOptions numbers = options;
+  if (options.smoothness.kind == GoalKind::Auto) numbers.smoothness = {usual_smoothness(part, laid)};
+  if (options.time_price.kind != GoalKind::Auto) return numbers;
+  numbers.time_price = {0.0};
+  if (options.solver == SolverKind::Fourier) return numbers;
+  const double smoothness =
+      numbers.smoothness.kind == GoalKind::Fixed ? numbers.smoothness.value : usual_smoothness(part, laid);
+  plan.worth = problem.find_price(smoothness, options.time_worth, progress);
+  numbers.time_price = {plan.worth->price};
+  return numbers;
+}
+
 /// Solves on one lattice.
-DwellPlan find_dwell_on(const LatticeChoice& lattice, const Part& part, const LaidPath& laid,
-                        const DwellOptions& options, Vector start, ExactCheck check, const Progress& progress) {
+DwellPlan find_dwell_on(const LatticeChoice& lattice, const Part& part, const LaidPath& laid, const DwellOptions& given,
+                        Vector start, ExactCheck check, const Progress& progress) {
   DwellPlan plan;
   plan.lattice = lattice;
-  if (weights_are_searched(options)) plan.search.emplace();
-  const TimeLimit limit = time_limit(options.max_seconds, options.used_seconds);
+  if (weights_are_searched(given)) plan.search.emplace();
+  const TimeLimit limit = time_limit(given.max_seconds, given.used_seconds);
+  DwellOptions options = given;
   const std::unique_ptr<PlanProblem> set_up = limit.run(progress, [&](const Progress& limited) {
     limited.step("solve: setting up the removal operator");
     auto problem = std::make_unique<PlanProblem>(part, laid, lattice.kernel, options, limited.of_part("solve"));
     limited.check();
+    options = with_weights(given, part, laid, *problem, plan, limited.of_part("solve"));
     return problem;
   });
   PlanProblem& problem = *set_up;
@@ -100,8 +119,14 @@ DwellPlan find_dwell(const Part& part, const LaidPath& laid, const DwellOptions&
     rest.used_seconds = limit.used();
     if (!(limit.left() > 0.0)) break;
     const double seconds = plan.solver.seconds;
+    if (!plan.search) {  // what the weights are does not depend on the lattice
+      rest.smoothness = {plan.weights.smoothness};
+      rest.time_price = {plan.weights.time_price};
+    }
+    const std::optional<TimePrice> worth = plan.worth;
     try {
       plan = find_dwell_on(finer_lattice(part, plan.lattice), part, laid, rest, plan.seconds, check, progress);
+      if (worth) plan.worth = worth;
     } catch (const TimeLimitReached&) {
       break;  // the plan on the coarser lattice stands, and what follows says how wrong it is
     }

@@ -11,6 +11,7 @@
 #include "runs/plan/lattice_choice.h"
 #include "runs/plan/part.h"
 #include "runs/plan/weight_trials.h"
+#include "solvers/matched/time_price.h"
 #include "solvers/problem/certificate.h"
 #include "solvers/problem/dwell_solver.h"
 
@@ -19,8 +20,9 @@ namespace dwell {
 /// How long the tool dwells at every point of a laid path, and how good that answer is. Third of the four values of a
 /// plan.
 struct DwellPlan {
-  Weights weights;                     // given, or found by
-  std::optional<WeightTrials> search;  // nothing = both given
+  Weights weights;                     // given, or found
+  std::optional<TimePrice> worth;      // how the time price was found, where it is Auto
+  std::optional<WeightTrials> search;  // nothing = no weight is searched over plans
   Vector seconds;                      // of every dwell point, in path order
   double step_rms = 0.0;               // |D t| / sqrt(number of links) [s]
   double seconds_before_solve = 0.0;   // wall clock of the phases before, as far as the time limit counts them [s]

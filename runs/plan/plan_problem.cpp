@@ -108,6 +108,11 @@ WeightedDwell PlanProblem::solve(const Weights& weights, Vector start, double ma
   return found;
 }
 
+TimePrice PlanProblem::find_price(double smoothness, const TimeWorth& worth, const Progress& progress) {
+  with({smoothness, 0.0});
+  return find_time_price(problem_, worth, progress);
+}
+
 double PlanProblem::highest_price() {
   DwellObjective objective(with({}));
   Vector residual, gradient;

@@ -8,6 +8,7 @@
 #include "runs/plan/dwell_options.h"
 #include "runs/plan/laid_path.h"
 #include "runs/plan/part.h"
+#include "solvers/matched/time_price.h"
 #include "solvers/problem/dwell_problem.h"
 #include "solvers/problem/dwell_solver.h"
 #include "solvers/weights/weight_search.h"
@@ -46,6 +47,10 @@ class PlanProblem {
   /// The price of a second [nm^2/s] from which on the least dwell is optimal if smoothness is left out: the steepest
   /// descent, there, of half the mean square residual. 1 if nothing descends. Cost: two operator applications.
   double highest_price();
+
+  /// The time price that the rules give the problem with a smoothness. Throws as find_time_price, which states the
+  /// cost.
+  TimePrice find_price(double smoothness, const TimeWorth& worth, const Progress& progress);
 
   /// The problem with the weights set.
   const DwellProblem& with(const Weights& weights);

@@ -23,6 +23,7 @@
 #include "runs/reports/plan_summary.h"
 #include "runs/reports/plan_warnings.h"
 #include "runs/reports/program_record.h"
+#include "runs/reports/weight_lines.h"
 
 namespace dwell {
 namespace {
@@ -122,10 +123,15 @@ WrittenPlan write_plan(const PlannedJob& plan, const OutputFolder& folder, const
   written.program_seconds = program.total_seconds();
   const DwellOptions options = dwell_options(plan.job.options);
   written.lift_seconds = lift_seconds(plan.laid.metrics, plan.job.options.lift_height_mm, options.machine);
+  written.warnings = plan.job.options.notes;
   const bool moves = plan.laid.motion == Motion::Moving;
   for (const std::string& warning :
        run_warnings({written.total_seconds(), plan.dwell.seconds.sum(), moves ? program.removing_length() : 0.0})) {
     written.warnings.push_back(with_option_names(warning, flag_of));
+  }
+  if (auto warning =
+          little_gained(plan, plan.part().before.rms_about_zero(), written.exact.statistics.rms_about_zero())) {
+    written.warnings.push_back(std::move(*warning));
   }
   written.program = program_figures(program, written.exact, to_string(plan.part().form));
   written.program_sha256 = sha256_of_file(folder.path("program.nc"));

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <utility>
 
 #include "core/base/number_text.h"
@@ -11,6 +12,7 @@
 #include "runs/reports/options_json.h"
 #include "runs/reports/plan_blocks.h"
 #include "runs/reports/tool_sheet.h"
+#include "runs/reports/weight_lines.h"
 
 namespace dwell {
 namespace {
@@ -24,7 +26,9 @@ Json solve_json(const DwellPlan& plan) {
                           {"bound_violation_s", c.bound_violation},
                           {"projected_gradient_relative", c.projected_gradient},
                           {"dual_infeasibility_relative", c.dual_infeasibility},
-                          {"complementarity_s", c.complementarity}};
+                          {"complementarity_s", c.complementarity},
+                          {"lower_bound_nm2", c.lower_bound},
+                          {"gap_relative", std::isfinite(c.gap()) ? Json(c.gap()) : Json(nullptr)}};
   return solve;
 }
 
@@ -41,9 +45,9 @@ Json search_json(const WeightTrials& search) {
           {"trials", trials}};
 }
 
-Json weights_json(const DwellPlan& plan) {
-  Json weights{{"smoothness", plan.weights.smoothness}, {"time_price_nm2_per_s", plan.weights.time_price}};
-  if (plan.search) weights["search"] = search_json(*plan.search);
+Json weights_json(const PlannedJob& plan) {
+  Json weights = weights_block(plan);
+  if (plan.dwell.search) weights["search"] = search_json(*plan.dwell.search);
   return weights;
 }
 
@@ -72,7 +76,7 @@ std::string plan_summary_text(const PlannedJob& plan, const WrittenPlan& written
                   {"tif", plan_tif_block(plan.job)},
                   {"tool", tool_block(tool_sheet(plan.part().tif))},
                   {"path", plan_path_block(plan.laid)},
-                  {"weights", weights_json(plan.dwell)},
+                  {"weights", weights_json(plan)},
                   {"solve", solve_json(plan.dwell)},
                   {"dwell", dwell_block(plan_dwell_figures(plan.dwell))},
                   {"residual", residual_block(to_string(plan.part().form), plan.dwell.residual)},

@@ -7,7 +7,9 @@
 
 namespace dwell {
 
-bool is_target(const WeightGoal& goal) { return goal.kind != GoalKind::Fixed && goal.kind != GoalKind::Corner; }
+bool is_target(const WeightGoal& goal) {
+  return goal.kind != GoalKind::Fixed && goal.kind != GoalKind::Auto && goal.kind != GoalKind::Corner;
+}
 
 double target_excess(const WeightGoal& goal, const TradeOff& trade_off) {
   constexpr double kNothing = 1e-12;  // stands for a quantity of zero

@@ -21,6 +21,7 @@ struct TradeOff {
 /// How a weight is chosen.
 enum class GoalKind {
   Fixed,           // it is `value`
+  Auto,            // it belongs to tool, path and part: usual_smoothness, find_time_price
   Corner,          // the corner of the L-curve
   StepAtMost,      // the least weight with step RMS <= value [s]
   TotalAtMost,     // the least weight with total dwell <= value [s]

@@ -43,7 +43,8 @@ WeightGoal parse_weight_goal(const std::string& text, GoalKind target) {
   constexpr ValueRange kTargetValues{1e-12, 1e12, ""};
   const ValueRange& weights = target == GoalKind::TotalAtMost ? ranges::kTimePrice : ranges::kWeight;
   const std::string words = lower_case(trim(text));
-  if (words == "auto") return {0.0, GoalKind::Corner};
+  if (words == "auto") return {0.0, GoalKind::Auto};
+  if (words == "corner") return {0.0, GoalKind::Corner};
   const std::size_t sign = words.find("<=");
   if (sign == std::string::npos) {
     const auto weight = finite_number(words);
@@ -56,14 +57,15 @@ WeightGoal parse_weight_goal(const std::string& text, GoalKind target) {
       if (quantity == target_of(kind).word && value && kTargetValues.holds(*value)) return {*value, kind};
     }
   }
-  throw InputError(
-      fmt::format("'{}'; required {}, auto, '{}<=S' with S > 0 in s, or 'residual<=NM' with NM > 0 in nm, each {}",
-                  text, weights.text(), target_of(target).word, kTargetValues.text()));
+  throw InputError(fmt::format(
+      "'{}'; required {}, auto, corner, '{}<=S' with S > 0 in s, or 'residual<=NM' with NM > 0 in nm, each {}", text,
+      weights.text(), target_of(target).word, kTargetValues.text()));
 }
 
 std::string to_string(const WeightGoal& goal) {
   if (goal.kind == GoalKind::Fixed) return fmt::format("{}", goal.value);
-  if (goal.kind == GoalKind::Corner) return "auto";
+  if (goal.kind == GoalKind::Auto) return "auto";
+  if (goal.kind == GoalKind::Corner) return "corner";
   return fmt::format("{}<={}", target_of(goal.kind).word, goal.value);
 }
 

@@ -10,9 +10,9 @@ namespace dwell {
 inline constexpr GoalKind kSmoothnessTarget = GoalKind::StepAtMost;
 inline constexpr GoalKind kTimePriceTarget = GoalKind::TotalAtMost;
 
-/// Reads a number >= 0, "auto", or a target: "step<=0.004", "total<=425" (in s) or "residual<=0.15" (in nm), of which
-/// `target` or the residual is accepted. Blanks, case, the word RMS and the unit are free: "step RMS <= 0.004 s".
-/// Throws InputError naming the text and what is accepted.
+/// Reads a number >= 0, "auto", "corner", or a target: "step<=0.004", "total<=425" (in s) or "residual<=0.15" (in nm),
+/// of which `target` or the residual is accepted. Blanks, case, the word RMS and the unit are free: "step RMS <= 0.004
+/// s". Throws InputError naming the text and what is accepted.
 WeightGoal parse_weight_goal(const std::string& text, GoalKind target);
 
 /// The shortest text that reads back equal.

@@ -199,13 +199,23 @@ TEST(PlanCommand, CommandLineComesOverTheJobFile) {
 
 TEST(PlanCommand, FindsTheWeightThatMeetsATargetAndSaysWhich) {
   const SmallInputs inputs;
-  ASSERT_EQ(inputs.run(SmallInputs::plan()).exit_code, 0);
+  const ProgramResult usual = inputs.run(SmallInputs::plan());
+  ASSERT_EQ(usual.exit_code, 0);
+  const json own = summary_of(inputs)["weights"];
+  EXPECT_EQ(own["smoothness_from"], "auto");
+  EXPECT_EQ(own["time_price_from"], "auto");
+  EXPECT_EQ(own["worth"]["rule"], "share");
+  expect_has(usual.out, " (auto), time price ");
+  expect_has(usual.out, "one per cent more time would lower the mean square left by 0.3 %");
+  expect_has(usual.out, "the least that this tool leaves on this path is about ");
+  expect_has(usual.out, "optimum   at most ");
   const double limit = 0.9 * summary_of(inputs)["dwell"]["total_s"].get<double>();
   const ProgramResult result =
       inputs.run(SmallInputs::plan({"--time-price", "total <= " + std::to_string(limit) + " s"}));
   ASSERT_EQ(result.exit_code, 0) << result.err;
-  expect_has(result.out, "weights   smoothness 0.1, time price ");
-  expect_has(result.out, "nm^2/s (chosen from ");
+  expect_has(result.out, "weights   smoothness ");
+  expect_has(result.out, " (auto), time price ");
+  expect_has(result.out, "nm^2/s (target), chosen from ");
   const json s = summary_of(inputs);
   EXPECT_LE(s["dwell"]["total_s"], limit);
   EXPECT_GT(s["weights"]["time_price_nm2_per_s"], 0.0);

@@ -71,10 +71,10 @@ struct SmallInputs {
     for (double& z : rough.values) z = static_cast<double>((noise = noise * 1664525u + 1013904223u) >> 16) / 655.36;
     write_map(*this / "plan-rough.npy", rough);
     auto run = std::make_unique<ProgramRun>(
-        folder.path(),
-        std::vector<std::string>{"plan", "--map", "plan-rough.npy", "--map-pixel", "0.1", "--tif",
-                                 "gaussian:peak=10,fwhm=1,radius=1.5", "--path", "raster:pitch=0.3,angle=10",
-                                 "--smoothness", "0", "--solver", "projected-cg", "--threads", "1", "--out", "plan"});
+        folder.path(), std::vector<std::string>{"plan", "--map", "plan-rough.npy", "--map-pixel", "0.1", "--tif",
+                                                "gaussian:peak=10,fwhm=1,radius=1.5", "--path",
+                                                "raster:pitch=0.3,angle=10", "--smoothness", "0", "--time-price", "0",
+                                                "--solver", "projected-cg", "--threads", "1", "--out", "plan"});
     while (!run->ended() && run->err().find("solve:") == std::string::npos) usleep(20'000);
     return run;
   }

@@ -57,6 +57,7 @@ JobOptions unusual() {
   o.smoothness = {1e-9};
   o.time_price_nm2_per_s = {1.0 / 3.0, GoalKind::TotalAtMost};
   o.solver = SolverKind::DenseNnls;
+  o.time_worth = {0.25, 0.125};
   o.max_solve_s = 12.5;
   o.threads = 2;
   o.gcode = GcodeDialect::G93PerMinute;
@@ -125,13 +126,24 @@ TEST(JobFile, TakesWordsWhereAWeightIsLeftOpen) {
   const TemporaryFolder folder;
   const JobOptions o = read(folder, "smoothness = 'step RMS <= 0.004 s'\ntime_price_nm2_per_s = 'auto'\n");
   EXPECT_EQ(o.smoothness, (WeightGoal{0.004, GoalKind::StepAtMost}));
-  EXPECT_EQ(o.time_price_nm2_per_s, (WeightGoal{0.0, GoalKind::Corner}));
+  EXPECT_EQ(o.time_price_nm2_per_s, (WeightGoal{0.0, GoalKind::Auto}));
   const JobOptions back = read(folder, job_file_text(o));
   EXPECT_EQ(back.smoothness, o.smoothness);
   EXPECT_EQ(back.time_price_nm2_per_s, o.time_price_nm2_per_s);
   expect_input_error([&] { read(folder, "smoothness = 'total<=3'\n"); },
                      {"job.toml: smoothness", "'total<=3'", "step<=S", "residual<=NM"});
   expect_input_error([&] { read(folder, "min_dwell_s = 'auto'\n"); }, {"job.toml: min_dwell_s", "without quotes"});
+}
+
+TEST(JobFile, SaysThatAutoHasAnotherMeaningThanInLayout1) {
+  const TemporaryFolder folder;
+  EXPECT_TRUE(read(folder, "schema = 2\nsmoothness = 'auto'\n").notes.empty());
+  EXPECT_TRUE(read(folder, "smoothness = 0.1\nfigures = 'png'\n").notes.empty());
+  const JobOptions old = read(folder, "smoothness = 'auto'\ntime_price_nm2_per_s = ' AUTO'\n");
+  ASSERT_EQ(old.notes.size(), 2u);
+  EXPECT_NE(old.notes[0].find("job.toml: smoothness = \"auto\""), std::string::npos);
+  EXPECT_NE(old.notes[1].find("job.toml: time_price_nm2_per_s"), std::string::npos);
+  EXPECT_NE(old.notes[1].find("\"corner\""), std::string::npos);
 }
 
 TEST(JobFile, TakesStepsAsOneStringOrAsAList) {

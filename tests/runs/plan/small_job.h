@@ -35,6 +35,7 @@ struct SmallJob {
     options.tif = "gaussian:peak=10,fwhm=2.5,radius=4";
     options.path = parse_path_spec("raster:pitch=1,overrun=2");
     options.smoothness = {0.01};
+    options.time_price_nm2_per_s = {0.0};
     options.threads = 1;
     options.out = (folder.path() / "plan").string();
   }

@@ -1,0 +1,140 @@
+#include "runs/reports/weight_lines.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/duration_text.h"
+#include "runs/base/json_blocks.h"
+#include "runs/plan/usual_smoothness.h"
+#include "runs/reports/front_lines.h"
+
+namespace dwell {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kIndent = "          ";
+
+/// Of the objective's optimum [%]: gains below it are said to be little.
+constexpr double kLittleGain = 0.1;
+
+const char* source_of(const WeightGoal& goal) {
+  switch (goal.kind) {
+    case GoalKind::Fixed:
+      return "given";
+    case GoalKind::Auto:
+      return "auto";
+    case GoalKind::Corner:
+      return "corner";
+    default:
+      return "target";
+  }
+}
+
+std::string smoothness_line(const PlannedJob& plan) {
+  const double fwhm = equivalent_fwhm(plan.part());
+  return fmt::format(
+      "{}smoothness: along the path, waves of dwell of {:.3g} mm ({} times the FWHM of the Gaussian of "
+      "the tool's volume and energy) are held back by half\n",
+      kIndent, kHalfHeldWave * fwhm, kHalfHeldWave);
+}
+
+std::string rule_in_words(const TimeWorth& worth, PriceRule rule) {
+  return rule == PriceRule::Share
+             ? fmt::format("one per cent more time would lower the mean square left by {} %", worth.share)
+             : fmt::format("the next second is worth {} of the average one above the least dwell", worth.average);
+}
+
+std::string in_words(const PricedTradeOff& plan) {
+  return fmt::format("{:.4g} nm in {}", plan.trade_off.residual_rms, duration_text(plan.trade_off.total));
+}
+
+/// The least that is left on the path, as far as is known: the plan itself may leave less than the model.
+double least_left(const DwellPlan& plan) {
+  return std::min(plan.worth->best.trade_off.residual_rms, plan.residual.rms_about_zero());
+}
+
+/// What a user wants to know who has to choose a price.
+std::string price_lines(const PlannedJob& plan) {
+  const TimePrice& worth = *plan.dwell.worth;
+  if (!(worth.price > 0.0)) {
+    return fmt::format("{}time price: no dwell above the least removes anything; this run is the least dwell\n",
+                       kIndent);
+  }
+  const char* of_what = plan.job.options.fraction < 1.0 ? " of the fraction that is to be removed" : "";
+  std::string text = fmt::format("{}time price: {}\n", kIndent, rule_in_words(plan.job.options.time_worth, worth.rule));
+  text += fmt::format("{}            half of it: about {}; twice: about {} (RMS{}, dwell; estimated on a model)\n",
+                      kIndent, in_words(worth.half), in_words(worth.twice), of_what);
+  text += fmt::format(
+      "{}            the least that this tool leaves on this path is about {:.4g} nm RMS{} (estimated "
+      "on a model)\n",
+      kIndent, least_left(plan.dwell), of_what);
+  return text;
+}
+
+}  // namespace
+
+std::string weight_lines(const PlannedJob& plan) {
+  const JobOptions& options = plan.job.options;
+  const DwellPlan& dwell = plan.dwell;
+  std::string text =
+      fmt::format("weights   smoothness {:.4g} ({}), time price {:.4g} nm^2/s ({}){}\n", dwell.weights.smoothness,
+                  source_of(options.smoothness), dwell.weights.time_price, source_of(options.time_price_nm2_per_s),
+                  dwell.search ? fmt::format(", chosen from {} solves", dwell.search->trials.size()) : "");
+  if (options.smoothness.kind == GoalKind::Auto) text += smoothness_line(plan);
+  if (dwell.worth) text += price_lines(plan);
+  if (dwell.weights.time_price == 0.0 && !dwell.worth) {
+    text += fmt::format(
+        "{}at a time price of 0 the total is not determined: a constant dwell may be added at no cost\n", kIndent);
+  }
+  if (dwell.search) text += front_lines(*dwell.search, options.smoothness, options.time_price_nm2_per_s);
+  return text;
+}
+
+std::string optimum_line(const DwellPlan& plan) {
+  const double gap = plan.certificate.gap();
+  if (!std::isfinite(gap)) return "optimum   no bound is proven\n";
+  return fmt::format("optimum   at most {:.2g} % below this plan's objective, which is proven\n",
+                     100.0 * gap / (1.0 + gap));
+}
+
+std::optional<std::string> little_gained(const PlannedJob& plan, double before, double after) {
+  if (!(before > 0.0) || after > before || after < (1.0 - kLittleGain) * before) return std::nullopt;
+  const std::string reach =
+      plan.dwell.worth
+          ? fmt::format("; about {:.4g} nm is the least that this tool leaves on this path", least_left(plan.dwell))
+          : "";
+  return fmt::format("this run gains {:.2g} % of the RMS, from {:.4g} to {:.4g} nm{}", 100.0 * (1.0 - after / before),
+                     before, after, reach);
+}
+
+Json weights_block(const PlannedJob& plan) {
+  const DwellPlan& dwell = plan.dwell;
+  const JobOptions& options = plan.job.options;
+  Json weights{{"smoothness", dwell.weights.smoothness},
+               {"smoothness_from", source_of(options.smoothness)},
+               {"time_price_nm2_per_s", dwell.weights.time_price},
+               {"time_price_from", source_of(options.time_price_nm2_per_s)}};
+  if (options.smoothness.kind == GoalKind::Auto) {
+    weights["half_held_wave_mm"] = kHalfHeldWave * equivalent_fwhm(plan.part());
+  }
+  if (!dwell.worth) return weights;
+  const auto estimate = [](const PricedTradeOff& p) {
+    return Json{{"time_price_nm2_per_s", p.price},
+                {"residual_rms_nm", p.trade_off.residual_rms},
+                {"total_s", p.trade_off.total},
+                {"step_rms_s", p.trade_off.step_rms}};
+  };
+  weights["worth"] = {{"rule", dwell.worth->rule == PriceRule::Share ? "share" : "average"},
+                      {"least_dwell_rms_nm", dwell.worth->least.residual_rms},
+                      {"least_dwell_total_s", dwell.worth->least.total},
+                      {"estimates",
+                       {{"best", estimate(dwell.worth->best)},
+                        {"half_price", estimate(dwell.worth->half)},
+                        {"twice_price", estimate(dwell.worth->twice)}}}};
+  return weights;
+}
+
+}  // namespace dwell
