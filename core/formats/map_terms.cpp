@@ -55,7 +55,8 @@ constexpr TermGroup kGroups[] = {
     {MapTopic::Origin, kOpen, kSure, true, "0"},
     {MapTopic::Origin, kOpen, kFits, true, "min start"},
     {MapTopic::Origin, kOpen, kDoubt, false,
-     "refpixel referencepixel refpix referencepoint refpoint zeropixel bezugspunkt pixelreference "
+     "xy0 centerpx centrepx originpx originpixel left bottom refpixel referencepixel refpix referencepoint refpoint "
+     "zeropixel bezugspunkt pixelreference "
      "corner lowerleft lowerleftcorner upperleft upperleftcorner topleft bottomleft orig org orgsubf mapcentre "
      "mapcenter centre center centerpixel centrepixel midpoint middle translation position extent bounds bbox "
      "boundingbox limits xlim ylim lateraloffset mitte zentrum mittelpunkt bildmitte ecke eckpunkt coin milieu"},
@@ -68,7 +69,8 @@ constexpr TermGroup kGroups[] = {
      "keinedaten ungueltigerwert valeurmanquante sansdonnees pasdedonnees valeurnulle"},
     {MapTopic::NoData, kOpen, kDoubt, false,
      "fill missing invalid bad null blank undefined masked void na nan dummy ungueltig fehlend manquant invalide mask "
-     "background outside exterior offpart offaperture rest hintergrund ausserhalb aussen fond dehors maske masque"},
+     "empty padding padded badpix badpixel deadpixel background outside exterior offpart offaperture rest hintergrund "
+     "ausserhalb aussen fond dehors maske masque"},
     {MapTopic::ValueScale, kClear, kDoubt, false,
      "scale scalefactor addoffset zscale zfactor zscalefactor zoffset multiplier slope intercept offset zmult "
      "heightscale valuescale datascale verticalscale heightfactor valuefactor heightoffset valueoffset nmpercount "
@@ -77,7 +79,8 @@ constexpr TermGroup kGroups[] = {
      "factor gain conversion conversionfactor conversionratio calibrationfactor sensitivity lsb waves scalingfactor "
      "scaling interferometricscalefactor wedgefactor heightgain zgain heightconversion zconversion unitfactor faktor "
      "skalenfaktor skalierung skalierungsfaktor umrechnung umrechnungsfaktor verstaerkung empfindlichkeit facteur "
-     "facteurdechelle echelle conversiondeshauteurs divisor divider denominator exponent powerof10 poweroften "
+     "facteurdechelle echelle conversiondeshauteurs divisor divider denominator exponent signflip flipsign negate "
+     "negated nmscale umscale mult multiplyby multiplied to powerof10 poweroften "
      "powerten power10 decimalexponent zexponent unitexponent prefix siprefix unitprefix metricprefix sign signs zsign "
      "heightsign "
      "signconvention polarity vorzeichen zdirection zdir zpositive positivedirection normalised normalized "
@@ -85,17 +88,18 @@ constexpr TermGroup kGroups[] = {
     {MapTopic::Label, kOpen, kSilent, false, "longname label zlabel datalabel quantity btype"},
     {MapTopic::Orientation, kOpen, kDoubt, false,
      "orientation flip flipped mirrored rotation rotate rotated transpose transposed inverted roworder rowdirection "
-     "mirror firstrow topline rowsfrom ausrichtung drehung gespiegelt gedreht retourne pivote flipud fliplr flips "
+     "isflipped ismirrored isrotated istransposed originupper upperorigin toporigin clock clockangle mirror firstrow "
+     "topline rowsfrom ausrichtung drehung gespiegelt gedreht retourne pivote flipud fliplr flips "
      "reflected "
      "reflect reflection mirroring rotangle rotationangle rot rot90 rotation90 clocking clockingangle view viewed "
      "viewedfrom viewfrom viewpoint viewdirection seenfrom handedness handed chirality transform transformation affine "
      "affinetransform upsidedown invertx inverty swapxy swapaxes roworigin parity ansicht"},
-    {MapTopic::Orientation, kOpen, kDoubt, true, "axis dir direction sign sense"},
+    {MapTopic::Orientation, kOpen, kDoubt, true, "axis dir direction sign sense down invert inverted"},
     {MapTopic::AxisOrder, kClear, kDoubt, false,
      "dims dimensionlabels dimensionnames dimensionorder dimorder axes axisorder axesorder axisnames axislabels "
-     "axeslabels axesnames indexorder achsen"},
+     "axeslabels axesnames indexorder achsen coordorder coordinateorder firstaxis firstindex"},
     {MapTopic::AxisOrder, kOpen, kDoubt, false,
-     "order memoryorder storageorder storage memorylayout layout majororder arrayorder arraylayout"},
+     "rows order memoryorder storageorder storage memorylayout layout majororder arrayorder arraylayout"},
 };
 
 /// The terms of all groups, sorted by word.

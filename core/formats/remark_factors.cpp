@@ -59,7 +59,8 @@ bool is_between_factors(const Remark& words, std::size_t at) {
   const std::string& sign = words[at].folded;
   if ((sign != "*" && sign != "x" && sign != "/") || at == 0 || at + 1 >= words.size()) return false;
   const RemarkWord &left = words[at - 1], &right = words[at + 1];
-  const bool divided = is_other_number(right.text) && may_have_a_factor(left.folded);
+  const bool of_number = at > 1 && words[at - 2].number;  // "100 mm x 2"
+  const bool divided = is_other_number(right.text) && may_have_a_factor(left.folded) && !of_number;
   if (sign == "/") return divided;
   const bool multiplied = is_other_number(left.text) && may_have_a_factor(right.folded);
   const bool number = sign == "*" && is_other_number(left.text) != is_other_number(right.text);
@@ -111,6 +112,10 @@ bool stands_alone(const Remark& words, std::size_t at) {
   if (begins && ends && (word.front() == 'x' || word.front() == 'X') &&
       is_other_number(std::string_view(word).substr(1)))
     return true;
+  const bool sign = word == "x" || word == "X" || word == "*";
+  if (begins && at + 2 == words.size() && sign &&
+      (is_power_of_ten(words[at + 1].text) || is_other_number(words[at + 1].text)))
+    return true;
   const bool pair =
       begins && at + 2 == words.size() && known_value_unit(words[at + 1].text) && words[at + 1].before == ' ';
   if (!pair) return false;
@@ -130,6 +135,9 @@ bool is_named_factor(const Remark& words, std::size_t at) {
     std::size_t next = at + 1;
     while (next < words.size() && is_among(words[next].folded, kBetween)) ++next;
     if (next < words.size() && words[next].number && number_of(words[next]).value_or(0.0) != 1.0) return true;
+    constexpr std::array<std::string_view, 8> kNumbers{"two",     "three",    "four", "ten",
+                                                       "hundred", "thousand", "half", "million"};
+    if (next < words.size() && is_among(words[next].folded, kNumbers)) return true;
   }
   const bool values = holds_value_word(words, clause_of(words, at), at);
   const bool times = words[at].folded == "x" || words[at].folded == "*" || words[at].folded == "times";

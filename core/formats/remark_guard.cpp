@@ -22,14 +22,15 @@ using About = UnclearStatement::About;
 
 /// "missing pixels set to -9999", "-1 = no data"; not "12 bad pixels".
 bool speaks_of_no_data(const Remark& words) {
-  constexpr std::array<std::string_view, 19> kMissing{"nodata",     "missing", "invalid",     "undefined", "masked",
-                                                      "bad",        "dropout", "dropouts",    "ungueltig", "fehlend",
-                                                      "manquant",   "void",    "outside",     "exterior",  "background",
-                                                      "ausserhalb", "mask",    "hintergrund", "dehors"};
+  constexpr std::array<std::string_view, 25> kMissing{
+      "padded",     "padding", "empty",       "dead",   "off-aperture", "default",  "nodata",
+      "missing",    "invalid", "undefined",   "masked", "bad",          "dropout",  "dropouts",
+      "ungueltig",  "fehlend", "manquant",    "void",   "outside",      "exterior", "background",
+      "ausserhalb", "mask",    "hintergrund", "dehors"};
   constexpr std::array<std::string_view, 8> kCounted{"pixels", "points",   "count",       "number",
                                                      "share",  "diameter", "temperature", "radius"};
-  constexpr std::array<std::string_view, 14> kSet{"to",  "are",  "is",    "as",     "marked", "by",      "value",
-                                                  "set", "mean", "means", "stands", "coded",  "denoted", "="};
+  constexpr std::array<std::string_view, 15> kSet{"with", "to",   "are",   "is",     "as",    "marked",  "by", "value",
+                                                  "set",  "mean", "means", "stands", "coded", "denoted", "="};
   bool missing = holds_any(words, kMissing);
   for (std::size_t i = 1; i < words.size(); ++i) {
     missing =

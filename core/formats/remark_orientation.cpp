@@ -13,13 +13,14 @@ constexpr std::array<std::string_view, 27> kTop{
     "unten",   "bas",      "right-to-left", "groesstes", "max",     "decreasing", "descending", "alto",      "abajo"};
 
 bool is_turned(const Remark& words, std::size_t at) {
-  constexpr std::array<std::string_view, 27> kTurned{
-      "flipped",    "mirrored", "transposed", "rotated",      "upside",      "upside-down", "inverted",
-      "gespiegelt", "gedreht",  "retourne",   "retournee",    "flipud",      "fliplr",      "reversed",
-      "y-down",     "turned",   "transpose",  "transponiert", "inverse",     "rot90",       "rot180",
-      "rot270",     "volteado", "girado",     "capovolto",    "left-handed", "lefthanded"};
+  constexpr std::array<std::string_view, 28> kTurned{
+      "clocked",  "flipped",    "mirrored", "transposed", "rotated",      "upside",      "upside-down",
+      "inverted", "gespiegelt", "gedreht",  "retourne",   "retournee",    "flipud",      "fliplr",
+      "reversed", "y-down",     "turned",   "transpose",  "transponiert", "inverse",     "rot90",
+      "rot180",   "rot270",     "volteado", "girado",     "capovolto",    "left-handed", "lefthanded"};
   if (!is_among(words[at].folded, kTurned) || is_denied(words, at)) return false;
-  const std::size_t next = at + 1 < words.size() && words[at + 1].folded == "by" ? at + 2 : at + 1;
+  const bool by = at + 1 < words.size() && (words[at + 1].folded == "by" || words[at + 1].folded == "to");
+  const std::size_t next = by ? at + 2 : at + 1;
   return !(next < words.size() && finite_number(words[next].text) == std::optional(0.0));
 }
 

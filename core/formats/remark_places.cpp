@@ -23,7 +23,8 @@ bool is_lower_left(const Remark& words) {
 
 /// Whether a place other than 0, or a spot of the map, stands behind the word.
 bool places_a_spot(const Remark& words, std::size_t at) {
-  constexpr std::array<std::string_view, 9> kBetween{"at", "of", "is", "by", "bei", "um", "a", "en", "von"};
+  constexpr std::array<std::string_view, 15> kBetween{"at",  "of", "is", "by", "bei", "um",    "a", "en",
+                                                      "von", "x",  "y",  "dx", "dy",  "pixel", "px"};
   constexpr std::array<std::string_view, 12> kSpots{"center", "centre", "middle", "mitte", "corner",   "left",
                                                     "right",  "bottom", "lower",  "ecke",  "centered", "milieu"};
   std::size_t next = at + 1;
@@ -69,7 +70,7 @@ bool begins_an_interval(const Remark& words, std::size_t at) {
     }
   }
   if (numbers.size() == 2) return numbers.front() != 0.0;
-  constexpr std::array<std::string_view, 8> kStarts{"starts",   "start",   "begins",   "beginning",
+  constexpr std::array<std::string_view, 9> kStarts{"edge",     "starts",  "start",    "begins", "beginning",
                                                     "starting", "beginnt", "commence", "first"};
   const bool starts = std::any_of(words.begin(), words.begin() + static_cast<std::ptrdiff_t>(at),
                                   [&](const RemarkWord& word) { return is_among(word.folded, kStarts); });

@@ -48,8 +48,8 @@ bool may_be_a_word(std::string_view name) {
 }
 
 double neutral_number(std::string_view name) {
-  constexpr std::array<std::string_view, 7> kAdded{"offset", "intercept", "exponent", "waves",
-                                                   "power",  "normal",    "normed"};
+  constexpr std::array<std::string_view, 9> kAdded{"offset", "intercept", "exponent", "waves", "power",
+                                                   "normal", "normed",    "flip",     "negat"};
   const std::string folded = fold_letters(name);
   return std::any_of(kAdded.begin(), kAdded.end(), [&](std::string_view word) { return holds(folded, word); }) ? 0.0
                                                                                                                : 1.0;

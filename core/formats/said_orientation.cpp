@@ -61,6 +61,8 @@ AxisOrder order_of(const std::vector<std::string>& words) {
   };
   if (among(kUsual, "order")) return AxisOrder::RowsFirst;
   if (among(kTurned, "order") || all == "colmajor") return AxisOrder::ColumnsFirst;
+  if (words.size() == 1 && is_among(all, kRowWords)) return AxisOrder::RowsFirst;
+  if (words.size() == 1 && is_among(all, kColumnWords)) return AxisOrder::ColumnsFirst;
   if (words.size() < 2) return AxisOrder::Unknown;
   const std::string &first = words[words.size() - 2], &last = words.back();
   if (is_among(first, kRowWords) && is_among(last, kColumnWords)) return AxisOrder::RowsFirst;

@@ -155,8 +155,9 @@ bool TextHeader::take(HeaderKey key, std::string_view value, bool loose) {
       // "height [10 nm]" gives the values in steps of 10 nm.
       return !(loose && value.find_first_of("([") == 0) && take_size(key, value);
     case MapTopic::Origin:
-      return meaning.moves || meaning.trust == InText::Doubtful ? take_offset(key, value, meaning.moves)
-                                                                : take_origin(key, value, sure && !prose);
+      if (meaning.moves || meaning.trust == InText::Doubtful) return take_offset(key, value, meaning.moves);
+      if (take_origin(key, value, sure && !prose)) return true;
+      return !loose && key.axis != 0 && take_start(key, value);  // "xmin = -25", without a unit
     case MapTopic::NoData:
       return take_no_data(key, value, sure && !loose, sure);
     case MapTopic::ValueScale:

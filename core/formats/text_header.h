@@ -52,6 +52,7 @@ class TextHeader {
   bool take_size(const HeaderKey& key, std::string_view value);
   bool take_origin(const HeaderKey& key, std::string_view value, bool sure);
   bool take_offset(const HeaderKey& key, std::string_view value, bool moves);
+  bool take_start(const HeaderKey& key, std::string_view value);
   bool take_interval(const HeaderKey& key, const HeaderLengths& lengths, std::string_view value);
   bool take_no_data(const HeaderKey& key, std::string_view value, bool sure, bool named);
   bool take_scale(const HeaderKey& key, std::string_view value, bool loose);

@@ -115,6 +115,12 @@ bool TextHeader::take_size(const HeaderKey& key, std::string_view value) {
   return true;
 }
 
+/// "xmin = -25": without a unit; 0 is where maps begin.
+bool TextHeader::take_start(const HeaderKey& key, std::string_view value) {
+  const auto number = finite_number(value);
+  return number && *number != 0.0 && take_offset(key, value, false);
+}
+
 /// "x range: -25 25": from where to where, along one axis.
 bool TextHeader::take_interval(const HeaderKey& key, const HeaderLengths& lengths, std::string_view value) {
   if (lengths.numbers.size() != 2 || !key.has("range")) return false;

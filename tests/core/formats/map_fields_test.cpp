@@ -139,16 +139,32 @@ TEST(MapFields, AskWhichWayTheMapLiesAndWhatItsNumbersAre) {
     return header.unclear.empty() ? std::nullopt : std::optional(header.unclear[0].about);
   };
   const MapField labels{"DIMENSION_LABELS", {}, {"x", "y"}, "field DIMENSION_LABELS", {}};
-  for (const MapField& field :
-       {labels, text("dims", "x,y"), text("dims", "lon, lat"), text("axes", "xy"), number("axes", {1, 0}),
-        text("order", "F"), text("y_axis", "down"), number("y_axis", {-1}), number("x_sign", {-1}),
-        number("FLIPY", {1}), number("flipud", {1}), number("rotation_deg", {90}), text("view", "from the back"),
-        text("mirror", "x"), text("transform", "rot90"), text("handedness", "left"), text("origin", "upper")}) {
+  for (const MapField& field : {labels,
+                                text("dims", "x,y"),
+                                text("dims", "lon, lat"),
+                                text("axes", "xy"),
+                                number("axes", {1, 0}),
+                                text("order", "F"),
+                                text("y_axis", "down"),
+                                number("y_axis", {-1}),
+                                number("x_sign", {-1}),
+                                number("FLIPY", {1}),
+                                number("flipud", {1}),
+                                number("rotation_deg", {90}),
+                                text("view", "from the back"),
+                                text("mirror", "x"),
+                                text("transform", "rot90"),
+                                text("handedness", "left"),
+                                text("first_axis", "x"),
+                                text("rows", "x"),
+                                number("y_down", {1}),
+                                text("origin", "upper")}) {
     EXPECT_EQ(asked(field), About::Rows) << field.name;
   }
-  for (const MapField& field : {number("exponent", {-6}), text("prefix", "micro"), number("sign", {-1}),
-                                text("z_sign", "negative"), number("fringe_nm", {316}), number("counts_to_nm", {0.25}),
-                                number("normalized", {1}), number("divisor", {10}), text("height", "10 nm")}) {
+  for (const MapField& field :
+       {number("exponent", {-6}), text("prefix", "micro"), number("sign", {-1}), text("z_sign", "negative"),
+        number("fringe_nm", {316}), number("counts_to_nm", {0.25}), number("normalized", {1}), number("divisor", {10}),
+        number("to_nm", {0.3}), number("mult", {2}), text("height", "10 nm")}) {
     EXPECT_EQ(asked(field), About::Factor) << field.name;
   }
   for (const MapField& field : {number("mask", {9}), number("background", {9}), number("bad", {7})}) {
@@ -164,6 +180,8 @@ TEST(MapFields, AskWhichWayTheMapLiesAndWhatItsNumbersAre) {
                                 number("axes", {0, 1}),
                                 text("order", "C"),
                                 text("order", "zernike"),
+                                text("rows", "y"),
+                                number("rows", {9}),
                                 number("order", {4}),
                                 text("y_axis", "up"),
                                 number("y_axis", {1}),
@@ -186,8 +204,9 @@ TEST(MapFields, AskWhichWayTheMapLiesAndWhatItsNumbersAre) {
     EXPECT_EQ(said({field}).unclear_origin, "") << field.name;
   }
   EXPECT_FALSE(said({text("x_label", "x [mm]")}).header.unit) << "that of x";
-  for (const MapField& field : {number("x_mm", {10}), number("x", {0, 1, 2}), number("ref_pixel", {5, 6}),
-                                number("x_range", {-25, 25}), number("xc", {3}), number("y_axis", {0, 1, 2})}) {
+  for (const MapField& field :
+       {number("x_mm", {10}), number("x", {0, 1, 2}), number("ref_pixel", {5, 6}), number("x_range", {-25, 25}),
+        number("xc", {3}), number("origin_px", {6, 5}), number("left_mm", {-3}), number("y_axis", {0, 1, 2})}) {
     EXPECT_NE(said({field}).unclear_origin, "") << field.name;
   }
   for (const MapField& field : {number("x_mm", {0}), number("x_range", {0, 25}), number("ref_pixel", {0, 0})}) {

@@ -72,6 +72,8 @@ TEST(RemarkGuard, LetsProsePass) {
                              "removal of 20 nm planned",
                              "phase shift 90 deg",
                              "rotated by 0 deg",
+                             "mirror rotated to 0 deg",
+                             "lens f = 100 mm x 2",
                              "rows = y, columns = x",
                              "rows along x",
                              "axis 0 = y, axis 1 = x",
@@ -148,6 +150,8 @@ TEST(RemarkGuard, FindsAFactor) {
                              "normalised",
                              "normalized to the peak",
                              "arbitrary units",
+                             "factor two",
+                             "x 10^-6",
                              "values in %",
                              "micro",
                              "divisor 1000"});
@@ -175,16 +179,16 @@ TEST(RemarkGuard, FindsAnOrientation) {
 }
 
 TEST(RemarkGuard, FindsAPlaceOfTheMap) {
-  expect_all(About::Origin,
-             {"centre at 50, 50", "origin: center", "extent 0 100 0 80", "Mitte bei 12,5", "x from -25 to 25 mm",
-              "x: -25 to 25", "x = -25:0.5:25", "-25 < x < 25", "y in [-25, 25]", "starts at x = -25 mm"});
-  expect_all(About::Shift, {"shifted by 3 mm", "x offset 10"});
+  expect_all(About::Origin, {"centre at 50, 50", "origin: center", "extent 0 100 0 80", "Mitte bei 12,5",
+                             "x from -25 to 25 mm", "x: -25 to 25", "x = -25:0.5:25", "-25 < x < 25", "y in [-25, 25]",
+                             "starts at x = -25 mm", "left edge at x=-25 mm", "origin at pixel (6,5)"});
+  expect_all(About::Shift, {"shifted by 3 mm", "x offset 10", "offset: x=10, y=5 mm"});
   EXPECT_FALSE(suspects("centre of the mirror", About::Origin));
 }
 
 TEST(RemarkGuard, FindsAMarkerOfNoData) {
   expect_all(About::NoData, {"missing pixels set to -9999", "-1 = no data", "bad pixels are 0", "outside the part: 9",
-                             "background is 9"});
+                             "padded with 9", "dead pixels set to 9", "background is 9"});
 }
 
 TEST(RemarkGuard, SaysWhatWouldBeClearWhereTheRemarkStands) {

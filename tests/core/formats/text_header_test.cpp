@@ -143,6 +143,7 @@ TEST(TextHeader, AsksWhichWayTheMapLiesAndWhatItsNumbersAre) {
   const MapHeader step = header_of("# height: 10 nm");
   ASSERT_FALSE(step.unclear.empty());
   EXPECT_EQ(step.unclear[0].about, About::Factor) << "a step of the values, or a field?";
+  expect_unclear("# xmin=-25", About::Origin, {"xmin", "origin_mm"});
   expect_unclear("# x range: -25 25", About::Origin, {"x range", "origin_mm"});
   expect_unclear("# reference pixel: 5, 6", About::Origin, {"reference pixel"});
   for (const char* line :
