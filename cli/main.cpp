@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <exception>
+#include <filesystem>
 #include <new>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "cli/commands.h"
@@ -70,6 +72,11 @@ int fail(int exit_code, const char* prefix, const std::exception& error) {
   return exit_code;
 }
 
+constexpr const char* kNoThread =
+    "no thread can be started: the limit of processes (ulimit -u) or of memory (ulimit -v) is too low, or the machine "
+    "is "
+    "full: ";
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -97,6 +104,11 @@ int main(int argc, char** argv) {
     return fail(kInternalFault, "", error);
   } catch (const std::bad_alloc&) {
     return fail(kInternalFault, "", std::runtime_error(out_of_memory_message()));
+  } catch (const std::filesystem::filesystem_error& error) {
+    return fail(kInternalFault, "internal fault: ", error);
+  } catch (const std::system_error& error) {
+    const bool lacking = error.code() == std::errc::resource_unavailable_try_again;  // of a thread
+    return fail(kInternalFault, lacking ? kNoThread : "internal fault: ", error);
   } catch (const std::exception& error) {
     return fail(kInternalFault, "internal fault: ", error);
   }

@@ -14,6 +14,7 @@
 #include "core/base/text_lines.h"
 #include "core/base/units.h"
 #include "core/base/whole_file.h"
+#include "core/formats/path_remark.h"
 #include "core/map/unit_mention.h"
 #include "core/map/value_units.h"
 
@@ -87,6 +88,12 @@ class PathFileReader {
           fmt::format("{}: line {}: \"{}\" in the comment \"{}\" looks like another unit; accepted: x_mm and y_mm in "
                       "mm, or the comment without a unit",
                       name_, line_number_, printable_text(*unit), printable_text(trim(comment))));
+    }
+    if (const auto other = find_other_places(comment); other && !comment.starts_with(" option:")) {
+      throw InputError(
+          fmt::format("{}: line {}: the comment \"{}\" looks like {}; accepted: x_mm and y_mm in mm in the "
+                      "system of the map, or the comment left out",
+                      name_, line_number_, printable_text(trim(comment)), *other));
     }
     if (end == std::string_view::npos) return;
     const std::string key = lower_case(trim(comment.substr(0, end)));

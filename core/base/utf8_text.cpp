@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 
 namespace dwell {
 
@@ -33,6 +34,25 @@ bool is_utf8(std::string_view text) {
     text.remove_prefix(length);
   }
   return true;
+}
+
+std::string with_bytes_of_escapes(std::string_view text) {
+  constexpr std::size_t kLength = 4;  // of \xE9
+  constexpr int kSixteen = 16;
+  std::string out;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    unsigned char byte = 0;
+    const std::string_view escape = text.substr(i, kLength);
+    const char* const end = escape.data() + escape.size();
+    if (escape.size() == kLength && escape.starts_with("\\x") &&
+        std::from_chars(escape.data() + 2, end, byte, kSixteen).ptr == end) {
+      out += static_cast<char>(byte);
+      i += kLength - 1;
+    } else {
+      out += text[i];
+    }
+  }
+  return out;
 }
 
 std::string with_escaped_bytes(std::string_view text) {

@@ -15,4 +15,7 @@ bool is_utf8(std::string_view text);
 /// comments of programs may not. What is UTF-8 stays as it is.
 std::string with_escaped_bytes(std::string_view text);
 
+/// The text with each \xE9 as that byte: what with_escaped_bytes was given, unless that held such letters itself.
+std::string with_bytes_of_escapes(std::string_view text);
+
 }  // namespace dwell

@@ -63,6 +63,12 @@ std::optional<double> take_length(std::vector<std::string>& words, bool& per_pix
   return *nm / units::kNmPerMm;
 }
 
+/// A unit of angle at the end of a name says nothing more: rotation_deg.
+void cut_angle(std::vector<std::string>& words) {
+  constexpr std::string_view kAngles[] = {"deg", "degree", "degrees", "rad", "mrad", "grad"};
+  if (words.size() > 1 && is_among(words.back(), kAngles)) words.pop_back();
+}
+
 /// The x or y that stands alone among the words; takes it away.
 FieldAxis take_axis(std::vector<std::string>& words) {
   for (const auto& [letter, axis] : {std::pair{"x", FieldAxis::X}, {"y", FieldAxis::Y}}) {
@@ -72,6 +78,17 @@ FieldAxis take_axis(std::vector<std::string>& words) {
     return axis;
   }
   return FieldAxis::Both;
+}
+
+/// "counts_to_nm", "dn2nm", "nm_per_volt": a factor from what the file holds to heights. A rate ("mm_per_min") is none.
+bool is_conversion(const std::vector<std::string>& words) {
+  const std::string& last = words.back();
+  const std::size_t two = last.find('2');
+  if (two != std::string::npos && two > 0 && known_length_unit(last.substr(two + 1))) return true;
+  if (words.size() < 3) return false;
+  const std::string &middle = words[words.size() - 2], &before = words[words.size() - 3];
+  if (middle == "to") return known_length_unit(last).has_value() && !known_length_unit(before);
+  return middle == "per" && known_length_unit(before) && !is_pixel(last) && !known_rate_unit(before + "/" + last);
 }
 
 std::string joined(const std::vector<std::string>& words) {
@@ -155,12 +172,18 @@ FieldName parse_field_name(std::string_view name) {
     field.clear = true;
     return field;
   }
+  if (is_conversion(words)) {
+    field.topic = MapTopic::ValueScale;
+    return field;
+  }
   bool per_pixel = false;
   field.mm = take_length(words, per_pixel);
+  cut_angle(words);
   take_context(words);
   const bool camera = take_camera(words);
   field.axis = take_axis(words);
   std::string word = joined(words);
+  field.place = word == "x" || word == "y";
   if (field.axis == FieldAxis::Both) field.axis = take_grown_axis(word);
   if (word.ends_with("mm") && !field.mm && is_clear_pitch(word.substr(0, word.size() - 2))) {
     word.resize(word.size() - 2);  // PITCHMM

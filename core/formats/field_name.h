@@ -17,6 +17,7 @@ struct FieldName {
   bool clear = false;
   bool middle = false;  // of the map: 0 is no place of its first pixel
   bool values = false;  // it is a word for the values: z, height, surface
+  bool place = false;   // it is x or y alone, with a unit or not: the place of a pixel, or coordinates
 };
 
 /// Reads a name in any spelling: pixel_size_um, "Pixel size (um)", PixelSizeX, XPIXSZ. Cost O(length of the name).

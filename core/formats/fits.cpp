@@ -17,6 +17,7 @@
 #include "core/formats/isolated_reader.h"
 #include "core/formats/packed_values.h"
 #include "core/formats/unpacked_size.h"
+#include "core/formats/wavefront_words.h"
 
 namespace dwell {
 namespace {
@@ -118,6 +119,13 @@ Image find_image(fitsfile* file, const std::string& name, const std::string& whe
   return found;
 }
 
+/// Whether an image is called a path difference, but not the one that is read.
+bool another_is_wavefront(fitsfile* file, const Image& read, const std::string& where) {
+  if (names_wavefront(read.name)) return false;
+  const std::vector<Image> images = images_of(file, where);
+  return std::any_of(images.begin(), images.end(), [](const Image& image) { return names_wavefront(image.name); });
+}
+
 /// Throws unless the file holds the numbers of the image that is open.
 void check_data(fitsfile* file, const Image& image, std::size_t size, const std::string& where) {
   LONGLONG begin = 0;
@@ -212,7 +220,9 @@ MapSource read_fits(std::string_view bytes, const std::string& name, const std::
   check_data(file.get(), found, bytes.size(), where);
   check_unpacked(static_cast<double>(found.rows), static_cast<double>(found.cols), static_cast<double>(bytes.size()),
                  limit, where);
-  return read_image(file.get(), found, where);
+  MapSource source = read_image(file.get(), found, where);
+  source.header.other_is_wavefront = another_is_wavefront(file.get(), found, where);
+  return source;
 }
 
 }  // namespace

@@ -144,7 +144,8 @@ std::optional<double> unit_of_comment(const std::string& comment) {
 /// The same card as a field; nothing if neither its name nor its text can speak of a map.
 std::optional<MapField> field_of_card(const Card& card, const Keywords& keywords) {
   const FieldName name = parse_field_name(card.name);
-  const bool says_nothing = name.topic == MapTopic::Other && !card.is_text() && !names_wavelength(card.name);
+  const bool says_nothing =
+      name.topic == MapTopic::Other && !name.place && !card.is_text() && !names_wavelength(card.name);
   if (is_read_elsewhere(card.name) || says_nothing) return std::nullopt;
   MapField field;
   field.name = card.name;
@@ -160,6 +161,7 @@ std::optional<MapField> field_of_card(const Card& card, const Keywords& keywords
     field.numbers = {*number};
   } else if (card.value == "T" || card.value == "F") {
     field.numbers = {card.value == "T" ? 1.0 : 0.0};
+    field.logical = true;
   }
   return field;
 }
@@ -235,22 +237,73 @@ void add_wavefronts(const std::vector<Card>& cards, const std::string& where, Ma
   }
 }
 
-/// World coordinates without a unit, or in none of length, leave the origin open; unless they are of the sky, which no
-/// map is laid out in.
+/// Whether an axis is of the sky, which no map is laid out in.
+bool is_of_the_sky(const Keywords& keywords, const std::string& n) {
+  constexpr std::array kSky{"RA--", "DEC-", "GLON", "GLAT", "ELON", "ELAT", "HPLN", "HPLT"};
+  const std::string type = keywords.text("CTYPE" + n).value_or("");
+  const std::string unit = lower_case(keywords.text("CUNIT" + n).value_or(""));
+  return std::any_of(kSky.begin(), kSky.end(), [&](const char* begin) { return type.starts_with(begin); }) ||
+         unit.starts_with("deg") || unit.starts_with("arcsec");
+}
+
+/// World coordinates without a unit, or in none of length, leave the origin open; unless they are of the sky.
 std::string unclear_world(const Keywords& keywords) {
   std::string unclear;
+  const auto add = [&](const std::string& name, double value, const std::string& n) {
+    unclear += fmt::format("{}FITS keyword {}{} = {} with CUNIT{} = {}", unclear.empty() ? "" : ", ", name, n, value, n,
+                           in_quotes(keywords.text("CUNIT" + n).value_or("")));
+  };
   for (const std::string n : {"1", "2"}) {
-    const std::string type = keywords.text("CTYPE" + n).value_or(""), unit = keywords.text("CUNIT" + n).value_or("");
-    constexpr std::array kSky{"RA--", "DEC-", "GLON", "GLAT", "ELON", "ELAT", "HPLN", "HPLT"};
-    const bool sky =
-        std::any_of(kSky.begin(), kSky.end(), [&](const char* begin) { return type.starts_with(begin); }) ||
-        lower_case(unit).starts_with("deg") || lower_case(unit).starts_with("arcsec");
-    const double value = keywords.number("CRVAL" + n).value_or(0.0);
-    if (sky || value == 0.0) continue;
-    unclear += fmt::format("{}FITS keyword CRVAL{} = {} with CUNIT{} = {}", unclear.empty() ? "" : ", ", n, value, n,
-                           in_quotes(unit));
+    if (is_of_the_sky(keywords, n)) continue;
+    const double value = keywords.number("CRVAL" + n).value_or(0.0), pixel = keywords.number("CRPIX" + n).value_or(0.0);
+    if (value != 0.0) add("CRVAL", value, n);
+    if (pixel != 0.0 && pixel != 1.0) add("CRPIX", pixel, n);
   }
   return unclear;
+}
+
+/// Axes whose names, steps or turns say that they are not x to the right and y up.
+void question_axes(const Keywords& keywords, const std::string& where, MapHeader& header) {
+  const auto add = [&](const std::string& name, const std::string& value) {
+    header.unclear.push_back(
+        {UnclearStatement::About::Rows,
+         fmt::format("{}: FITS keyword {} = {} looks like an orientation; the first axis is that of x to the right, "
+                     "the second that of y upwards",
+                     where, name, value)});
+  };
+  for (const std::string n : {"1", "2"}) {
+    if (is_of_the_sky(keywords, n)) return;
+    for (const std::string& name : {"CTYPE" + n, "CNAME" + n}) {
+      const std::string value = keywords.text(name).value_or("");
+      const FieldName said = parse_field_name(value);
+      const char first = value.empty() ? ' ' : lower_case(value).front();
+      if (said.place && first == (n == "1" ? 'y' : 'x')) add(name, in_quotes(value));
+    }
+    const auto step = step_of(keywords, n);
+    if (step && step->second < 0.0) add(step->first, fmt::format("{}", step->second));
+  }
+  for (const std::string name : {"CD1_2", "CD2_1", "PC1_2", "PC2_1", "CROTA1", "CROTA2"}) {
+    const double turned = keywords.number(name).value_or(0.0);
+    if (turned != 0.0) add(name, fmt::format("{}", turned));
+  }
+  for (const std::string name : {"PC1_1", "PC2_2"}) {
+    const double along = keywords.number(name).value_or(1.0);
+    if (along < 0.0) add(name, fmt::format("{}", along));
+  }
+}
+
+/// SCALE may be the plate scale of a telescope, the pitch, or a factor of the values.
+void question_scale(const std::vector<Card>& cards, const std::string& where, MapHeader& header) {
+  for (const Card& card : cards) {
+    const auto number = card.number();
+    const bool of_pixels = unit_of_comment(card.comment) || lower_case(card.comment).find("pix") != std::string::npos;
+    if (card.name != "SCALE" || !number || *number == 1.0 || of_pixels) continue;
+    if (header.pitch && header.pitch->x == *number) continue;
+    header.unclear.push_back({UnclearStatement::About::Factor,
+                              fmt::format("{}: FITS keyword SCALE = {} looks like a factor of the values, which are "
+                                          "read as they are",
+                                          where, *number)});
+  }
 }
 
 void add_world(const Keywords& keywords, SaidOfMap& said, const std::string& where) {
@@ -294,7 +347,9 @@ FitsHeader read_fits_header(fitsfile* file, const std::string& where) {
   guard_remarks(cards, where, header.said.header);
   if (!keywords.number("PITCHMM")) take_binning(keywords, header.said);
   add_wavefronts(cards, where, header.said.header);
+  question_axes(keywords, where, header.said.header);
   add_world(keywords, header.said, where);
+  question_scale(cards, where, header.said.header);
   for (int step = 1; const auto made = keywords.text(fmt::format("MADE{}", step)); ++step) {
     header.said.header.history.push_back(*made);
   }

@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/base/errors.h"
 #include "core/base/number_text.h"
 #include "core/base/units.h"
+#include "core/formats/field_name.h"
 #include "core/formats/hdf5_fields.h"
 #include "core/formats/hdf5_packing.h"
 #include "core/map/value_units.h"
@@ -42,6 +44,29 @@ std::string neighbour(const Hdf5File& file, const std::string& path, char letter
     if (letter_of(other) != letter || other == path) continue;
     const auto values = file.table(other);
     if (values && values->texts.empty() && values->numbers.size() == count && count > 1) return other;
+  }
+  return "";
+}
+
+/// Whether the name is that of coordinates alone: x, "X_mm", xx, but not x_slope.
+bool names_coordinates(const std::string& path, char letter) {
+  constexpr std::array<const char*, 5> kEndings{"", "grid", "mesh", "coord", "coords"};
+  std::string name;
+  for (const char c : lower_case(last_name(path))) {
+    if (std::isalnum(static_cast<unsigned char>(c)) != 0) name += c;
+  }
+  const std::string axis(1, letter);
+  const bool known = name == axis + axis ||
+                     std::any_of(kEndings.begin(), kEndings.end(), [&](const char* end) { return name == axis + end; });
+  return known || (letter_of(path) == letter && parse_field_name(last_name(path)).place);
+}
+
+/// A data set beside the map with the name of the coordinates but another length; empty if there is none.
+std::string misfit(const Hdf5File& file, const std::string& path, char letter) {
+  for (const std::string& other : file.data_sets_in(group_of(path))) {
+    if (other == path || !names_coordinates(other, letter)) continue;
+    const auto values = file.table(other);
+    if (values && values->texts.empty() && values->numbers.size() > 1) return other;
   }
   return "";
 }
@@ -97,6 +122,41 @@ void check_regular(const std::vector<double>& values, double pitch, const std::s
   }
 }
 
+/// The data set of x or y at each pixel of the map, as meshgrid makes them; empty if there is none.
+std::string mesh_beside(const Hdf5File& file, const std::string& path, char letter) {
+  for (const std::string& other : file.matrices()) {
+    if (other != path && group_of(other) == group_of(path) && names_coordinates(other, letter)) return other;
+  }
+  return "";
+}
+
+/// The coordinates of a mesh along its axis. Throws unless they are the same in every other row (or column).
+std::vector<double> coordinates_of_mesh(const Hdf5File& file, const std::string& mesh, const AxisName& axis,
+                                        const Hdf5Matrix& map, const std::string& where) {
+  const Hdf5Matrix all = file.matrix(mesh);
+  if (all.rows != map.rows || all.cols != map.cols) {
+    refuse(where, mesh,
+           fmt::format("{}, holds {} x {} numbers; {} x {} are required", axis.lines, all.rows, all.cols, map.rows,
+                       map.cols));
+  }
+  const bool along_rows = axis.index == 0;
+  std::vector<double> values;
+  for (std::size_t i = 0; i < (along_rows ? all.rows : all.cols); ++i) {
+    values.push_back(all.values[along_rows ? i * all.cols : i]);
+  }
+  const double span = std::abs(values.back() - values.front());
+  const double tolerance = values.size() > 1 ? kIrregular * span / static_cast<double>(values.size() - 1) : 0.0;
+  for (std::size_t i = 0; i < all.values.size(); ++i) {
+    const double expected = values[along_rows ? i / all.cols : i % all.cols];
+    if (std::abs(all.values[i] - expected) <= tolerance) continue;
+    refuse(where, mesh,
+           fmt::format("{}: {} in row {}, column {}, but {} at the edge; y along the first index alone and x along the "
+                       "second are required",
+                       axis.lines, all.values[i], i / all.cols + 1, i % all.cols + 1, expected));
+  }
+  return values;
+}
+
 std::optional<double> mm_of(const Hdf5File& file, const std::string& scale, const std::string& where) {
   const std::vector<MapField> fields = fields_of_data_set(file, scale);
   std::string unit = read_map_fields(fields, where).header.unit.value_or("");
@@ -105,12 +165,19 @@ std::optional<double> mm_of(const Hdf5File& file, const std::string& scale, cons
   return nm ? std::optional(*nm / units::kNmPerMm) : std::nullopt;
 }
 
-Hdf5Axis axis_of(const Hdf5File& file, const std::string& path, const AxisName& name, std::size_t count,
+Hdf5Axis axis_of(const Hdf5File& file, const std::string& path, const AxisName& name, const Hdf5Matrix& matrix,
                  const std::string& where) {
   Hdf5Axis axis;
+  const std::size_t count = name.index == 0 ? matrix.rows : matrix.cols;
   axis.path = scale_path(file, path, name, count, where);
-  if (axis.path.empty()) return axis;
-  const std::vector<double> values = coordinates(file, axis.path, name, count, where);
+  const bool mesh = axis.path.empty();
+  if (mesh) axis.path = mesh_beside(file, path, name.letter);
+  if (axis.path.empty()) {
+    axis.misfit = misfit(file, path, name.letter);
+    return axis;
+  }
+  const std::vector<double> values = mesh ? coordinates_of_mesh(file, axis.path, name, matrix, where)
+                                          : coordinates(file, axis.path, name, count, where);
   const double pitch = count < 2 ? 0.0 : (values.back() - values.front()) / static_cast<double>(count - 1);
   if (count > 1) check_regular(values, pitch, axis.path, name, where);
   axis.descending = pitch < 0.0;
@@ -165,6 +232,10 @@ void add_origin(const Hdf5Axes& axes, SaidOfMap& said, const std::string& where)
 
 /// Coordinates in no known unit, or of one axis alone, say that there is a pitch and an origin, but not which.
 void add_unclear(const Hdf5Axis& axis, SaidOfMap& said) {
+  if (!axis.misfit.empty() && !said.header.origin) {
+    said.unclear_origin += fmt::format("{}coordinates '{}', which are not as many as the map's",
+                                       said.unclear_origin.empty() ? "" : ", ", axis.misfit);
+  }
   if (axis.path.empty() || axis.counts) return;
   const std::string shown =
       fmt::format("coordinates '{}'{}", axis.path, axis.in_mm ? "" : " without a unit of length (mm, um, m)");
@@ -177,7 +248,7 @@ void add_unclear(const Hdf5Axis& axis, SaidOfMap& said) {
 
 Hdf5Axes axes_of_data_set(const Hdf5File& file, const std::string& path, const Hdf5Matrix& matrix,
                           const std::string& where) {
-  return {axis_of(file, path, kRows, matrix.rows, where), axis_of(file, path, kCols, matrix.cols, where)};
+  return {axis_of(file, path, kRows, matrix, where), axis_of(file, path, kCols, matrix, where)};
 }
 
 void apply_axes(const Hdf5Axes& axes, Hdf5Matrix& matrix, SaidOfMap& said, const std::string& where) {

@@ -16,15 +16,16 @@ struct Hdf5Axis {
   std::optional<double> pitch;  // [mm], where they name a unit of length; of a single one there is none
   double smallest = 0.0;        // [mm], with a unit
   bool in_mm = false;           // whether they name a unit of length
+  std::string misfit;           // of a data set that has the name but another length; empty if there is none
 };
 
 struct Hdf5Axes {
   Hdf5Axis rows, cols;
 };
 
-/// The coordinates of a matrix: the scales attached to it, as netCDF-4 has them, or one-dimensional data sets x and y
-/// beside it that are as long as its columns and rows. Throws InputError, beginning with `where`, for coordinates that
-/// are not regular to 0.05 of a pitch, are not as many as the matrix has rows or columns, or name x for the rows.
+/// The coordinates of a matrix: the scales attached to it, as netCDF-4 has them, or data sets x and y beside it, either
+/// as long as its columns and rows or of its size (a mesh). Throws InputError, beginning with `where`, for coordinates
+/// that are not regular to 0.05 of a pitch, are not as many as the matrix has rows or columns, or name x for the rows.
 Hdf5Axes axes_of_data_set(const Hdf5File& file, const std::string& path, const Hdf5Matrix& matrix,
                           const std::string& where);
 

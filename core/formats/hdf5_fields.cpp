@@ -28,7 +28,7 @@ MapField hdf5_field(const std::string& name, const std::optional<Hdf5Value>& val
   MapField field;
   field.name = name;
   field.shown = shown;
-  if (value) field.numbers = value->numbers, field.texts = value->texts;
+  if (value) field.numbers = value->numbers, field.texts = value->texts, field.logical = value->enumerated;
   return field;
 }
 
@@ -37,7 +37,8 @@ void add_neighbours(const Hdf5File& file, const std::string& path, std::vector<M
   for (const std::string& other : file.data_sets_in(group_of(path))) {
     const MapTopic topic = parse_field_name(last_name(other)).topic;
     const bool speaks = topic == MapTopic::ValueUnit || topic == MapTopic::LateralUnit || topic == MapTopic::Pitch ||
-                        topic == MapTopic::Origin || topic == MapTopic::NoData;
+                        topic == MapTopic::Origin || topic == MapTopic::NoData || topic == MapTopic::ValueScale ||
+                        topic == MapTopic::Orientation || topic == MapTopic::AxisOrder;
     if (!speaks || other == path) continue;
     const auto value = file.table(other);
     if (!value || value->numbers.size() + value->texts.size() > 2) continue;  // an array of its own
@@ -67,7 +68,7 @@ std::vector<MapField> fields_of_group(const Hdf5File& file, const std::string& g
         known.topic == MapTopic::ValueUnit || known.topic == MapTopic::LateralUnit || known.topic == MapTopic::Pitch ||
         known.topic == MapTopic::NoData || (known.topic == MapTopic::Origin && known.clear) ||
         (known.topic == MapTopic::ValueScale && (of_heights || !known.clear)) || known.topic == MapTopic::Orientation ||
-        known.topic == MapTopic::Label || known.topic == MapTopic::Other;
+        known.topic == MapTopic::AxisOrder || known.topic == MapTopic::Label || known.topic == MapTopic::Other;
     if (!speaks) continue;
     const auto value = file.attribute(group, name);
     // Of what has no topic, a text may still say something.

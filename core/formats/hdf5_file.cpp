@@ -62,6 +62,13 @@ bool append(hid_t native, const unsigned char* bytes, Hdf5Value& value) {
     case H5T_FLOAT:
       value.numbers.push_back(number_at(native, bytes));
       return true;
+    case H5T_ENUM: {
+      const Type base(H5Tget_super(native));
+      if (!base || !is_number(base.id())) return false;
+      value.numbers.push_back(number_at(base.id(), bytes));
+      value.enumerated = true;
+      return true;
+    }
     case H5T_STRING:
       value.texts.push_back(text_at(native, bytes));
       return true;

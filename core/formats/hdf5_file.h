@@ -21,6 +21,7 @@ struct Hdf5Member;
 struct Hdf5Value {
   std::vector<double> numbers;
   std::size_t floating_bytes = 0;  // of each number in the file if these are floating-point, else 0
+  bool enumerated = false;         // the numbers stand for words, mostly no and yes
   std::vector<std::string> texts;
   std::vector<Hdf5Member> members;
 

@@ -66,6 +66,9 @@ MapSource read_plain_matrix(const Hdf5File& file, const std::string& path, const
   SaidOfMap said = said_of_data_set(file, path, where);
   said.header.history = history_of(file, path, where);
   note_wavefront(path, where, fmt::format("the name of HDF5 data set '{}'", path), said.header);
+  const std::vector<std::string> all = file.matrices();
+  const auto is_wavefront = [](const std::string& name) { return names_wavefront(name); };
+  said.header.other_is_wavefront = !is_wavefront(path) && std::any_of(all.begin(), all.end(), is_wavefront);
   Hdf5Matrix matrix = file.matrix(path, limit);
   // Markers are stored values here, so they go before scale and offset.
   const std::vector<double> markers = std::exchange(said.header.no_data, {});

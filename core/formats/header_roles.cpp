@@ -71,10 +71,15 @@ const MapTerm* find_term(HeaderKey& key) {
   return nullptr;
 }
 
-/// Along z a step or an offset is one of the values, and an extent says nothing of how they are read.
+/// "counts to nm": a factor from what the file holds to heights.
+bool is_conversion_key(const HeaderKey& key) {
+  return key.words.size() > 1 && key.words.back() == "to" && !key.unit.empty();
+}
+
+/// Along z a step, an offset or a sign is one of the values, and an extent says nothing of how they are read.
 HeaderMeaning meaning_along_z(const MapTerm& term) {
   const bool offset = term.word == "offset" || term.word == "off";
-  if (term.topic == MapTopic::Pitch || term.topic == MapTopic::ValueScale || offset) {
+  if (term.topic == MapTopic::Pitch || term.topic == MapTopic::ValueScale || offset || term.word == "sign") {
     return {MapTopic::ValueScale, InText::Doubtful};
   }
   return {};
@@ -115,6 +120,7 @@ HeaderMeaning meaning_of(HeaderKey& key) {
   if (key.per_pixel && (key.words.empty() || key.has("scale") || key.has("pixel"))) {
     return {MapTopic::Pitch, InText::Sure};
   }
+  if (is_conversion_key(key)) return {MapTopic::ValueScale, InText::Doubtful};
   const bool unit = std::any_of(key.words.begin(), key.words.end(),
                                 [](const std::string& word) { return is_unit_name(word) || is_unit_of_z(word); });
   if (unit) return meaning_of_unit(key);

@@ -73,12 +73,12 @@ template <class Source, class Each>
 void each_field(Source& source, Each each) {
   auto& [rows, cols, values, raw_factor, header, pitch_hint, pitch_field, unclear_origin, camera_pixel] = source;
   auto& [pitch, origin, unit, no_data, unclear, places_known, history, pitch_rounding, wavelength, wave_scale,
-         from_waves, wave_field] = header;
+         from_waves, wave_field, other_is_wavefront] = header;
   static_cast<void>(values);  // come last, and fill the rest
   each(rows), each(cols), each(raw_factor), each(no_data), each(pitch_hint), each(pitch_field), each(unclear_origin),
       each(camera_pixel);
   each(pitch), each(origin), each(unit), each(unclear), each(places_known), each(history), each(pitch_rounding);
-  each(wavelength), each(wave_scale), each(from_waves), each(wave_field);
+  each(wavelength), each(wave_scale), each(from_waves), each(wave_field), each(other_is_wavefront);
 }
 
 class FieldWriter {

@@ -10,7 +10,10 @@
 #include "core/base/units.h"
 #include "core/base/word_list.h"
 #include "core/formats/field_name.h"
+#include "core/formats/field_texts.h"
 #include "core/formats/remark_guard.h"
+#include "core/formats/said_factor.h"
+#include "core/formats/said_orientation.h"
 #include "core/formats/said_wavelength.h"
 #include "core/formats/wavefront_words.h"
 #include "core/map/value_units.h"
@@ -86,8 +89,11 @@ class MapFieldsReader {
     if (name.topic == MapTopic::ValueUnit && !(field.texts.empty() && field.numbers.empty())) {
       take_unit(field, unit_text(field));
     }
-    if (name.topic == MapTopic::UnknownUnit && !unknown_unit_ && !is_of_something_else(field)) unknown_unit_ = &field;
-    if (name.topic == MapTopic::Label && field.texts.size() == 1) take_unit(field, unit_of_label(field.texts.front()));
+    if (name.topic == MapTopic::UnknownUnit && !unknown_unit_ &&
+        !(field.texts.size() == 1 && is_unit_of_no_height(field.texts.front())))
+      unknown_unit_ = &field;
+    const bool label = name.topic == MapTopic::Label && name.axis == FieldAxis::Both;  // not of x or y
+    if (label && field.texts.size() == 1) take_unit(field, unit_of_label(field.texts.front()));
     if (name.topic != MapTopic::LateralUnit || field.texts.size() != 1) return;
     const auto nm = known_length_unit(field.texts.front());
     if (!nm) return;  // pixels, degrees on the sky: what it is of has no length then
@@ -96,27 +102,12 @@ class MapFieldsReader {
     lateral_ = SaidLength{mm, &field};
   }
 
-  /// Seconds, volts and pixels are no unit of heights, whatever they are of.
-  static bool is_of_something_else(const MapField& field) {
-    static constexpr std::string_view kNoHeights[] = {
-        "s",   "sec", "ms", "us",  "hz",   "khz", "mhz",     "ghz",    "k",     "c",     "v",
-        "mv",  "a",   "ma", "w",   "mw",   "kg",  "g",       "n",      "pa",    "deg",   "degree",
-        "rpm", "%",   "px", "adu", "mbar", "bar", "percent", "pixels", "pixel", "counts"};
-    return field.texts.size() == 1 && is_among(lower_case(trim(field.texts.front())), kNoHeights);
-  }
-
   void take_unit(const MapField& field, const std::string& unit) {
     if (unit.empty()) return;
-    if (unit_field_ && !same_unit(*said_.header.unit, unit)) refuse_both(*unit_field_, field);
+    if (unit_field_ && !is_same_unit(*said_.header.unit, unit)) refuse_both(*unit_field_, field);
     if (unit_field_) return;
     said_.header.unit = unit;
     unit_field_ = &field;
-  }
-
-  static bool same_unit(const std::string& a, const std::string& b) {
-    return a == b || (is_wave_unit(a) && is_wave_unit(b)) ||
-           (known_length_unit(a) && known_length_unit(a) == known_length_unit(b)) ||
-           (known_rate_unit(a) && known_rate_unit(a) == known_rate_unit(b));
   }
 
   void read_other(const MapField& field, const FieldName& name) {
@@ -125,11 +116,13 @@ class MapFieldsReader {
       case MapTopic::Pitch:
         return take_pitch(field, name);
       case MapTopic::Size:
-        guard(field);
-        return add_unclear(said_.unclear_pitch, field);
+        return take_size(field, name);
       case MapTopic::Orientation:
-        return take_orientation(field);
+        return take_orientation(field, name);
+      case MapTopic::AxisOrder:
+        return take_axis_order(field, name);
       case MapTopic::Other:
+        if (name.place) take_place(field);
         return guard(field);
       case MapTopic::Label:
         if (field.texts.size() != 1 || unit_of_label(field.texts.front()).empty()) guard(field);
@@ -137,7 +130,7 @@ class MapFieldsReader {
       case MapTopic::Origin:
         return take_origin(field, name);
       case MapTopic::NoData:
-        return take_no_data(field);
+        return take_no_data(field, name);
       case MapTopic::ValueScale:
         return check_scale(field, name);
       default:
@@ -211,19 +204,16 @@ class MapFieldsReader {
     const bool nowhere = field.texts.empty() && std::all_of(field.numbers.begin(), field.numbers.end(), zero);
     if (nowhere && !(name.middle && !field.numbers.empty())) return;
     if (!field.texts.empty() && std::none_of(field.texts.begin(), field.texts.end(), speaks_of_a_place)) return;
+    const bool lower =
+        !field.texts.empty() && std::all_of(field.texts.begin(), field.texts.end(),
+                                            [](const auto& text) { return is_usual_orientation(text, '\0'); });
+    if (lower) return;  // the first row is the lowest, as here
+    if (std::any_of(field.texts.begin(), field.texts.end(), names_another_corner)) question_rows(field);
     add_unclear(said_.unclear_origin, field);
   }
 
-  /// "upper left" is a place, the name of an institution is none.
-  static bool speaks_of_a_place(const std::string& text) {
-    if (length_of_text(text) || finite_number(text)) return true;
-    const std::string lower = lower_case(text);
-    const std::string_view words[] = {"upper", "lower", "top", "bottom", "left", "right", "centre", "center"};
-    return std::any_of(std::begin(words), std::end(words),
-                       [&](std::string_view word) { return lower.find(word) != std::string::npos; });
-  }
-
-  void take_no_data(const MapField& field) {
+  void take_no_data(const MapField& field, const FieldName& name) {
+    if (!name.clear) return question_no_data(field);
     for (const std::string& text : field.texts) {
       const auto number = height_number(text);
       if (!number) refuse(field, "a number that stands for no data is");
@@ -232,6 +222,45 @@ class MapFieldsReader {
     for (const double number : field.numbers) {
       if (!std::isnan(number)) said_.header.no_data.push_back(number);
     }
+  }
+
+  /// "mask = 9" may be a marker, a count or a switch.
+  void question_no_data(const MapField& field) {
+    const auto is_marker = [](const std::string& text) { return finite_number(text).has_value(); };
+    const bool numbers =
+        std::any_of(field.numbers.begin(), field.numbers.end(), [](double v) { return !std::isnan(v); });
+    if (field.logical || !(numbers || std::any_of(field.texts.begin(), field.texts.end(), is_marker))) return;
+    add_statement(UnclearStatement::About::NoData, field, "a value for no data; say it as no_data");
+  }
+
+  /// "x_range = [-25, 25]" is where the map lies, "height = 10 nm" may be a step of the values; other sizes are of the
+  /// field.
+  void take_size(const MapField& field, const FieldName& name) {
+    guard(field);
+    if (name.axis != FieldAxis::Both && field.numbers.size() == 2 && field.numbers.front() != 0.0) {
+      add_unclear(said_.unclear_origin, field);
+    }
+    const bool length = name.mm || std::any_of(field.texts.begin(), field.texts.end(), [](const std::string& text) {
+                          return length_of_text(text).has_value();
+                        });
+    if (name.values && length && !names_a_width()) {
+      add_statement(UnclearStatement::About::Factor, field,
+                    "the height of the field or a step of the values; say the pitch as pitch_mm");
+    }
+    add_unclear(said_.unclear_pitch, field);
+  }
+
+  bool names_a_width() const {
+    return std::any_of(fields_.begin(), fields_.end(), [](const MapField& field) {
+      const FieldName name = parse_field_name(field.name);
+      return name.topic == MapTopic::Size && !name.values;
+    });
+  }
+
+  /// "x_mm = 10", "x = [0, 1, 2]".
+  void take_place(const MapField& field) {
+    const bool nowhere = std::all_of(field.numbers.begin(), field.numbers.end(), [](double v) { return v == 0.0; });
+    if (!nowhere) add_unclear(said_.unclear_origin, field);
   }
 
   /// What the texts of a field say that is not known, as a comment would: "columns = 'x_mm y_mm z_um'".
@@ -252,27 +281,37 @@ class MapFieldsReader {
     said_.header.unclear.push_back({about, fmt::format("{}: {} looks like {}", where_, said(field), what)});
   }
 
-  void take_orientation(const MapField& field) {
-    const bool none =
-        std::all_of(field.numbers.begin(), field.numbers.end(), [](double v) { return v == 0.0; }) &&
-        std::all_of(field.texts.begin(), field.texts.end(), [](const std::string& text) {
-          const std::string lower = lower_case(trim(text));
-          return lower.empty() || lower == "none" || lower == "no" || lower == "false" || lower == "normal";
-        });
-    if (!none) {
-      add_statement(UnclearStatement::About::Rows, field,
-                    "an orientation; the first row is that of the smallest y, the first column that of the smallest x");
+  void take_orientation(const MapField& field, const FieldName& name) {
+    if (name.axis != FieldAxis::Both && field.numbers.size() > 2) {
+      return add_unclear(said_.unclear_origin, field);  // coordinates
     }
+    const bool named = lower_case(field.name).ends_with("mirror");  // of which, mostly: "M1"
+    if (named && !field.logical && std::none_of(field.texts.begin(), field.texts.end(), names_a_mirroring)) return;
+    const bool direction = names_a_direction(field.name) && name.axis != FieldAxis::Both;
+    const char axis = !direction ? '\0' : name.axis == FieldAxis::X ? 'x' : 'y';
+    const bool usual = std::all_of(field.numbers.begin(), field.numbers.end(),
+                                   [&](double v) { return is_usual_orientation(v, axis); }) &&
+                       std::all_of(field.texts.begin(), field.texts.end(),
+                                   [&](const std::string& text) { return is_usual_orientation(text, axis); });
+    if (!usual) question_rows(field);
+  }
+
+  /// "order = 'zernike'" is of something else; "dims = 'lon, lat'" is not.
+  void take_axis_order(const MapField& field, const FieldName& name) {
+    const AxisOrder order = read_axis_order(field.texts, field.numbers);
+    if (order == AxisOrder::ColumnsFirst || (order == AxisOrder::Unknown && name.clear)) return question_rows(field);
+    if (order == AxisOrder::Unknown) guard(field);
+  }
+
+  void question_rows(const MapField& field) {
+    add_statement(UnclearStatement::About::Rows, field,
+                  "an orientation; the first row is that of the smallest y, the first column that of the smallest x");
   }
 
   void check_scale(const MapField& field, const FieldName& name) {
-    const std::string lower = lower_case(field.name);
-    const bool added = lower.find("offset") != std::string::npos || lower.find("intercept") != std::string::npos;
-    const double neutral = added || lower == "waves" ? 0.0 : 1.0;
-    const bool harmless = field.texts.empty() && std::all_of(field.numbers.begin(), field.numbers.end(),
-                                                             [&](double number) { return number == neutral; });
-    if (harmless) return;
-    if (name.clear) refuse(field, fmt::format("{} (heights as they are) is", neutral));
+    if (leaves_heights(field.name, field.numbers, field.texts)) return;
+    const bool text = field.numbers.empty() && !field.texts.empty();
+    if (name.clear && !text) refuse(field, fmt::format("{} (heights as they are) is", neutral_number(field.name)));
     add_statement(UnclearStatement::About::Factor, field, "a factor of the values, which are read as they are");
   }
 
@@ -312,27 +351,6 @@ class MapFieldsReader {
 
 SaidOfMap read_map_fields(const std::vector<MapField>& fields, const std::string& where) {
   return MapFieldsReader(fields, where).read();
-}
-
-std::string unit_of_label(const std::string& label) {
-  const std::string_view text = trim(label);
-  for (const auto& [open, close] : {std::pair{'(', ')'}, {'[', ']'}}) {
-    if (!text.ends_with(close)) continue;
-    const std::size_t at = text.rfind(open);
-    if (at == std::string_view::npos) return "";
-    const std::string unit(trim(text.substr(at + 1, text.size() - at - 2)));
-    return known_value_unit(unit) || is_wave_unit(unit) ? unit : "";
-  }
-  return "";
-}
-
-std::optional<double> length_of_text(const std::string& text) {
-  const std::string_view all = trim(text);
-  const std::size_t at = all.find_last_of("0123456789.");
-  if (at == std::string_view::npos) return std::nullopt;
-  const auto number = finite_number(all.substr(0, at + 1));
-  const auto nm = known_length_unit(all.substr(at + 1));
-  return number && nm ? std::optional(*number * *nm / units::kNmPerMm) : std::nullopt;
 }
 
 }  // namespace dwell

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/formats/field_texts.h"
 #include "core/formats/map_header.h"
 
 namespace dwell {
@@ -16,6 +17,7 @@ struct MapField {
   std::vector<std::string> texts;  // or these
   std::string shown;               // as messages call it, with the file: "attribute pitch of HDF5 data set '/m'"
   std::optional<double> mm;        // the unit that the file gives for this field apart from the name
+  bool logical = false;            // the number stands for yes or no
 };
 
 /// What fields say of a map.
@@ -33,11 +35,5 @@ struct SaidOfMap {
 /// scanned by the last guard (core/formats/remark_guard.h): what they seem to say is in header.unclear, as are factors
 /// of doubtful names and orientations. Throws InputError that begins with `where`.
 SaidOfMap read_map_fields(const std::vector<MapField>& fields, const std::string& where);
-
-/// The unit of length at the end of a text for people, "height [um]" or "z (mm)"; empty if there is none.
-std::string unit_of_label(const std::string& label);
-
-/// A length as text, "0.12 mm", in mm; nothing if it is none.
-std::optional<double> length_of_text(const std::string& text);
 
 }  // namespace dwell

@@ -18,7 +18,9 @@ struct UnclearStatement {
     Pitch,
     Places,  // the unit of places: the pitch of a matrix, and of points x and y themselves
     Origin,
-    Rows,  // which way rows and columns run
+    Shift,  // of the map by a length: the places of points say nothing of it
+    Rows,   // which way rows and columns run
+    Axes,   // which way x and y point, or the part was seen: of points too
     NoData,
     Wavefront,  // the values are a path difference, and a surface is mostly half as high
   };
@@ -40,6 +42,7 @@ struct MapHeader {
   std::optional<double> wave_scale;  // height for each wave, in wavelengths, by which the values are heights already
   bool from_waves = false;           // the file holds waves, and the values are those times the wavelength
   std::string wave_field;            // what says so, for messages
+  bool other_is_wavefront = false;   // another array of the file is called a path difference, and this one is not
 };
 
 /// pitch_rounding of formats that hold the pitch in single precision.

@@ -19,6 +19,7 @@
 #include "core/formats/npy_sidecar.h"
 #include "core/formats/part_size.h"
 #include "core/formats/point_grid.h"
+#include "core/formats/value_span.h"
 #include "core/formats/wave_scale.h"
 #include "core/formats/wavefront_words.h"
 #include "core/formats/xyz_text.h"
@@ -126,6 +127,8 @@ double known_scale(MapHeader& header, const MapReadOptions& options, const std::
 /// What the name of the file itself calls its data.
 void read_file_name(MapHeader& header, const MapName& name, const MapReadOptions& options, const std::string& where) {
   if (options.quantity != MapQuantity::Height) return;
+  // Of several arrays the file may be named after another one.
+  if (header.other_is_wavefront && !name.inside.empty()) return;
   note_wavefront(name.file.stem().string(), where, "the name of the file", header);
 }
 
@@ -146,8 +149,12 @@ void settle_unclear(const MapHeader& header, const MapReadOptions& options, bool
           return points ? std::pair(header.places_known, "") : std::pair(header.pitch || options.pitch, "pixel");
         case About::Origin:
           return {points || header.origin || options.origin || !options.origin_counts, "origin"};
+        case About::Shift:
+          return {header.origin || options.origin || !options.origin_counts, "origin"};
         case About::Rows:
           return {points || options.rows, "rows"};
+        case About::Axes:
+          return {options.rows.has_value(), "rows"};
         case About::NoData:
           return {!header.no_data.empty() || options.no_data, "no data"};
         case About::Wavefront:
@@ -159,7 +166,7 @@ void settle_unclear(const MapHeader& header, const MapReadOptions& options, bool
     if (unclear.about == About::Wavefront)
       throw InputError(unclear.message + way_out_of_wavefront(options.name == "map"));
     // The origin of a removal function is where its tool axis says; no option gives it.
-    const bool has_option = !option.empty() && (unclear.about != About::Origin || options.name == "map");
+    const bool has_option = !option.empty() && (option != "origin" || options.name == "map");
     throw InputError(unclear.message + (has_option ? fmt::format("; or give `{} {}`", options.name, option) : ""));
   }
 }
@@ -215,7 +222,8 @@ HeightMap map_of_source(MapSource source, const MapReadOptions& options, const s
   }
   const Point on_camera{source.camera_pixel.x * pitch->x, source.camera_pixel.y * pitch->y};
   const Point origin = known_origin(source.header, options, where).value_or(on_camera);
-  append(source.header.history, remove_no_data({&source.values, source.raw_factor, source.header.no_data},
+  append(source.header.history, remove_no_data({&source.values, source.raw_factor, source.header.no_data,
+                                                static_cast<std::size_t>(source.cols)},
                                                options.no_data, where, options.name));
   const Grid grid{source.rows, source.cols, pitch->x, pitch->y, origin};
   const std::string field = source.header.pitch ? source.pitch_field : fmt::format("`{} pixel`", options.name);
@@ -232,7 +240,7 @@ std::vector<std::string> remove_no_data_of_points(XyzText& xyz, const MapReadOpt
   std::vector<double> heights;
   for (const XyzPoint& point : xyz.points) heights.push_back(point.height);
   std::vector<std::string> history =
-      remove_no_data({&heights, 1.0, xyz.header.no_data}, options.no_data, where, options.name);
+      remove_no_data({&heights, 1.0, xyz.header.no_data, 0}, options.no_data, where, options.name);
   for (std::size_t i = 0; i < heights.size(); ++i) xyz.points[i].height = heights[i];
   return history;
 }
@@ -261,13 +269,21 @@ HeightMap fit_points_of(const XyzText& xyz, const MapReadOptions& options, const
   }
 }
 
+/// The places of points say which way these lie; `rows` bottom only affirms it where a comment is in doubt.
+void check_not_of_a_matrix(const MapHeader& header, const MapReadOptions& options, const std::string& where) {
+  const bool in_doubt = std::any_of(header.unclear.begin(), header.unclear.end(), [](const UnclearStatement& unclear) {
+    return unclear.about == UnclearStatement::About::Axes;
+  });
+  const bool rows = options.rows && !(in_doubt && *options.rows == MapRows::Bottom);
+  if (!options.table && !rows) return;
+  throw InputError(fmt::format("{}: `{} {}` is for a matrix, but the file holds points x y z; leave it out", where,
+                               options.name, options.table ? "table" : "rows"));
+}
+
 HeightMap read_xyz(const MapName& name, std::string_view text, const MapReadOptions& options, const std::string& where,
                    const Progress& progress) {
-  if (options.table || options.rows) {
-    throw InputError(fmt::format("{}: `{} {}` is for a matrix, but the file holds points x y z; leave it out", where,
-                                 options.name, options.table ? "table" : "rows"));
-  }
   XyzText xyz = parse_xyz_text(text, where);
+  check_not_of_a_matrix(xyz.header, options, where);
   read_file_name(xyz.header, name, options, where);
   settle_unclear(xyz.header, options, true);
   const double scale = known_scale(xyz.header, options, where);
@@ -331,30 +347,6 @@ HeightMap parse_map(const MapName& name, std::string_view bytes, const MapReadOp
   return read_matrix(name, bytes, options, where);
 }
 
-/// One value at least, and no more than a part can span.
-void check_values(const HeightMap& map, const MapReadOptions& options, const std::string& where) {
-  double low = std::nan(""), high = low;
-  for (const double value : map.values) {
-    if (!(value >= low)) low = std::isnan(value) ? low : value;
-    if (!(value <= high)) high = std::isnan(value) ? high : value;
-  }
-  if (std::isnan(low)) {
-    throw InputError(fmt::format("{}: all {} values are no data (nan); at least one finite value is required", where,
-                                 map.values.size()));
-  }
-  const double most = options.max_pv.value_or(kMostSpan);
-  if (high - low <= most) return;
-  const bool rate = options.quantity == MapQuantity::Rate;
-  const char* const unit = rate ? "mm/s" : "mm";
-  throw InputError(
-      fmt::format("{}: {} from {:.6g} to {:.6g} {} (peak to valley {:.6g} {}); at most {:.6g} {} is accepted: is their "
-                  "unit right, is "
-                  "one of them a mark for no data (`{} no data`)?{}",
-                  where, rate ? "rates" : "heights", low / units::kNmPerMm, high / units::kNmPerMm, unit,
-                  (high - low) / units::kNmPerMm, unit, most / units::kNmPerMm, unit, options.name,
-                  rate ? "" : fmt::format(" Or give `{} max pv` [mm]", options.name)));
-}
-
 }  // namespace
 
 HeightMap read_map(const std::filesystem::path& file, const MapReadOptions& options, const Progress& progress) {
@@ -363,7 +355,7 @@ HeightMap read_map(const std::filesystem::path& file, const MapReadOptions& opti
   const MapName name = split_map_name(file);
   HeightMap map = parse_map(name, read_whole_file(name.file), options, where, progress);
   map.quantity = options.quantity;
-  check_values(map, options, where);
+  check_value_span(map, options.max_pv.value_or(kMostSpan), options.name, where);
   return map;
 }
 

@@ -30,15 +30,12 @@ struct MapReadOptions {
   bool origin_counts = true;
   WaveOptions waves;                     // of heights in waves, and of path differences
   std::optional<NoDataMarkers> no_data;  // numbers of the file that stand for no data, besides what it says
-  std::optional<double> max_pv;          // the most that heights or rates may span [nm], [nm/s]; default kMostSpan
+  std::optional<double> max_pv;          // the most that heights or rates may span [nm], [nm/s]; default 10 mm, 10 mm/s
   std::optional<MatrixTable> table;      // what the first row and column of a matrix as text are
   std::optional<MapRows> rows;           // at which edge the first row of a grid lies; default: as the format says
   std::optional<ScatterOptions> grid;    // points x y z are scattered: a surface is fitted to them
   int threads = 1;                       // for that fit
 };
-
-/// 10 mm, 10 mm/s: what spans more is in another unit, or holds numbers that are no heights.
-inline constexpr double kMostSpan = 1e7;
 
 /// Reads a map by the file's content and extension (docs/formats.md). `file` may name one array of a file that holds
 /// several, as `run.h5:/before` (core/formats/map_name.h). What an NPY array does not say is taken from its sidecar

@@ -55,17 +55,22 @@ constexpr TermGroup kGroups[] = {
     {MapTopic::Origin, kOpen, kSure, true, "0"},
     {MapTopic::Origin, kOpen, kFits, true, "min start"},
     {MapTopic::Origin, kOpen, kDoubt, false,
+     "xy0 centerpx centrepx originpx originpixel left bottom refpixel referencepixel refpix referencepoint refpoint "
+     "zeropixel bezugspunkt pixelreference "
      "corner lowerleft lowerleftcorner upperleft upperleftcorner topleft bottomleft orig org orgsubf mapcentre "
      "mapcenter centre center centerpixel centrepixel midpoint middle translation position extent bounds bbox "
      "boundingbox limits xlim ylim lateraloffset mitte zentrum mittelpunkt bildmitte ecke eckpunkt coin milieu"},
-    {MapTopic::Origin, kOpen, kDoubt, true, "offset off pos left right first last max end stop lowerbound shift"},
+    {MapTopic::Origin, kOpen, kDoubt, true,
+     "offset off pos left right first last max end stop lowerbound shift c cen ctr ref"},
     {MapTopic::Origin, kOpen, kSilent, true, "ltv"},
-    {MapTopic::NoData, kOpen, kSure, false,
+    {MapTopic::NoData, kClear, kSure, false,
      "nodata nodatavalue nodataval nodatava fillvalue fillval missingvalue invalidvalue badvalue badval badpixelvalue "
      "nullvalue nullval nanvalue maskvalue maskedvalue blankvalue undefinedvalue novalue sentinel fehlwert "
      "keinedaten ungueltigerwert valeurmanquante sansdonnees pasdedonnees valeurnulle"},
     {MapTopic::NoData, kOpen, kDoubt, false,
-     "fill missing invalid bad null blank undefined masked void na nan dummy ungueltig fehlend manquant invalide"},
+     "fill missing invalid bad null blank undefined masked void na nan dummy ungueltig fehlend manquant invalide mask "
+     "empty padding padded badpix badpixel deadpixel background outside exterior offpart offaperture rest hintergrund "
+     "ausserhalb aussen fond dehors maske masque"},
     {MapTopic::ValueScale, kClear, kDoubt, false,
      "scale scalefactor addoffset zscale zfactor zscalefactor zoffset multiplier slope intercept offset zmult "
      "heightscale valuescale datascale verticalscale heightfactor valuefactor heightoffset valueoffset nmpercount "
@@ -74,11 +79,27 @@ constexpr TermGroup kGroups[] = {
      "factor gain conversion conversionfactor conversionratio calibrationfactor sensitivity lsb waves scalingfactor "
      "scaling interferometricscalefactor wedgefactor heightgain zgain heightconversion zconversion unitfactor faktor "
      "skalenfaktor skalierung skalierungsfaktor umrechnung umrechnungsfaktor verstaerkung empfindlichkeit facteur "
-     "facteurdechelle echelle conversiondeshauteurs"},
+     "facteurdechelle echelle conversiondeshauteurs divisor divider denominator exponent signflip flipsign negate "
+     "negated nmscale umscale mult multiplyby multiplied to powerof10 poweroften "
+     "powerten power10 decimalexponent zexponent unitexponent prefix siprefix unitprefix metricprefix sign signs zsign "
+     "heightsign "
+     "signconvention polarity vorzeichen zdirection zdir zpositive positivedirection normalised normalized "
+     "normalisation normalization normalise normalize normiert normierung normed fringe"},
     {MapTopic::Label, kOpen, kSilent, false, "longname label zlabel datalabel quantity btype"},
     {MapTopic::Orientation, kOpen, kDoubt, false,
      "orientation flip flipped mirrored rotation rotate rotated transpose transposed inverted roworder rowdirection "
-     "firstrow topline rowsfrom ausrichtung drehung gespiegelt gedreht retourne pivote"},
+     "isflipped ismirrored isrotated istransposed originupper upperorigin toporigin clock clockangle mirror firstrow "
+     "topline rowsfrom ausrichtung drehung gespiegelt gedreht retourne pivote flipud fliplr flips "
+     "reflected "
+     "reflect reflection mirroring rotangle rotationangle rot rot90 rotation90 clocking clockingangle view viewed "
+     "viewedfrom viewfrom viewpoint viewdirection seenfrom handedness handed chirality transform transformation affine "
+     "affinetransform upsidedown invertx inverty swapxy swapaxes roworigin parity ansicht"},
+    {MapTopic::Orientation, kOpen, kDoubt, true, "axis dir direction sign sense down invert inverted"},
+    {MapTopic::AxisOrder, kClear, kDoubt, false,
+     "dims dimensionlabels dimensionnames dimensionorder dimorder axes axisorder axesorder axisnames axislabels "
+     "axeslabels axesnames indexorder achsen coordorder coordinateorder firstaxis firstindex"},
+    {MapTopic::AxisOrder, kOpen, kDoubt, false,
+     "rows order memoryorder storageorder storage memorylayout layout majororder arrayorder arraylayout"},
 };
 
 /// The terms of all groups, sorted by word.
@@ -93,14 +114,79 @@ std::vector<MapTerm> table_of_terms() {
   return terms;
 }
 
-constexpr std::array<std::string_view, 49> kValueWords{
-    "height",     "heights",      "value",       "values",     "surface",    "data",      "rate",
-    "rates",      "removal",      "sag",         "opd",        "figure",     "error",     "errors",
-    "z",          "deviation",    "deviations",  "phase",      "topography", "depth",     "form",
-    "shape",      "profile",      "amplitude",   "amplitudes", "residual",   "residuals", "hoehe",
-    "hoehen",     "hoehenwert",   "hoehenwerte", "wert",       "werte",      "daten",     "oberflaeche",
-    "abweichung", "abweichungen", "fehler",      "tiefe",      "amplituden", "hauteur",   "hauteurs",
-    "valeur",     "valeurs",      "donnees",     "ecart",      "ecarts",     "erreur",    "profondeur"};
+constexpr std::array<std::string_view, 71> kValueWords{
+    "height",
+    "heights",
+    "value",
+    "values",
+    "surface",
+    "data",
+    "rate",
+    "rates",
+    "removal",
+    "sag",
+    "opd",
+    "figure",
+    "error",
+    "errors",
+    "z",
+    "deviation",
+    "deviations",
+    "phase",
+    "topography",
+    "depth",
+    "form",
+    "shape",
+    "profile",
+    "amplitude",
+    "amplitudes",
+    "residual",
+    "residuals",
+    "hoehe",
+    "hoehen",
+    "hoehenwert",
+    "hoehenwerte",
+    "wert",
+    "werte",
+    "daten",
+    "oberflaeche",
+    "abweichung",
+    "abweichungen",
+    "fehler",
+    "tiefe",
+    "amplituden",
+    "hauteur",
+    "hauteurs",
+    "valeur",
+    "valeurs",
+    "donnees",
+    "ecart",
+    "ecarts",
+    "erreur",
+    "profondeur",
+    "altura",
+    "alturas",
+    "altezza",
+    "altezze",
+    "superficie",
+    "superficies",
+    "valor",
+    "valores",
+    "valore",
+    "valori",
+    "hoogte",
+    "hoogtes",
+    "datos",
+    "dati",
+    "\xd0\xb2\xd1\x8b\xd1\x81\xd0\xbe\xd1\x82\xd0\xb0",                  // Russian: height
+    "\xd0\xb2\xd1\x8b\xd1\x81\xd0\xbe\xd1\x82\xd1\x8b",                  // heights
+    "\xd0\xb7\xd0\xbd\xd0\xb0\xd1\x87\xd0\xb5\xd0\xbd\xd0\xb8\xd1\x8f",  // values
+    "\xe9\xab\x98\xe5\xba\xa6",                                          // Chinese: height
+    "\xe9\xab\x98\xe3\x81\x95",                                          // Japanese: height
+    "\xe6\x95\xb0\xe5\x80\xbc",                                          // Chinese: values
+    "\xe5\x80\xa4",                                                      // Japanese: value
+    "\xeb\x86\x92\xec\x9d\xb4"                                           // Korean: height
+};
 
 constexpr std::array<std::string_view, 22> kValuesBeforeUnit{"",
                                                              "b",
@@ -144,6 +230,16 @@ std::string_view ascii_of(unsigned char code) {
   return kLetters.at(code - kFirstSmall);
 }
 
+/// The small letter of a Cyrillic capital of Russian, two bytes in UTF-8; empty of anything else.
+std::string small_cyrillic(unsigned char first, unsigned char second) {
+  constexpr unsigned char kBlock = 0xd0, kNextBlock = 0xd1, kFirst = 0x90, kMiddle = 0xa0, kLast = 0xaf,
+                          kToSmall = 0x20;
+  if (first != kBlock || second < kFirst || second > kLast) return "";
+  const bool next = second >= kMiddle;  // the second half of the small letters is in the next block
+  return {static_cast<char>(next ? kNextBlock : kBlock),
+          static_cast<char>(next ? second - kToSmall : second + kToSmall)};
+}
+
 bool continues(std::string_view text, std::size_t at) {
   constexpr unsigned char kMask = 0xc0, kContinuation = 0x80;
   return at < text.size() && (static_cast<unsigned char>(text[at]) & kMask) == kContinuation;
@@ -170,7 +266,12 @@ std::string fold_letters(std::string_view text) {
   for (std::size_t i = 0; i < text.size(); ++i) {
     const auto c = static_cast<unsigned char>(text[i]);
     std::string_view letter;
-    if (c == kTwoBytes && continues(text, i + 1)) {
+    const std::string small =
+        continues(text, i + 1) ? small_cyrillic(c, static_cast<unsigned char>(text[i + 1])) : std::string();
+    if (!small.empty()) {
+      letter = small;
+      ++i;
+    } else if (c == kTwoBytes && continues(text, i + 1)) {
       letter = ascii_of(static_cast<unsigned char>(text[i + 1]) + kLatin);
       if (!letter.empty()) ++i;
     } else if (c >= kTwoBytes && !continues(text, i + 1)) {
@@ -192,8 +293,40 @@ bool is_value_of_unit(std::string_view word) { return is_value_word(word) || is_
 bool is_lateral_of_unit(std::string_view word) { return is_among(word, kLateralsBeforeUnit); }
 
 bool is_unit_name(std::string_view word) {
-  constexpr std::array<std::string_view, 8> kUnits{"unit",      "units", "uom",    "einheit",
-                                                   "einheiten", "unite", "unites", "masseinheit"};
+  constexpr std::array<std::string_view, 32> kUnits{
+      "unit",
+      "units",
+      "uom",
+      "einheit",
+      "einheiten",
+      "unite",
+      "unites",
+      "masseinheit",
+      "unidad",
+      "unidades",
+      "unita",
+      "unidade",
+      "eenheid",
+      "eenheden",
+      "enhet",
+      "enheter",
+      "jednostka",
+      "jednostki",
+      "jednotka",
+      "jednotky",
+      "birim",
+      "egyseg",
+      "yksikko",
+      "\xd0\xb5\xd0\xb4\xd0\xb8\xd0\xbd\xd0\xb8\xd1\x86\xd0\xb0",  // Russian
+      "\xd0\xb5\xd0\xb4\xd0\xb8\xd0\xbd\xd0\xb8\xd1\x86\xd1\x8b",  // Russian, of several
+      "\xd0\xb5\xd0\xb4",                                          // the same, short
+      "\xd0\xb5\xd0\xb4\xd0\xb8\xd0\xbd\xd0\xb8\xd1\x86\xd1\x96",  // Ukrainian
+      "\xe5\x8d\x95\xe4\xbd\x8d",                                  // Chinese
+      "\xe5\x96\xae\xe4\xbd\x8d",                                  // Chinese, traditional letters
+      "\xe5\x8d\x98\xe4\xbd\x8d",                                  // Japanese
+      "\xeb\x8b\xa8\xec\x9c\x84",                                  // Korean
+      "\xce\xbc\xce\xbf\xce\xbd\xce\xac\xce\xb4\xce\xb1"           // Greek
+  };
   return is_among(word, kUnits);
 }
 

@@ -15,9 +15,10 @@ enum class MapTopic {
   Size,         // of the whole map: width, x_real, diameter
   Origin,       // where the map lies: origin, x_offset, xmin, centre, extent
   NoData,       // no_data, fill_value
-  ValueScale,   // what the values are to be multiplied by, or what is added: z_scale, offset
+  ValueScale,   // what the values are to be multiplied by, or what is added, or their sign: z_scale, offset, exponent
   Label,        // a text for people that may end with a unit: long_name = "height [um]"
   Orientation,  // which way rows and columns run: orientation, FLIPY
+  AxisOrder,    // which index is which: dims, axes, order
 };
 
 /// Whether an attribute, key or keyword of the name says it without doubt: origin and pitch do; xmin may be the edge of
@@ -45,8 +46,8 @@ struct MapTerm {
 /// The one table of names, for text and for fields. Nothing if it does not know the word.
 const MapTerm* find_map_term(std::string_view word, bool along_axis);
 
-/// The text in lower case with the letters of German and French as ASCII spells them: "Höhe" -> "hoehe", "unité" ->
-/// "unite", in UTF-8 or Latin-1. The signs of micrometre and angstrom stay.
+/// The text in lower case, of Russian too, with the letters of German and French as ASCII spells them: "Höhe" ->
+/// "hoehe", "unité" -> "unite", in UTF-8 or Latin-1. The signs of micrometre and angstrom stay.
 std::string fold_letters(std::string_view text);
 
 /// The text with the sign of multiplication as a letter x between blanks.

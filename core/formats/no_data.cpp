@@ -8,6 +8,7 @@
 
 #include "core/base/errors.h"
 #include "core/base/number_text.h"
+#include "core/formats/smeared_marker.h"
 
 namespace dwell {
 namespace {
@@ -86,6 +87,17 @@ Rest rest_of(const std::vector<double>& values, const Extreme& low, const Extrem
   return rest;
 }
 
+void refuse_smeared(const RawValues& raw, double extreme, const std::string& where, const std::string& name) {
+  const double shown = extreme / raw.factor;
+  if (!is_smeared_marker(*raw.values, raw.cols, extreme, shown)) return;
+  throw InputError(fmt::format(
+      "{}: {} pixels are {}, and what lies between it and the others stands at its rim alone: a mark for no data, over "
+      "which was interpolated? Give `{} no data` {} if so (the rim stays: better take the map from before that), or "
+      "`{} "
+      "no data` none if it is a height",
+      where, std::count(raw.values->begin(), raw.values->end(), extreme), shown, name, shown, name));
+}
+
 void refuse_lone_extreme(const RawValues& raw, const std::string& where, const std::string& name) {
   Extreme low, high;
   for (const double v : *raw.values) {
@@ -97,6 +109,8 @@ void refuse_lone_extreme(const RawValues& raw, const std::string& where, const s
     low.count_if_next(v);
     high.count_if_next(v);
   }
+  refuse_smeared(raw, low.value, where, name);
+  refuse_smeared(raw, high.value, where, name);
   if (!low.may_mark() && !high.may_mark()) return;
   const Rest rest = rest_of(*raw.values, low, high);
   const auto refuse = [&](const Extreme& extreme, double nearest) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,6 +23,7 @@ struct RawValues {
   std::vector<double>* values;  // as read; NaN = no data
   double factor = 1.0;          // the reader has multiplied the file's numbers by it
   std::vector<double> no_data;  // what the file itself says stands for no data
+  std::size_t cols = 0;         // of the grid, row-major; 0: points, or a grid of nobody knows how many columns
 };
 
 /// Numbers from which on no instrument means a height, as the file holds them: the largest float (3.4e38), half of it,
@@ -34,7 +36,8 @@ bool is_marker(double value, double marker);
 /// Sets to NaN what is no height: numbers of kLeastMarker and more, and those that the file or the user names. Returns
 /// a line each, for the map's history. Without a word of the user, one extreme value is refused that stands in four
 /// pixels or more while nothing else is near it (-9999, 32767, 65535 around a part): farther from all others than ten
-/// times what 98 % of these span. Never so 0, which flat parts, masks and removal functions have. `where` begins the
+/// times what 98 % of these span; or, on a grid, smeared into the part at its rim alone
+/// (core/formats/smeared_marker.h). Never so 0, which flat parts, masks and removal functions have. `where` begins the
 /// message, `name` is "map" or "tif" (the option to name). Throws InputError. Cost O(values).
 std::vector<std::string> remove_no_data(const RawValues& raw, const std::optional<NoDataMarkers>& asked,
                                         const std::string& where, const std::string& name);

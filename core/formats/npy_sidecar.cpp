@@ -100,7 +100,7 @@ class SidecarReader {
     field.shown = key;
     for (const Json& element : value.is_array() ? value : Json::array({value})) {
       if (element.is_number()) field.numbers.push_back(element.get<double>());
-      if (element.is_boolean()) field.numbers.push_back(element.get<bool>() ? 1.0 : 0.0);
+      if (element.is_boolean()) field.numbers.push_back(element.get<bool>() ? 1.0 : 0.0), field.logical = true;
       if (element.is_string()) field.texts.push_back(element.get<std::string>());
     }
     fields.push_back(std::move(field));

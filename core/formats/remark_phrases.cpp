@@ -81,6 +81,11 @@ constexpr std::array<std::string_view, 18> kNumberWords{
 
 }  // namespace
 
+bool is_denied(const Remark& words, std::size_t at) {
+  constexpr std::array<std::string_view, 6> kNo{"not", "no", "nicht", "non", "never", "without"};
+  return at > 0 && is_among(words[at - 1].folded, kNo);
+}
+
 bool holds_value_word(const Remark& words, std::size_t from, std::size_t to) {
   return std::any_of(words.begin() + static_cast<std::ptrdiff_t>(from), words.begin() + static_cast<std::ptrdiff_t>(to),
                      [](const RemarkWord& word) { return is_value_word(word.folded) || word.folded == "wavefront"; });
@@ -112,11 +117,13 @@ bool follows_a_number(const Remark& words, std::size_t at) {
 
 bool is_announced(const Remark& words, std::size_t at) {
   if (words[at].bracketed() || std::string_view(",:=").find(words[at].before) != std::string_view::npos) return true;
-  return at > 0 && (words[at - 1].folded == "in" || words[at - 1].folded == "en" || is_unit_name(words[at - 1].folded));
+  return at > 0 && (words[at - 1].folded == "in" || words[at - 1].folded == "en" ||
+                    words[at - 1].folded == "\xd0\xb2" || is_unit_name(words[at - 1].folded));
 }
 
 std::optional<double> unit_of_word(const Remark& words, std::size_t at) {
-  constexpr std::array<std::string_view, 4> kCommon{"m", "pm", "meter", "metre"};
+  constexpr std::array<std::string_view, 9> kCommon{"m",     "pm",  "meter",    "metre",       "metro",
+                                                    "metri", "mil", "\xd0\xbc", "\xe7\xb1\xb3"};
   const RemarkWord& word = words[at];
   if (word.folded == "in") return std::nullopt;
   if (is_among(word.folded, kCommon) && (!is_announced(words, at) || word.text == "M" || (word.dot && at == 0)))

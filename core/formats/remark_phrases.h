@@ -15,6 +15,15 @@ namespace dwell {
 
 using Remark = std::vector<RemarkWord>;
 
+/// Whether one of the words is among those known.
+template <class Words>
+bool holds_any(const Remark& words, const Words& known) {
+  return std::any_of(words.begin(), words.end(), [&](const RemarkWord& word) { return is_among(word.folded, known); });
+}
+
+/// "not normalised": whether the word before denies this one.
+bool is_denied(const Remark& words, std::size_t at);
+
 /// Whether a word for the values stands between the two places.
 bool holds_value_word(const Remark& words, std::size_t from, std::size_t to);
 

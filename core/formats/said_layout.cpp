@@ -60,6 +60,7 @@ std::optional<Point> SaidLayout::both(const Pair& pair, About about, const char*
 void SaidLayout::add_to(MapHeader& header) const {
   header.pitch = both(pitch_, About::Pitch, "pitch", header);
   header.origin = both(origin_, About::Origin, "origin", header);
+  if (!height_message_.empty() && !size_[0]) header.unclear.push_back({About::Factor, height_message_});
 }
 
 void SaidLayout::add_counts_to(MapHeader& header, Index rows, Index cols) const {

@@ -27,6 +27,8 @@ class SaidLayout {
   void set(What what, Axis axis, const Length& length, const std::string& place);
   /// A size without a unit, which may be the number of rows or columns; else `message` says that it is unclear.
   void add_counts(const std::vector<double>& numbers, const std::string& message);
+  /// A height in a unit of length without a width beside it may be a step of the values; `message` says so.
+  void question_height(const std::string& message) { height_message_ = message; }
   /// Gwyddion's size is that of all pixels, from edge to edge; that of others may be from the first to the last.
   void set_gwyddion() { gwyddion_ = true; }
 
@@ -48,6 +50,7 @@ class SaidLayout {
   std::string where_;
   Pair pitch_, size_, origin_;
   std::vector<Counts> counts_;
+  std::string height_message_;
   bool gwyddion_ = false;
 };
 

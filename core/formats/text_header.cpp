@@ -12,6 +12,8 @@
 #include "core/base/word_list.h"
 #include "core/formats/header_statements.h"
 #include "core/formats/remark_guard.h"
+#include "core/formats/said_factor.h"
+#include "core/formats/said_orientation.h"
 #include "core/formats/said_wavelength.h"
 #include "core/formats/text_comment.h"
 #include "core/formats/wavefront_words.h"
@@ -22,26 +24,15 @@ namespace {
 
 using About = UnclearStatement::About;
 
-constexpr const char* kAcceptedUnits = "a unit of height (nm, um, mm, m, waves) or of rate (nm/s, um/s, um/min, m/s)";
-
-/// Text behind a name whose value should be a number: "Gugolz 64" behind a pitch is what polishes.
-bool begins_with_a_letter(std::string_view text) {
-  const char c = text.empty() ? ' ' : text.front();
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+/// The colon and the equals sign of Chinese and Japanese keyboards as those of ASCII.
+std::string with_plain_colons(std::string_view text) {
+  std::string plain(text);
+  for (const auto& [wide, narrow] : {std::pair("\xef\xbc\x9a", ":"), std::pair("\xef\xbc\x9d", "=")}) {
+    const std::string_view sign = wide;
+    for (std::size_t at = 0; (at = plain.find(sign, at)) != std::string::npos;) plain.replace(at, sign.size(), narrow);
+  }
+  return plain;
 }
-
-/// Whether a name that holds or has a unit is of the heights alone: "height unit", "z", but not "values" or "unit".
-bool names_heights(const std::string& shown) {
-  constexpr std::array<std::string_view, 9> kAnything{"data",  "value",  "values",  "daten",  "wert",
-                                                      "werte", "valeur", "valeurs", "donnees"};
-  const HeaderKey key = parse_header_key(shown);
-  return key.axis == 'z' || std::any_of(key.words.begin(), key.words.end(), [&](const std::string& word) {
-           return is_value_word(word) && !is_among(word, kAnything);
-         });
-}
-
-/// The names of the program's own files, whose two numbers stand beside a comma without a blank.
-bool is_documented(const HeaderKey& key) { return key.shown == "pitch_mm" || key.shown == "origin_mm"; }
 
 }  // namespace
 
@@ -62,9 +53,10 @@ void TextHeader::only_once(const HeaderKey& key, MapTopic topic) {
   }
 }
 
-void TextHeader::read_comment(std::string_view comment, long line) {
+void TextHeader::read_comment(std::string_view text, long line) {
   line_ = line;
-  comment = bare_comment(comment);
+  const std::string plain = with_plain_colons(bare_comment(text));
+  const std::string_view comment = plain;
   if (const std::size_t colon = comment.find(':');
       colon != std::string_view::npos && trim(comment.substr(0, colon)) == "made") {
     const std::string_view step = trim(comment.substr(colon + 1));
@@ -73,7 +65,30 @@ void TextHeader::read_comment(std::string_view comment, long line) {
   }
   note_wavefront(comment, place(), in_quotes(comment), header_);
   if (known_value_unit(comment) || is_optical_unit(comment)) return take_unit(comment, "the comment");
+  if (read_tabbed(comment)) return;
   for (const std::string& statement : header_statements(comment)) read_statement(statement);
+}
+
+/// "unit<tab>um", as spreadsheets part names and values.
+bool TextHeader::read_tabbed(std::string_view comment) {
+  std::vector<std::string_view> fields = split(comment, '\t');
+  std::erase_if(fields, [](std::string_view field) { return trim(field).empty(); });
+  std::vector<std::string_view> rest;
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    HeaderKey key = parse_header_key(fields[i]);
+    const bool pair = i + 1 < fields.size() && fields[i].find_first_of(":=") == std::string_view::npos &&
+                      meaning_of(key).trust == InText::Sure && take(key, trim(fields[i + 1]), false);
+    if (pair) {
+      ++i;
+    } else {
+      rest.push_back(fields[i]);
+    }
+  }
+  if (rest.size() == fields.size()) return false;
+  for (const std::string_view field : rest) {
+    for (const std::string& statement : header_statements(field)) read_statement(statement);
+  }
+  return true;
 }
 
 /// "key: value", "key = value", "key,value" of spreadsheets, or words alone.
@@ -117,14 +132,6 @@ bool TextHeader::read_loose(std::string_view text) {
   return false;
 }
 
-void TextHeader::take_caption(const HeaderKey& key) {
-  if (key.axis == 'x' || key.axis == 'y' || speaks_of_coordinates(key)) return take_lateral_unit(key.unit, key.shown);
-  if (is_wave_unit(key.remark)) return take_unit(key.remark, key.shown);
-  if (is_optical_unit(key.remark)) refuse(key, key.remark, kAcceptedUnits);
-  take_unit(key.unit, key.shown);
-  if (key.every_axis || speaks_of_everything(key)) take_lateral_unit(key.unit, key.shown);
-}
-
 /// Whether it was a statement, or something that is now kept as unclear. With `loose` there was no ':' or '=', so that
 /// the line may be prose.
 bool TextHeader::take(HeaderKey key, std::string_view value, bool loose) {
@@ -148,197 +155,19 @@ bool TextHeader::take(HeaderKey key, std::string_view value, bool loose) {
       // "height [10 nm]" gives the values in steps of 10 nm.
       return !(loose && value.find_first_of("([") == 0) && take_size(key, value);
     case MapTopic::Origin:
-      return meaning.moves || meaning.trust == InText::Doubtful ? take_offset(key, value, meaning.moves)
-                                                                : take_origin(key, value, sure && !prose);
+      if (meaning.moves || meaning.trust == InText::Doubtful) return take_offset(key, value, meaning.moves);
+      if (take_origin(key, value, sure && !prose)) return true;
+      return !loose && key.axis != 0 && take_start(key, value);  // "xmin = -25", without a unit
     case MapTopic::NoData:
       return take_no_data(key, value, sure && !loose, sure);
     case MapTopic::ValueScale:
-      return take_scale(key, value);
+      return take_scale(key, value, loose);
+    case MapTopic::Orientation:
+    case MapTopic::AxisOrder:
+      return !loose && take_orientation(key, value, meaning.topic);
     default:
       return false;
   }
-}
-
-/// "unit um of the surface", "laser unit: um".
-bool TextHeader::take_unknown_unit(const HeaderKey& key, std::string_view value) {
-  const auto words = words_of(value);
-  if (words.empty() || !known_value_unit(words.front())) return false;
-  add_unclear(About::Unit, fmt::format("{} looks like the unit of the values; write '# unit: um'",
-                                       in_quotes(key.shown + " " + std::string(value))));
-  return true;
-}
-
-/// "the pixel pitch was found to be 0.25 mm".
-bool TextHeader::take_prose_pitch(const HeaderKey& key, std::string_view value) {
-  if (!holds_a_length(value)) return false;
-  add_unclear(About::Pitch, fmt::format("{} looks like a pixel pitch; write '# pitch_mm: 0.1'",
-                                        in_quotes(key.shown + " " + std::string(value))));
-  return true;
-}
-
-void TextHeader::take_unit(std::string_view unit, const std::string& key) {
-  const auto factor = is_wave_unit(unit) ? std::optional(0.0) : known_value_unit(unit);
-  if (!factor) throw InputError(fmt::format("{}: {} = '{}'; {} required", place(), key, unit, kAcceptedUnits));
-  const bool rate = known_rate_unit(unit).has_value(), rate_before = header_.unit && known_rate_unit(*header_.unit);
-  if (header_.unit && (!statements_agree(*factor, *unit_factor_) || rate != rate_before)) {
-    throw InputError(fmt::format("{}: {} says '{}', but {} = '{}' above; they must agree", place(), key, unit,
-                                 unit_key_, *header_.unit));
-  }
-  if (header_.unit) return;
-  // Over points it may be the unit of x and y too: of m or inches, which heights seldom are in, or of a huge part.
-  if (!rate && *factor != units::kNmPerMm && !names_heights(key)) {
-    of_everything_ =
-        fmt::format("{}: {} in '{}': of x and y too? Name the columns as 'x_mm y_mm z_{}'", place(), key, unit, unit);
-  }
-  header_.unit = std::string(unit);
-  unit_factor_ = factor;
-  unit_key_ = key;
-}
-
-bool TextHeader::take_value_unit(const HeaderKey& key, std::string_view value, bool sure) {
-  if (known_value_unit(value) || is_wave_unit(value)) {
-    only_once(key, MapTopic::ValueUnit);
-    take_unit(value, key.shown);
-    if (key.every_axis || fold_letters(key.shown).starts_with("all")) take_lateral_unit(value, key.shown);
-    return true;
-  }
-  if (sure || is_optical_unit(value) || is_optical_unit(key.remark)) refuse(key, value, kAcceptedUnits);
-  return false;
-}
-
-void TextHeader::take_lateral_unit(std::string_view unit, const std::string& key) {
-  const auto length = known_length_unit(unit);
-  if (!length) {
-    throw InputError(fmt::format("{}: {} in '{}'; a unit of length (mm, um, m) is required", place(), key, unit));
-  }
-  if (lateral_ && !statements_agree(*lateral_, *length)) {
-    throw InputError(
-        fmt::format("{}: {} in '{}', but {} in another unit; they must agree", place(), key, unit, lateral_key_));
-  }
-  lateral_ = length;
-  lateral_key_ = key;
-}
-
-bool TextHeader::take_lateral(const HeaderKey& key, std::string_view value, bool sure) {
-  if (known_length_unit(value)) {
-    take_lateral_unit(value, key.shown);
-    return true;
-  }
-  if (sure) refuse(key, value, "a unit of length (mm, um, m)");
-  return false;
-}
-
-/// The unit of lengths that a statement has in its name or its value [nm]; 0 = none. Both must agree.
-double TextHeader::unit_of_lengths(const HeaderKey& key, std::string_view value, const HeaderLengths& lengths) const {
-  if (key.length && lengths.length && !statements_agree(*key.length, *lengths.length)) {
-    refuse(key, value, fmt::format("numbers in {}", key.unit));
-  }
-  return lengths.length.value_or(key.length.value_or(0.0));
-}
-
-bool TextHeader::take_pitch(const HeaderKey& key, std::string_view value, InText trust) {
-  const char* const required = "one finite number > 0, or two (x,y) separated by a comma, in mm or with a unit,";
-  if (!is_documented(key) && may_have_decimal_comma(value)) {
-    add_unclear(
-        About::Pitch,
-        fmt::format("{} = '{}': a decimal comma, or x and y? Write '# pitch_mm: 0.5', with a point", key.shown, value));
-    return true;
-  }
-  const bool sure = trust == InText::Sure;
-  const auto lengths = parse_header_lengths(value);
-  if (!lengths || lengths->pixels) {
-    if (!sure) return false;
-    if (key.unit.empty() && begins_with_a_letter(value) && !holds_a_length(value)) {
-      if (words_of(value).size() > 1) return false;  // "Gugolz 64" is for polishing
-      add_unclear(About::Pitch, fmt::format("{} = '{}'; {} required", key.shown, value, required));
-      return true;
-    }
-    refuse(key, value, required);
-  }
-  const double unit = unit_of_lengths(key, value, *lengths);
-  if (unit == 0.0 && !sure) return false;
-  const std::vector<double> mm = lengths->mm(unit);
-  if (std::any_of(mm.begin(), mm.end(), [](double v) { return !(v > 0.0 && std::isfinite(v)); }) ||
-      (key.axis != 0 && mm.size() > 1 && unit > 0.0)) {
-    if (unit > 0.0) refuse(key, value, required);
-  }
-  only_once(key, MapTopic::Pitch);
-  if (unit == 0.0 || trust == InText::Doubtful) {
-    add_unclear(About::Pitch,
-                fmt::format("{} = '{}' looks like a pixel pitch{}; write '# pitch_mm: 0.1', or the number with its "
-                            "unit: '# pitch: 100 um'",
-                            key.shown, value, unit == 0.0 ? " without a unit" : ""));
-    return true;
-  }
-  const bool along_x = key.axis != 'y' || mm.size() > 1, along_y = key.axis != 'x' || mm.size() > 1;
-  if (along_x) layout_.set(SaidLayout::What::Pitch, SaidLayout::Axis::X, {mm.front(), key.shown}, place());
-  if (along_y) layout_.set(SaidLayout::What::Pitch, SaidLayout::Axis::Y, {mm.back(), key.shown}, place());
-  return true;
-}
-
-bool TextHeader::take_size(const HeaderKey& key, std::string_view value) {
-  if (known_value_unit(value) && are_value_words(key.words)) return take_value_unit(key, value, true);  // "Height: nm"
-  const auto lengths = parse_header_lengths(value);
-  if (!lengths || lengths->pixels) return false;
-  const double unit = unit_of_lengths(key, value, *lengths);
-  if (unit == 0.0) {
-    layout_.add_counts(lengths->numbers,
-                       fmt::format("{}: {} = '{}' is neither the number of rows or columns nor a length with a unit; "
-                                   "write '# pitch_mm: 0.1'",
-                                   place(), key.shown, value));
-    return true;
-  }
-  const std::vector<double> mm = lengths->mm(unit);
-  if (std::any_of(mm.begin(), mm.end(), [](double v) { return !(v > 0.0 && std::isfinite(v)); })) return false;
-  only_once(key, MapTopic::Size);
-  const bool both = mm.size() > 1 || key.axis == 0;
-  using Axis = SaidLayout::Axis;
-  const auto set = [&](Axis axis, double size) {
-    layout_.set(SaidLayout::What::Size, axis, {size, key.shown, lengths->rounding}, place());
-  };
-  if (both || key.axis == 'x') set(Axis::X, mm.front());
-  if (both || key.axis == 'y') set(Axis::Y, mm.back());
-  return true;
-}
-
-bool TextHeader::take_origin(const HeaderKey& key, std::string_view value, bool sure) {
-  const auto lengths = parse_header_lengths(value);
-  const char* const required = "two finite numbers x,y, in mm or with a unit,";
-  if (!lengths || lengths->pixels) {
-    const bool says_nothing = value.find_first_of("0123456789") == std::string_view::npos && key.unit.empty();
-    if (sure && !says_nothing) refuse(key, value, required);
-    return false;
-  }
-  const double unit = unit_of_lengths(key, value, *lengths);
-  if (unit == 0.0 && !sure) return false;
-  if ((key.axis == 0) != (lengths->numbers.size() == 2)) refuse(key, value, required);
-  only_once(key, MapTopic::Origin);
-  if (unit == 0.0) {
-    add_unclear(About::Origin, fmt::format("{} = '{}' looks like an origin without a unit; write '# origin_mm: x,y', "
-                                           "the centre of the first pixel",
-                                           key.shown, value));
-    return true;
-  }
-  const std::vector<double> mm = lengths->mm(unit);
-  if (std::any_of(mm.begin(), mm.end(), [](double v) { return !std::isfinite(v); })) refuse(key, value, required);
-  using Axis = SaidLayout::Axis;
-  if (key.axis != 'y') layout_.set(SaidLayout::What::Origin, Axis::X, {mm.front(), key.shown}, place());
-  if (key.axis != 'x') layout_.set(SaidLayout::What::Origin, Axis::Y, {mm.back(), key.shown}, place());
-  return true;
-}
-
-/// Of an offset, a corner, a centre or an extent nobody knows whether it is that of a pixel's centre, its edge, or of
-/// the heights.
-bool TextHeader::take_offset(const HeaderKey& key, std::string_view value, bool moves) {
-  constexpr std::size_t kMostNumbers = 6;
-  const auto lengths = parse_header_lengths(value, kMostNumbers);
-  if (!lengths) return false;
-  const auto& numbers = lengths->numbers;
-  if (moves && std::all_of(numbers.begin(), numbers.end(), [](double v) { return v == 0.0; })) return true;
-  add_unclear(About::Origin, fmt::format("{} = '{}' looks like an origin; write '# origin_mm: x,y', the centre of the "
-                                         "first pixel",
-                                         key.shown, value));
-  return true;
 }
 
 /// `sure`: refused if it does not fit; `named`: honoured if it does.
@@ -366,14 +195,37 @@ bool TextHeader::take_no_data(const HeaderKey& key, std::string_view value, bool
   return true;
 }
 
-bool TextHeader::take_scale(const HeaderKey& key, std::string_view value) {
+bool TextHeader::take_scale(const HeaderKey& key, std::string_view value, bool loose) {
   const auto words = words_of(value);
-  const auto number = words.empty() ? std::nullopt : finite_number(words.front());
-  if (!number) return false;
-  if (words.size() == 1 && key.unit.empty() && (*number == 1.0 || *number == 0.0)) return true;
+  if (words.empty()) return false;
+  const auto number = finite_number(words.front());
+  // A sign, a prefix or a norm may be a word; without a ':' that is prose.
+  const std::vector<double> numbers = number ? std::vector<double>{*number} : std::vector<double>{};
+  const std::vector<std::string> texts =
+      number ? std::vector<std::string>{} : std::vector<std::string>{std::string(value)};
+  if (!number && (loose || !may_be_a_word(key.stem))) return false;
+  if (words.size() == 1 && key.unit.empty() && (leaves_heights(key.stem, numbers, texts) || number == 0.0)) return true;
   add_unclear(About::Factor, fmt::format("{} = '{}' looks like a factor of the values; write the values without it and "
                                          "their unit, '# unit: nm'",
                                          key.shown, value));
+  return true;
+}
+
+/// "orientation = 3", "y axis: down", "order: F".
+bool TextHeader::take_orientation(const HeaderKey& key, std::string_view value, MapTopic topic) {
+  const std::string text(value);
+  const bool order = topic == MapTopic::AxisOrder;
+  const AxisOrder read = order ? read_axis_order({text}, {}) : AxisOrder::RowsFirst;
+  if (order && read == AxisOrder::Unknown) return false;
+  const bool direction = names_a_direction(key.shown) && (key.axis == 'x' || key.axis == 'y');
+  const char axis = direction ? key.axis : '\0';
+  const bool usual = order ? read == AxisOrder::RowsFirst : is_usual_orientation(value, axis);
+  const bool speed = value.find("rpm") != std::string_view::npos || value.find('/') != std::string_view::npos;
+  if (usual || value.empty() || speed) return usual;
+  add_unclear(order ? About::Rows : About::Axes,
+              fmt::format("{} = '{}' looks like an orientation; the first row is taken for that of the smallest y, the "
+                          "first column for that of the smallest x; turn the map so and leave the comment out",
+                          key.shown, value));
   return true;
 }
 

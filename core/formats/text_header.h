@@ -24,7 +24,7 @@ class TextHeader {
   explicit TextHeader(std::string where) : where_(where), layout_(std::move(where)) {}
 
   /// Takes one comment line, from its '#'.
-  void read_comment(std::string_view comment, long line);
+  void read_comment(std::string_view text, long line);
 
   /// A unit of the values, or of x and y, that `key` states; it must agree with what was said before.
   void take_unit(std::string_view unit, const std::string& key);
@@ -52,11 +52,15 @@ class TextHeader {
   bool take_size(const HeaderKey& key, std::string_view value);
   bool take_origin(const HeaderKey& key, std::string_view value, bool sure);
   bool take_offset(const HeaderKey& key, std::string_view value, bool moves);
+  bool take_start(const HeaderKey& key, std::string_view value);
+  bool take_interval(const HeaderKey& key, const HeaderLengths& lengths, std::string_view value);
   bool take_no_data(const HeaderKey& key, std::string_view value, bool sure, bool named);
-  bool take_scale(const HeaderKey& key, std::string_view value);
+  bool take_scale(const HeaderKey& key, std::string_view value, bool loose);
+  bool take_orientation(const HeaderKey& key, std::string_view value, MapTopic topic);
   bool take_unknown_unit(const HeaderKey& key, std::string_view value);
   bool take_prose_pitch(const HeaderKey& key, std::string_view value);
   void guard(std::string_view text);
+  bool read_tabbed(std::string_view comment);
   bool read_fields(std::string_view text);
   double unit_of_lengths(const HeaderKey& key, std::string_view value, const HeaderLengths& lengths) const;
   void only_once(const HeaderKey& key, MapTopic topic);

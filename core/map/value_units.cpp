@@ -59,6 +59,54 @@ constexpr UnitWord kLengthWords[] = {
     {"inches", 25.4 * units::kNmPerMm},
     {"zoll", 25.4 * units::kNmPerMm},
     {"pouce", 25.4 * units::kNmPerMm},
+    {"micra", units::kNmPerUm},  // Spanish and Italian, here and below
+    {"micrometro", units::kNmPerUm},
+    {"micr\xc3\xb3"
+     "metro",
+     units::kNmPerUm},
+    {"micrometri", units::kNmPerUm},
+    {"mikron", units::kNmPerUm},
+    {"nanometro", 1.0},
+    {"nan\xc3\xb3"
+     "metro",
+     1.0},
+    {"nanometri", 1.0},
+    {"milimetro", units::kNmPerMm},
+    {"mil\xc3\xad"
+     "metro",
+     units::kNmPerMm},
+    {"millimetro", units::kNmPerMm},
+    {"millimetri", units::kNmPerMm},
+    {"metro", units::kNmPerM},
+    {"metri", units::kNmPerM},
+    {"\xd0\xbd\xd0\xbc", 1.0},  // Russian, here and below
+    {"\xd0\xbd\xd0\xb0\xd0\xbd\xd0\xbe\xd0\xbc\xd0\xb5\xd1\x82\xd1\x80", 1.0},
+    {"\xd0\xbd\xd0\xb0\xd0\xbd\xd0\xbe\xd0\xbc\xd0\xb5\xd1\x82\xd1\x80\xd1\x8b", 1.0},
+    {"\xd0\xbc\xd0\xba\xd0\xbc", units::kNmPerUm},
+    {"\xd0\xbc\xd0\xb8\xd0\xba\xd1\x80\xd0\xbe\xd0\xbd", units::kNmPerUm},
+    {"\xd0\xbc\xd0\xb8\xd0\xba\xd1\x80\xd0\xbe\xd0\xbd\xd1\x8b", units::kNmPerUm},
+    {"\xd0\xbc\xd0\xb8\xd0\xba\xd1\x80\xd0\xbe\xd0\xbc\xd0\xb5\xd1\x82\xd1\x80", units::kNmPerUm},
+    {"\xd0\xbc\xd0\xb8\xd0\xba\xd1\x80\xd0\xbe\xd0\xbc\xd0\xb5\xd1\x82\xd1\x80\xd1\x8b", units::kNmPerUm},
+    {"\xd0\xbc\xd0\xbc", units::kNmPerMm},
+    {"\xd0\xbc\xd0\xb8\xd0\xbb\xd0\xbb\xd0\xb8\xd0\xbc\xd0\xb5\xd1\x82\xd1\x80", units::kNmPerMm},
+    {"\xd0\xbc\xd0\xb8\xd0\xbb\xd0\xbb\xd0\xb8\xd0\xbc\xd0\xb5\xd1\x82\xd1\x80\xd1\x8b", units::kNmPerMm},
+    {"\xd0\xbc", units::kNmPerM},
+    {"\xd0\xbc\xd0\xb5\xd1\x82\xd1\x80", units::kNmPerM},
+    {"\xe7\xba\xb3\xe7\xb1\xb3", 1.0},  // Chinese, Japanese and Korean, here and below
+    {"\xe7\xb4\x8d\xe7\xb1\xb3", 1.0},
+    {"\xe5\xa5\x88\xe7\xb1\xb3", 1.0},
+    {"\xe3\x83\x8a\xe3\x83\x8e\xe3\x83\xa1\xe3\x83\xbc\xe3\x83\x88\xe3\x83\xab", 1.0},
+    {"\xeb\x82\x98\xeb\x85\xb8\xeb\xaf\xb8\xed\x84\xb0", 1.0},
+    {"\xe5\xbe\xae\xe7\xb1\xb3", units::kNmPerUm},
+    {"\xe3\x83\x9e\xe3\x82\xa4\xe3\x82\xaf\xe3\x83\xad\xe3\x83\xa1\xe3\x83\xbc\xe3\x83\x88\xe3\x83\xab",
+     units::kNmPerUm},
+    {"\xe3\x83\x9f\xe3\x82\xaf\xe3\x83\xad\xe3\x83\xb3", units::kNmPerUm},
+    {"\xeb\xa7\x88\xec\x9d\xb4\xed\x81\xac\xeb\xa1\x9c\xeb\xaf\xb8\xed\x84\xb0", units::kNmPerUm},
+    {"\xe6\xaf\xab\xe7\xb1\xb3", units::kNmPerMm},
+    {"\xe3\x83\x9f\xe3\x83\xaa\xe3\x83\xa1\xe3\x83\xbc\xe3\x83\x88\xe3\x83\xab", units::kNmPerMm},
+    {"\xeb\xb0\x80\xeb\xa6\xac\xeb\xaf\xb8\xed\x84\xb0", units::kNmPerMm},
+    {"\xe7\xb1\xb3", units::kNmPerM},
+    {"\xe3\x83\xa1\xe3\x83\xbc\xe3\x83\x88\xe3\x83\xab", units::kNmPerM},
 };
 
 constexpr UnitWord kTimeWords[] = {{"s", 1.0},
@@ -68,7 +116,11 @@ constexpr UnitWord kTimeWords[] = {{"s", 1.0},
                                    {"minute", units::kSecondsPerMinute},
                                    {"h", 60.0 * units::kSecondsPerMinute},
                                    {"hr", 60.0 * units::kSecondsPerMinute},
-                                   {"hour", 60.0 * units::kSecondsPerMinute}};
+                                   {"hour", 60.0 * units::kSecondsPerMinute},
+                                   {"\xd1\x81", 1.0},
+                                   {"\xd1\x81\xd0\xb5\xd0\xba", 1.0},
+                                   {"\xd0\xbc\xd0\xb8\xd0\xbd", units::kSecondsPerMinute},
+                                   {"\xe7\xa7\x92", 1.0}};
 
 constexpr const char* kAcceptedHeights = "nm, um, mm, m";
 constexpr const char* kAcceptedRates = "nm/s, um/s, um/min, m/s";
@@ -118,13 +170,32 @@ std::optional<std::array<std::string_view, 2>> split_quotient(std::string_view t
   return std::array{text.substr(0, at), text.substr(at + 1)};
 }
 
+/// "micrometre (um)" and "um [micrometre]" -> the two names; nothing of a text that is not of that kind.
+std::optional<std::array<std::string_view, 2>> split_two_names(std::string_view text) {
+  text = trim(text);
+  if (text.empty() || (text.back() != ')' && text.back() != ']')) return std::nullopt;
+  const std::size_t open = text.find(text.back() == ')' ? '(' : '[');
+  if (open == std::string_view::npos || open == 0) return std::nullopt;
+  return std::array{trim(text.substr(0, open)), text.substr(open)};
+}
+
+/// The factor of a unit that is named twice, if both names are of one unit.
+std::optional<double> find_twice(std::string_view text, std::optional<double> (&known)(std::string_view)) {
+  const auto names = split_two_names(text);
+  if (!names) return std::nullopt;
+  const auto first = known((*names)[0]);
+  return first && first == known((*names)[1]) ? first : std::nullopt;
+}
+
 }  // namespace
 
 std::optional<double> known_length_unit(std::string_view text) {
-  return find_factor(lower_case(bare(text)), kLengthWords);
+  if (const auto factor = find_factor(lower_case(bare(text)), kLengthWords)) return factor;
+  return find_twice(text, known_length_unit);
 }
 
 std::optional<double> known_rate_unit(std::string_view text) {
+  if (const auto twice = find_twice(text, known_rate_unit)) return twice;
   const std::string lower = lower_case(bare(text));
   const auto parts = split_quotient(lower);
   if (!parts) return std::nullopt;

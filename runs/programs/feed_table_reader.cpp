@@ -16,6 +16,7 @@
 #include "core/base/value_range.h"
 #include "core/base/whole_file.h"
 #include "core/base/word_list.h"
+#include "core/formats/path_remark.h"
 #include "core/map/unit_mention.h"
 #include "paths/feed/plan_program.h"
 #include "runs/programs/feed_table.h"
@@ -80,7 +81,8 @@ class FeedTableReader {
   void read_header(std::string_view line) {
     line.remove_prefix(1);
     if (!line.empty() && line.front() == ' ') line.remove_prefix(1);
-    if (line.starts_with("dwell ")) {
+    constexpr std::string_view kVersion = "dwell ";  // and a number; "dwell in ms" is a remark
+    if (line.starts_with(kVersion) && line.find_first_of("0123456789") == kVersion.size()) {
       table_.version = line.substr(6);
       return;
     }
@@ -101,6 +103,15 @@ class FeedTableReader {
           fmt::format("\"{}\" in the comment \"{}\" looks like another unit; accepted: {}, or the comment without a "
                       "unit",
                       with_escaped_bytes(*unit), with_escaped_bytes(line), kFeedTableUnits));
+    }
+    check_places(line);
+  }
+
+  /// Nor one that names other places than x and y in mm, as "y axis down".
+  void check_places(std::string_view line) const {
+    if (const auto other = find_other_places(line)) {
+      fail(fmt::format("the comment \"{}\" looks like {}; accepted: {}, or the comment left out",
+                       with_escaped_bytes(line), *other, kFeedTableUnits));
     }
   }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "core/base/errors.h"
+#include "core/base/utf8_text.h"
 #include "core/base/whole_file.h"
 #include "core/formats/map_name.h"
 #include "runs/reports/program_record.h"
@@ -50,6 +51,13 @@ std::string text_of(const nlohmann::json& object, const std::string& key, const 
   throw InputError(fmt::format("{}: {} is missing or no text; required it in a plan's summary", file, key));
 }
 
+/// A name as the system has it: a summary holds bytes that are no UTF-8 as \xE9, unless a file is called so.
+std::string name_of(const std::string& text) {
+  std::error_code unknown;
+  const bool escaped = text.find("\\x") != std::string::npos;
+  return !escaped || std::filesystem::exists(split_map_name(text).file, unknown) ? text : with_bytes_of_escapes(text);
+}
+
 JobOptions options_of(const nlohmann::json& summary, const std::string& file) {
   JobOptions options;
   const auto recorded = summary.find("options");
@@ -66,7 +74,7 @@ JobOptions options_of(const nlohmann::json& summary, const std::string& file) {
                       "required the version that made the plan",
                       file, key));
     }
-    set_job_option(options, *record, text_of(*recorded, key, file), fmt::format("{}: options.{}", file, key));
+    set_job_option(options, *record, name_of(text_of(*recorded, key, file)), fmt::format("{}: options.{}", file, key));
   }
   return options;
 }
@@ -85,7 +93,8 @@ RecordedPlan read_recorded_plan(const std::filesystem::path& folder) {
     throw InputError(fmt::format("{}: holds no inputs; required them in a plan's summary", file));
   }
   for (const nlohmann::json& input : *inputs) {
-    plan.inputs.push_back({text_of(input, "role", file), text_of(input, "file", file), text_of(input, "sha256", file)});
+    plan.inputs.push_back(
+        {text_of(input, "role", file), name_of(text_of(input, "file", file)), text_of(input, "sha256", file)});
   }
   return plan;
 }

@@ -106,6 +106,19 @@ TEST_F(PathFile, RefusesACommentThatNamesAnotherUnitOrPlace) {
             1u);
 }
 
+TEST_F(PathFile, RefusesACommentThatNamesOtherPlaces) {
+  const auto text = [](const std::string& comment) { return "# " + comment + "\nx_mm,y_mm\n1,2\n"; };
+  for (const char* comment : {"y axis down", "rotated by 90 deg", "pixels", "x and y in pixels", "shifted by 3 mm",
+                              "mirrored", "scaled by 2", "viewed from the back"}) {
+    const std::string said = message(text(comment));
+    EXPECT_TRUE(said.starts_with("line 1: the comment \"" + std::string(comment) + "\" looks like")) << said;
+  }
+  for (const char* comment : {"3 pixels wide", "the first of 3 paths", "rotated by 0 deg", "option: map_rows = top",
+                              "path: raster", "overlap 20 %", "in order of the run"}) {
+    EXPECT_EQ(parse_path_text(text(comment), "p.csv").points.size(), 1u) << comment;
+  }
+}
+
 TEST_F(PathFile, RefusesAColumnOfAlmostTheName) {
   for (const std::string column : {"Lift", "lifted", "LIFT", "X_mm"}) {
     EXPECT_EQ(

@@ -15,6 +15,14 @@ TEST(Utf8Text, EscapesOnlyWhatIsNone) {
   EXPECT_EQ(with_escaped_bytes("\xC0\xAF"), "\\xC0\\xAF");           // longer than needed
 }
 
+TEST(Utf8Text, EscapesBecomeTheirBytesAgain) {
+  for (const char* name : {"m\xe9.csv", "\xff\xfe", "plain.csv", "\xc3\xa9", ""}) {
+    EXPECT_EQ(with_bytes_of_escapes(with_escaped_bytes(name)), name);
+  }
+  EXPECT_EQ(with_bytes_of_escapes("a\\x4"), "a\\x4");
+  EXPECT_EQ(with_bytes_of_escapes("a\\xZZ\\"), "a\\xZZ\\");
+}
+
 TEST(Utf8Text, IsKnown) {
   EXPECT_TRUE(is_utf8(""));
   EXPECT_TRUE(is_utf8("a \xC2\xB5m"));

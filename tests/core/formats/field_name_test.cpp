@@ -26,7 +26,13 @@ TEST(FieldName, KnowsATopicInManySpellings) {
   expect(MapTopic::Origin, {"origin_mm", "Origin", "x_offset", "xmin", "X0", "y_start", "XORGSUBF", "originX_mm"});
   expect(MapTopic::NoData, {"no_data", "NODATA", "fill_value", "missing", "bad value", "InvalidValue"});
   expect(MapTopic::ValueScale, {"z_scale", "offset", "slope", "scale", "ZFactor"});
+  expect(MapTopic::ValueScale, {"counts_to_nm", "dn2nm", "nm_per_volt", "exponent", "prefix", "sign", "normalized"});
+  expect(MapTopic::Orientation, {"flipud", "y_axis", "rotation_deg", "view", "FLIPY", "handedness", "transform"});
+  expect(MapTopic::AxisOrder, {"dims", "axes", "DIMENSION_LABELS", "axis_order", "order"});
+  expect(MapTopic::Other, {"mm_per_min", "filter_order", "spindle_rotation_rpm", "scale_bar", "tilt_x"});
   expect(MapTopic::Label, {"long_name", "label"});
+  EXPECT_TRUE(parse_field_name("x_mm").place && parse_field_name("Y").place);
+  EXPECT_FALSE(parse_field_name("x_slope").place || parse_field_name("map").place);
 }
 
 TEST(FieldName, FindsTheAxisAndTheUnit) {

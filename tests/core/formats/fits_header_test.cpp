@@ -114,6 +114,39 @@ TEST(FitsHeader, NamesWhatMayBeAnOrigin) {
   test::expect_input_error([&] { read_map(path); }, {"a.fits", "CRVAL1 = -4", "`map origin`"});
 }
 
+TEST(FitsHeader, AsksWhichWayItsAxesRun) {
+  for (const char* card : {"CTYPE1  = 'Y'", "CTYPE2  = 'X'", "CDELT1  = -0.5", "CROTA2  = 90.0", "CD1_2   = 0.5",
+                           "ROWORDER= 'TOP-DOWN'"}) {
+    const MapHeader header = read_with({card}).header;
+    ASSERT_FALSE(header.unclear.empty()) << card;
+    EXPECT_EQ(header.unclear[0].about, UnclearStatement::About::Rows) << card;
+  }
+  const MapHeader scaled = read_with({"PITCHMM = 0.5", "SCALE   = 0.001"}).header;
+  ASSERT_EQ(scaled.unclear.size(), 1u);
+  EXPECT_NE(scaled.unclear[0].message.find("SCALE = 0.001 looks like a factor"), std::string::npos);
+  EXPECT_NE(read_with({"PITCHMM = 0.5", "CRPIX1  = 6.0"}).unclear_origin.find("CRPIX1 = 6"), std::string::npos);
+  EXPECT_NE(read_with({"X       = 12.0"}).unclear_origin.find("X = 12"), std::string::npos);
+  for (const char* card : {"CTYPE1  = 'X'", "CTYPE1  = 'RA---TAN'", "CTYPE1  = 'LINEAR'", "CRPIX1  = 1.0",
+                           "ROWORDER= 'BOTTOM-UP'", "TITLE   = 'surface, nm RMS 3.4'", "SCALE   = 1.0"}) {
+    const MapSource source = read_with({card});
+    EXPECT_TRUE(source.header.unclear.empty()) << card;
+    EXPECT_EQ(source.unclear_origin, "") << card;
+  }
+}
+
+// A file is named after one of its arrays: the pupil beside an OPD is none.
+TEST(FitsHeader, TheNameOfAFileMayBeThatOfAnotherImage) {
+  const test::TemporaryFolder folder;
+  const auto unit = [](const char* name) {
+    return FitsUnit{name, 3, 2, {1, 2, 3, 4, 5, 6}, {"PITCHMM =                  0.5"}};
+  };
+  const auto both = folder.file("a_opd.fits", test::fits_file({unit("PUPIL"), unit("OPD")}));
+  EXPECT_EQ(read_map(both.string() + ":PUPIL").at(1, 2), 6.0);
+  test::expect_input_error([&] { read_map(both.string() + ":OPD"); }, {"wavefront"});
+  const auto other = folder.file("b_opd.fits", test::fits_file({unit("A"), unit("B")}));
+  test::expect_input_error([&] { read_map(other.string() + ":A"); }, {"the name of the file", "wavefront"});
+}
+
 TEST(FitsHeader, RefusesAxesThatAreTurned) {
   const std::vector<std::string> world{"CUNIT1  = 'mm'", "CUNIT2  = 'mm'", "CDELT1  = 0.5", "CDELT2  = 0.5"};
   for (const char* card : {"CROTA2  = 10.0", "PC1_2   = 0.1", "PC1_1   = 0.5"}) {

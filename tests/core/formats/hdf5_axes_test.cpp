@@ -92,6 +92,29 @@ TEST(Hdf5Axes, WithoutAUnitOfLengthLeaveOpenWhatTheySay) {
   EXPECT_EQ(read_map(path, options).grid, (Grid{2, 3, 0.5, 0.5, {}}));
 }
 
+// x and y at every pixel, as meshgrid makes them.
+TEST(Hdf5Axes, MayBeAMesh) {
+  const auto read = [](const std::vector<double>& x, const std::vector<double>& y, const char* name = "X_mm") {
+    Hdf5TestFile file;
+    file.doubles("/z", {2, 3}, {1, 2, 3, 4, 5, 6});
+    file.doubles(name, {2, 3}, x);
+    file.doubles("Y_mm", {2, 3}, y);
+    return parse_hdf5_at(file.bytes(), "/z", "map a.h5");
+  };
+  const std::vector<double> along{-1, -0.5, 0, -1, -0.5, 0}, across{2, 2, 2, 3, 3, 3};
+  EXPECT_EQ(read(along, across).header.pitch, (Point{0.5, 1.0}));
+  EXPECT_EQ(read(along, across).header.origin, (Point{-1.0, 2.0}));
+  test::expect_input_error([&] { read(across, along); }, {"'/Y_mm'", "the coordinates of its rows", "first index"});
+  EXPECT_FALSE(read(along, across, "x_slope").header.pitch) << "another map";
+}
+
+TEST(Hdf5Axes, OfAnotherLengthAreNamed) {
+  Hdf5TestFile file;
+  file.doubles("/z", {2, 3}, {1, 2, 3, 4, 5, 6});
+  file.doubles("/x", {4}, {1, 2, 3, 4});
+  EXPECT_NE(parse_hdf5(file.bytes(), "map a.h5").unclear_origin.find("'/x', which are not as many"), std::string::npos);
+}
+
 TEST(Hdf5Axes, NumbersOfPixelsSayNothing) {
   Coordinates c;
   c.x_unit = c.y_unit = "";

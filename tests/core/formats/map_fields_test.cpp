@@ -131,6 +131,89 @@ TEST(MapFields, KeepWhatTextsAndDoubtfulNamesMaySay) {
   }
 }
 
+// What says the same as this program does is no question, whatever it is called.
+TEST(MapFields, AskWhichWayTheMapLiesAndWhatItsNumbersAre) {
+  using About = UnclearStatement::About;
+  const auto asked = [](const MapField& field) -> std::optional<About> {
+    const MapHeader header = said({field}).header;
+    return header.unclear.empty() ? std::nullopt : std::optional(header.unclear[0].about);
+  };
+  const MapField labels{"DIMENSION_LABELS", {}, {"x", "y"}, "field DIMENSION_LABELS", {}};
+  for (const MapField& field : {labels,
+                                text("dims", "x,y"),
+                                text("dims", "lon, lat"),
+                                text("axes", "xy"),
+                                number("axes", {1, 0}),
+                                text("order", "F"),
+                                text("y_axis", "down"),
+                                number("y_axis", {-1}),
+                                number("x_sign", {-1}),
+                                number("FLIPY", {1}),
+                                number("flipud", {1}),
+                                number("rotation_deg", {90}),
+                                text("view", "from the back"),
+                                text("mirror", "x"),
+                                text("transform", "rot90"),
+                                text("handedness", "left"),
+                                text("first_axis", "x"),
+                                text("rows", "x"),
+                                number("y_down", {1}),
+                                text("origin", "upper")}) {
+    EXPECT_EQ(asked(field), About::Rows) << field.name;
+  }
+  for (const MapField& field :
+       {number("exponent", {-6}), text("prefix", "micro"), number("sign", {-1}), text("z_sign", "negative"),
+        number("fringe_nm", {316}), number("counts_to_nm", {0.25}), number("normalized", {1}), number("divisor", {10}),
+        number("to_nm", {0.3}), number("mult", {2}), text("height", "10 nm")}) {
+    EXPECT_EQ(asked(field), About::Factor) << field.name;
+  }
+  for (const MapField& field : {number("mask", {9}), number("background", {9}), number("bad", {7})}) {
+    EXPECT_EQ(asked(field), About::NoData) << field.name;
+  }
+  const MapField usual_labels{"dims", {}, {"y", "x"}, "field dims", {}};
+  MapField masked = number("masked", {1});
+  masked.logical = true;
+  for (const MapField& field : {usual_labels,
+                                masked,
+                                text("dims", "('y', 'x')"),
+                                text("axes", "row, column"),
+                                number("axes", {0, 1}),
+                                text("order", "C"),
+                                text("order", "zernike"),
+                                text("rows", "y"),
+                                number("rows", {9}),
+                                number("order", {4}),
+                                text("y_axis", "up"),
+                                number("y_axis", {1}),
+                                text("ROWORDER", "BOTTOM-UP"),
+                                text("origin", "lower"),
+                                text("origin", "lower left"),
+                                number("flipud", {0}),
+                                number("rotation_deg", {0}),
+                                text("view", "front"),
+                                text("mirror", "M1"),
+                                text("transform", "identity"),
+                                number("exponent", {0}),
+                                text("prefix", "run7_"),
+                                text("sign", "+"),
+                                number("sign", {1}),
+                                number("normalized", {0}),
+                                text("x_label", "x [mm]"),
+                                text("unit", "micrometre (um)")}) {
+    EXPECT_FALSE(asked(field)) << field.name;
+    EXPECT_EQ(said({field}).unclear_origin, "") << field.name;
+  }
+  EXPECT_FALSE(said({text("x_label", "x [mm]")}).header.unit) << "that of x";
+  for (const MapField& field :
+       {number("x_mm", {10}), number("x", {0, 1, 2}), number("ref_pixel", {5, 6}), number("x_range", {-25, 25}),
+        number("xc", {3}), number("origin_px", {6, 5}), number("left_mm", {-3}), number("y_axis", {0, 1, 2})}) {
+    EXPECT_NE(said({field}).unclear_origin, "") << field.name;
+  }
+  for (const MapField& field : {number("x_mm", {0}), number("x_range", {0, 25}), number("ref_pixel", {0, 0})}) {
+    EXPECT_EQ(said({field}).unclear_origin, "") << field.name;
+  }
+}
+
 TEST(MapFields, KnowALengthAsText) {
   EXPECT_NEAR(length_of_text("632.8 nm").value(), 632.8e-6, 1e-15);
   EXPECT_EQ(length_of_text("0.12mm"), 0.12);

@@ -103,6 +103,35 @@ TEST(NoData, FindsCodesNextToEachOther) {
   EXPECT_TRUE(remove_from(step).empty());
 }
 
+/// A part of 20 x 20 pixels in a frame of `mark`, over whose edge a program has interpolated.
+std::vector<double> smeared(double mark, double scale) {
+  constexpr int kSide = 28, kFrameWidth = 4;
+  std::vector<double> values;
+  for (int row = 0; row < kSide; ++row) {
+    for (int col = 0; col < kSide; ++col) {
+      const int depth = std::min({row, col, kSide - 1 - row, kSide - 1 - col}) - kFrameWidth;
+      const double height = scale * std::sin(0.3 * row + 0.2 * col * col);
+      const double share = depth < 0 ? 1.0 : depth == 0 ? 0.7 + 0.003 * col : depth == 1 ? 0.2 + 0.001 * row : 0.0;
+      values.push_back(share * mark + (1.0 - share) * height);
+    }
+  }
+  return values;
+}
+
+TEST(NoData, RefusesAMarkThatIsSmearedIntoThePart) {
+  const auto remove = [](std::vector<double> values, const std::optional<NoDataMarkers>& asked = {}) {
+    return remove_no_data({&values, 1.0, {}, 28}, asked, "map a.csv", "map");
+  };
+  for (const double mark : {-9999.0, 32767.0, 1000.0}) {
+    expect_input_error([&] { remove(smeared(mark, 20.0)); },
+                       {"map a.csv", fmt::format("pixels are {}", mark), "rim", fmt::format("`map no data` {}", mark)});
+    EXPECT_TRUE(remove(smeared(mark, 20.0), NoDataMarkers{}).empty());
+    EXPECT_EQ(remove(smeared(mark, 20.0), NoDataMarkers{{mark}}).size(), 1u);
+  }
+  for (const double height : {-9999.5, 12.0, -40.0, 0.0}) EXPECT_TRUE(remove(smeared(height, 20.0)).empty()) << height;
+  EXPECT_TRUE(remove(smeared(-9999.0, 2000.0)).empty()) << "a part that spans as much";
+}
+
 TEST(NoData, LeavesHeightsAlone) {
   // Zero, flat parts, plateaus of removal functions, quantised and few heights, a spike on its own.
   std::vector<std::vector<double>> maps{framed(0.0), framed(130.0), framed(79.0), {1.0, 1.0, 1.0, 1.0, 50.0, 51.0}};

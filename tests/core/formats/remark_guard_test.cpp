@@ -72,6 +72,29 @@ TEST(RemarkGuard, LetsProsePass) {
                              "removal of 20 nm planned",
                              "phase shift 90 deg",
                              "rotated by 0 deg",
+                             "mirror rotated to 0 deg",
+                             "lens f = 100 mm x 2",
+                             "rows = y, columns = x",
+                             "rows along x",
+                             "axis 0 = y, axis 1 = x",
+                             "row-major",
+                             "viewed from the front",
+                             "origin: lower left",
+                             "positive: material to remove",
+                             "positive is up",
+                             "not normalised",
+                             "10x objective",
+                             "2 x 3 array of parts",
+                             "9 rows x 12 columns",
+                             "1 in = 25.4 mm",
+                             "lambda/20",
+                             "M1 figure, nm RMS 3.4",
+                             "x from 0 to 5.5 mm, y from 0 to 4 mm",
+                             "x 0.5 mm",
+                             "background subtracted",
+                             "outside temperature: 9 C",
+                             "sign of wear: none",
+                             "back side polished",
                              "FITS (Flexible Image Transport System) format is defined in 'Astronomy",
                              "and Astrophysics', volume 376, page 359; bibcode: 2001A&A...376..359H",
                              "",
@@ -94,11 +117,49 @@ TEST(RemarkGuard, FindsWaves) {
 }
 
 TEST(RemarkGuard, FindsAFactor) {
-  expect_all(About::Factor,
-             {"height [10 nm]", "height / 10 nm", "sag (x 10 nm)", "nm/count: 0.5", "0.5 nm per digit",
-              "3 counts per nm", "gain of 2.5", "values x 1e-3 mm", "values \xc3\x97 1000", "data *1000",
-              "heights times 10", "scaled by 0.5", "heights in 10^-9 m", "surface [1e-9 m]", "data in units of 0.1 nm",
-              "interferometric scale factor 0.5", "mit Faktor 2 multipliziert"});
+  expect_all(About::Factor, {"height [10 nm]",
+                             "height / 10 nm",
+                             "sag (x 10 nm)",
+                             "nm/count: 0.5",
+                             "0.5 nm per digit",
+                             "3 counts per nm",
+                             "gain of 2.5",
+                             "values x 1e-3 mm",
+                             "values \xc3\x97 1000",
+                             "data *1000",
+                             "heights times 10",
+                             "scaled by 0.5",
+                             "heights in 10^-9 m",
+                             "surface [1e-9 m]",
+                             "data in units of 0.1 nm",
+                             "interferometric scale factor 0.5",
+                             "mit Faktor 2 multipliziert",
+                             "1 count = 0.1 nm",
+                             "1 LSB -> 0.25 nm",
+                             "counts to nm: 0.25",
+                             "height = 0.5 * value",
+                             "value*0.5",
+                             "z/1000",
+                             "nm*10",
+                             "10 x nm",
+                             "*1000",
+                             "x1000",
+                             "1e-6 m",
+                             "10^-6 m",
+                             "0.1 nm",
+                             "normalised",
+                             "normalized to the peak",
+                             "arbitrary units",
+                             "factor two",
+                             "x 10^-6",
+                             "values in %",
+                             "micro",
+                             "divisor 1000"});
+}
+
+TEST(RemarkGuard, FindsASignOfTheValues) {
+  expect_all(About::Factor, {"heights negated", "sign: -1", "bumps are negative", "positive = hole",
+                             "positive is into the glass", "negative is up"});
 }
 
 TEST(RemarkGuard, FindsPlacesInAnotherUnit) {
@@ -109,19 +170,25 @@ TEST(RemarkGuard, FindsPlacesInAnotherUnit) {
 }
 
 TEST(RemarkGuard, FindsAnOrientation) {
-  expect_all(About::Rows,
-             {"row 0 = top", "image flipped", "origin: upper left", "rows run down", "y axis points downwards",
-              "upside down", "rotated by 90 deg", "row 1 = largest y", "erste Zeile oben", "gespiegelt"});
+  expect_all(About::Rows, {"row 0 = top", "origin: upper left", "rows run down", "row 1 = largest y",
+                           "erste Zeile oben", "rows = x, columns = y", "columns: y", "first index is x",
+                           "x is the row index", "axis 0 = x", "rows along y", "Fortran order", "column-major"});
+  expect_all(About::Axes, {"image flipped", "y axis points downwards", "y down", "upside down", "rotated by 90 deg",
+                           "gespiegelt", "viewed from the back", "seen through the substrate", "rear view",
+                           "mirror image", "x to the left", "x axis points left", "left-handed", "rot90"});
 }
 
 TEST(RemarkGuard, FindsAPlaceOfTheMap) {
-  expect_all(About::Origin,
-             {"centre at 50, 50", "origin: center", "extent 0 100 0 80", "shifted by 3 mm", "Mitte bei 12,5"});
+  expect_all(About::Origin, {"centre at 50, 50", "origin: center", "extent 0 100 0 80", "Mitte bei 12,5",
+                             "x from -25 to 25 mm", "x: -25 to 25", "x = -25:0.5:25", "-25 < x < 25", "y in [-25, 25]",
+                             "starts at x = -25 mm", "left edge at x=-25 mm", "origin at pixel (6,5)"});
+  expect_all(About::Shift, {"shifted by 3 mm", "x offset 10", "offset: x=10, y=5 mm"});
   EXPECT_FALSE(suspects("centre of the mirror", About::Origin));
 }
 
 TEST(RemarkGuard, FindsAMarkerOfNoData) {
-  expect_all(About::NoData, {"missing pixels set to -9999", "-1 = no data", "bad pixels are 0"});
+  expect_all(About::NoData, {"missing pixels set to -9999", "-1 = no data", "bad pixels are 0", "outside the part: 9",
+                             "padded with 9", "dead pixels set to 9", "background is 9"});
 }
 
 TEST(RemarkGuard, SaysWhatWouldBeClearWhereTheRemarkStands) {

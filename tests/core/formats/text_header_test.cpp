@@ -101,6 +101,60 @@ TEST(TextHeader, KnowsGermanAndFrench) {
   expect_unclear("# Verst\xc3\xa4rkung: 2.5", About::Factor, {"'2.5'", "factor"});
 }
 
+TEST(TextHeader, KnowsWordsOfOtherLanguages) {
+  for (const char* line :
+       {"# unidad: micras", "# unidades: um", "# unit\xc3\xa0: micrometri", "# altura en micras", "# altezza [um]",
+        "# eenheid: um", "# \xd0\x95\xd0\xb4\xd0\xb8\xd0\xbd\xd0\xb8\xd1\x86\xd1\x8b: \xd0\xbc\xd0\xba\xd0\xbc",
+        "# \xe5\x8d\x95\xe4\xbd\x8d: \xe5\xbe\xae\xe7\xb1\xb3", "# \xe5\x8d\x98\xe4\xbd\x8d\xef\xbc\x9a\xc2\xb5m",
+        "# \xe9\xab\x98\xe3\x81\x95 [um]", "# \xe5\xbe\xae\xe7\xb1\xb3"}) {
+    const MapHeader header = header_of(line);
+    ASSERT_TRUE(header.unit) << line;
+    EXPECT_EQ(known_length_unit(*header.unit), 1e3) << line;
+  }
+  test::expect_input_error([] { header_of("# unidad: codos"); }, {"line 1", "unidad = 'codos'", "nm, um"});
+}
+
+TEST(TextHeader, TakesAUnitThatIsNamedTwiceOrParted) {
+  for (const char* line : {"# Units = micrometre (um)", "# Units: um [microns]", "# UNIT\tum"}) {
+    ASSERT_TRUE(header_of(line).unit) << line;
+    EXPECT_EQ(known_length_unit(*header_of(line).unit), 1e3) << line;
+  }
+  const MapHeader both = header_of("# unit\tum\tpitch_mm\t0.5\tby Anna");
+  EXPECT_EQ(both.unit, "um");
+  EXPECT_EQ(both.pitch, (Point{0.5, 0.5}));
+  test::expect_input_error([] { header_of("# Units = micrometre (nm)"); }, {"'micrometre (nm)'"});
+}
+
+TEST(TextHeader, AsksWhichWayTheMapLiesAndWhatItsNumbersAre) {
+  for (const char* line : {"# orientation = 3", "# rotation: 90 deg", "# clocking: 45 deg", "# view: back",
+                           "# y axis: down", "# transposed: yes"}) {
+    expect_unclear(line, About::Axes, {"line 2", "orientation"});
+  }
+  for (const char* line : {"# order: F", "# dims: x, y", "# index order: x, y"}) {
+    expect_unclear(line, About::Rows, {"line 2", "orientation"});
+  }
+  for (const char* line : {"# exponent: -6", "# prefix: micro", "# sign: -1", "# power of ten: -6", "# divisor: 1000",
+                           "# counts to nm: 0.25", "# normalised: yes"}) {
+    expect_unclear(line, About::Factor, {"line 2", "values"});
+  }
+  for (const char* line : {"# mask: 9", "# background 9", "# outside: 9", "# Hintergrund: 9"}) {
+    expect_unclear(line, About::NoData, {"line 2", "no data"});
+  }
+  const MapHeader step = header_of("# height: 10 nm");
+  ASSERT_FALSE(step.unclear.empty());
+  EXPECT_EQ(step.unclear[0].about, About::Factor) << "a step of the values, or a field?";
+  expect_unclear("# xmin=-25", About::Origin, {"xmin", "origin_mm"});
+  expect_unclear("# x range: -25 25", About::Origin, {"x range", "origin_mm"});
+  expect_unclear("# reference pixel: 5, 6", About::Origin, {"reference pixel"});
+  for (const char* line :
+       {"# orientation: none", "# row order: bottom-up", "# rotation: 0", "# flip: no", "# order: C", "# dims: y, x",
+        "# sign: +1", "# prefix: run7_", "# mask: 3 mm", "# outside diameter: 100 mm", "# x range: 0 5.5",
+        "# origin: lower", "# origin: lower left", "# rows: y; columns: x"}) {
+    const MapHeader header = header_of(line);
+    EXPECT_TRUE(says_nothing(header)) << line << (header.unclear.empty() ? "" : ": " + header.unclear[0].message);
+  }
+}
+
 TEST(TextHeader, AsksWhatADecimalCommaMeans) {
   for (const char* line : {"# Pixelabstand: 0,5 mm", "# pitch: 1,5 mm", "# dx: 0,5 mm", "# pas = 0,5"}) {
     expect_unclear(line, About::Pitch, {"decimal comma"});
@@ -194,8 +248,8 @@ TEST(TextHeader, TakesTheOriginAndRefusesAnOffset) {
     EXPECT_DOUBLE_EQ(header.origin->y, -50.0) << line;
   }
   expect_unclear("# origin: 100,50", About::Origin, {"line 2", "origin", "'100,50'", "origin_mm"});
-  expect_unclear("# offset: 3 mm", About::Origin, {"line 2", "offset", "'3 mm'", "origin_mm"});
-  expect_unclear("# X_Offset_mm: 3", About::Origin, {"X_Offset_mm", "'3'"});
+  expect_unclear("# offset: 3 mm", About::Shift, {"line 2", "offset", "'3 mm'", "origin_mm"});
+  expect_unclear("# X_Offset_mm: 3", About::Shift, {"X_Offset_mm", "'3'"});
   expect_unclear("# x0: 3 mm", About::Origin, {"x0", "one direction"});
   for (const char* line :
        {"# center_mm: 50,50", "# centre: 0, 0", "# extent: 0 100 0 80", "# origin: center", "# corner: 0,0",

@@ -183,6 +183,33 @@ TEST(XyzText, RefusesPlacesInAUnitThatIsNotClear) {
   }
 }
 
+// Points say where they lie, but not whether that is before a shift, or which way y points.
+TEST(XyzText, AsksWhetherThePlacesAreThoseOfThePart) {
+  const test::TemporaryFolder folder;
+  const std::string points = "1 2 5\n2 2 6\n1 3 7\n2 3 8\n";
+  MapReadOptions shift, axes;
+  shift.origin = Point{1.0, 2.0};
+  axes.rows = MapRows::Bottom;
+  struct Case {
+    const char *line, *option;
+    const MapReadOptions& settled;
+  };
+  for (const Case& c :
+       {Case{"# x offset: 10 mm", "`map origin`", shift}, Case{"# shifted by 3 mm", "`map origin`", shift},
+        Case{"# y axis down", "`map rows`", axes}, Case{"# rotated by 90 deg", "`map rows`", axes},
+        Case{"# viewed from the back", "`map rows`", axes}}) {
+    const auto file = folder.file("a.xyz", std::string(c.line) + "\n" + points);
+    test::expect_input_error([&] { read_map(file); }, {"a.xyz, line 1", c.option});
+    EXPECT_EQ(read_map(file, c.settled).at(1, 1), 8.0) << c.line;
+  }
+  for (const char* line : {"# extent: 1 2 2 3", "# centre: 1.5, 2.5", "# row 0 = top", "# x offset: 0 mm"}) {
+    EXPECT_EQ(read_map(folder.file("b.xyz", std::string(line) + "\n" + points)).at(1, 1), 8.0) << line;
+  }
+  axes.rows = MapRows::Top;
+  test::expect_input_error([&] { read_map(folder.file("c.xyz", "# y axis down\n" + points), axes); },
+                           {"`map rows` is for a matrix"});
+}
+
 TEST(PointGrid, NamesPointsOffTheGridAndPointsGivenTwice) {
   std::string text;
   for (int row = 0; row < 4; ++row) {

@@ -203,10 +203,15 @@ TEST(FeedTable, RefusesHeaderLinesThatMayChangeTheNumbers) {
                   "may change what the numbers mean");
   expect_contains(refused(replaced(text, "# rows", "# motion: stop\n# rows")),
                   "is the second header line of this name");
-  for (const char* line : {"# feed in mm/s", "# x in um", "# made by: hand, in inches"}) {
+  for (const char* line : {"# feed in mm/s", "# x in um", "# made by: hand, in inches", "# dwell in ms"}) {
     const std::string message = refused(replaced(text, "# rows", std::string(line) + "\n# rows"));
     expect_contains(message, "line 5: \"");
     expect_contains(message, "looks like another unit; accepted: x_mm and y_mm mm, dwell_s s, feed_mm_per_min mm/min");
+  }
+  for (const char* line : {"# y axis down", "# made by: hand, rotated by 90 deg", "# x and y in pixels"}) {
+    const std::string message = refused(replaced(text, "# rows", std::string(line) + "\n# rows"));
+    expect_contains(message, "line 5: the comment \"");
+    expect_contains(message, "accepted: x_mm and y_mm mm");
   }
   // Blanks and signs are free, and so are remarks.
   const TestFile file("feed.csv",
