@@ -19,6 +19,7 @@
 #include "runs/reports/plan_files.h"
 #include "runs/reports/plan_output.h"
 #include "runs/reports/tool_sheet.h"
+#include "runs/reports/travel_words.h"
 #include "solvers/solver_catalogue.h"
 
 namespace dwell::cli {
@@ -31,6 +32,12 @@ struct PlanArguments {
   bool write_job = false;
 };
 
+std::string weights_origin(const PlannedJob& plan) {
+  if (plan.dwell.search) return fmt::format("chosen from {} solves", plan.dwell.search->trials.size());
+  const bool wanted = weights_are_searched(dwell_options(plan.job.options));
+  return wanted ? "defaults: there was no time for the search" : "given";
+}
+
 /// The text for people.
 std::string plan_text(const PlannedJob& plan, const WrittenPlan& written) {
   std::string text = map_line(plan.part().map.grid, plan.part().before.valid_pixels);
@@ -41,10 +48,8 @@ std::string plan_text(const PlannedJob& plan, const WrittenPlan& written) {
                       plan.laid.metrics.points, plan.laid.metrics.length, plan.laid.metrics.longest_jump,
                       plan.laid.metrics.lifts);
   for (const std::string& note : plan.laid.path.notes) text += fmt::format("          {}\n", note);
-  text +=
-      fmt::format("weights   smoothness {:.4g}, time price {:.4g} nm^2/s ({})\n", plan.dwell.weights.smoothness,
-                  plan.dwell.weights.time_price,
-                  plan.dwell.search ? fmt::format("chosen from {} solves", plan.dwell.search->trials.size()) : "given");
+  text += fmt::format("weights   smoothness {:.4g}, time price {:.4g} nm^2/s ({})\n", plan.dwell.weights.smoothness,
+                      plan.dwell.weights.time_price, weights_origin(plan));
   if (plan.dwell.search) {
     text += front_lines(*plan.dwell.search, plan.job.options.smoothness, plan.job.options.time_price_nm2_per_s);
   }
@@ -63,8 +68,8 @@ std::string plan_text(const PlannedJob& plan, const WrittenPlan& written) {
       plan.dwell.lattices > 1 ? fmt::format(" (solved {} times, each finer)", plan.dwell.lattices) : "");
   text += fmt::format("program   {} by simulating program.nc as read back\n", in_words(written.exact.statistics));
   text += exact_lines(written.exact) + surface_lines(written.surface);
-  text += fmt::format("time      {}, of which lifted moves at maximum feed {:.2f} s\n",
-                      duration_text(written.total_seconds()), written.lift_seconds);
+  text += fmt::format("time      {} for the run: dwell {:.2f} s, {}\n", duration_text(written.total_seconds()),
+                      plan.dwell.seconds.sum(), travel_words(written.travel));
   for (const std::string& warning : written.warnings) text += fmt::format("warning   {}\n", warning);
   return text;
 }

@@ -121,7 +121,7 @@ TEST(PlanSearch, StartsOtherSolversFromADwellFoundBefore) {
   SmallJob job;
   job.options.solver = SolverKind::ProjectedCg;
   const Job prepared = load_job(job.options);
-  const LaidPath laid = lay_job_path(prepared);
+  const LaidPath laid = lay_job_path(prepared).laid;
   PlanProblem problem(*prepared.part, laid, prepared.part->kernel, dwell_options(job.options));
   const WeightedDwell cold = problem.solve({0.01, 0.0}, {}, 60.0, "solve", {});
   const WeightedDwell warm = problem.solve({0.01, 0.0}, cold.dwell, 60.0, "solve", {});
