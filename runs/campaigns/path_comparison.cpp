@@ -6,6 +6,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 #include <utility>
 
@@ -68,6 +69,7 @@ void measure(const Part& part, const LaidPath& laid, double pitch, ComparedPath&
 
 void plan_one(Job job, double pitch, ComparedPath& path, const OutputFolder& folder, const Progress& progress) {
   job.options.path = parse_path_spec(path.listed.text);
+  job.options.out = (std::filesystem::path(job.options.out) / path.listed.name).string();
   JobPath laid = lay_job_path(job, 0.0, progress);
   measure(*job.part, laid.laid, pitch, path, progress);
   const PlannedJob plan = plan_job(std::move(job), std::move(laid), progress);

@@ -78,9 +78,10 @@ void check_schema(const toml::node& node, const std::string& file) {
 /// Whether the value of a file option names a file: a removal function may be a formula.
 bool names_a_file(const std::string& value) { return !is_removal_model(split_kind(value).first); }
 
-/// The value with its file name taken relative to the job file's folder.
-std::string rebased(const JobOptionRecord& record, const std::string& value, const std::filesystem::path& folder,
-                    const std::string& source) {
+}  // namespace
+
+std::string rebased_option(const JobOptionRecord& record, const std::string& value, const std::filesystem::path& folder,
+                           const std::string& source) {
   if (value.empty()) return value;
   if (record.is_file && names_a_file(value)) return (folder / value).lexically_normal().string();
   if (record.key == "map_steps" || record.key == "tif_steps") {
@@ -96,8 +97,6 @@ std::string rebased(const JobOptionRecord& record, const std::string& value, con
   }
   return value;
 }
-
-}  // namespace
 
 void read_job_file(const std::filesystem::path& file, JobOptions& options) {
   const std::string text = read_whole_file(file);
@@ -115,7 +114,7 @@ void read_job_file(const std::filesystem::path& file, JobOptions& options) {
     const JobOptionRecord& record = record_of(name, file.string());
     const std::string source = fmt::format("{}: {}", file.string(), name);
     const std::string value = text_of(node, record, source);
-    set_job_option(options, record, rebased(record, value, file.parent_path(), source), source);
+    set_job_option(options, record, rebased_option(record, value, file.parent_path(), source), source);
   }
 }
 
