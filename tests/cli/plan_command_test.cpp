@@ -69,7 +69,7 @@ TEST(PlanCommand, SaysWhatAPartialCorrectionAimsAt) {
   for (const char* wrong : {"0", "-0.5", "1.0001", "80", "nan"}) {
     const ProgramResult refused = inputs.run(SmallInputs::plan({"--fraction", wrong}));
     EXPECT_EQ(refused.exit_code, 2);
-    expect_has(refused.err, std::string("--fraction: '") + wrong + "'; required a number > 0 and at most 1");
+    expect_has(refused.err, std::string("--fraction: '") + wrong + "'; required a number from 0.01 to 1");
   }
   EXPECT_EQ(inputs.run({"simulate", "plan", "--fraction", "0.5"}).exit_code, 2) << "has no say in what is removed";
 }

@@ -56,8 +56,9 @@ TEST(QuestionTool, HasNoWordForAToolWithoutDataAroundIt) {
 TEST(QuestionTool, RefusesNoDataWithinTheFootprint) {
   HeightMap rates = measured_tool();
   rates.at(24, 28) = kGapHere;  // (40, -30) mm
-  expect_input_error([&] { said_of(rates); }, {"1 sample without data", "row 25, column 29 (at 40, -30 mm)", "3.9",
-                                               "`tif steps` fill:harmonic fills it"});
+  expect_input_error([&] { said_of(rates); },
+                     {"1 sample without data", "row 25, column 29 (counted from 1; at 40, -30 mm)", "3.9",
+                      "`tif steps` fill:harmonic fills it"});
   rates.at(24, 29) = kGapHere;
   expect_input_error([&] { said_of(rates); }, {"2 samples without data", "fills them"});
 }

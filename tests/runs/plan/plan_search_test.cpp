@@ -265,7 +265,7 @@ TEST(PlanSearch, StopsBetweenAndWithinItsSolvesAndReportsEach) {
   std::size_t reported = 0;
   Progress progress;
   progress.show = [&](const std::string& line) {
-    reported += line.starts_with("search ") && line.find("total") != std::string::npos;
+    reported += line.starts_with("search ") && line.find(" s RMS") != std::string::npos;
   };
   EXPECT_EQ(plan_job(job.options, progress).dwell.search->trials.size(), reported);
 }
