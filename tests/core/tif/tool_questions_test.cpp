@@ -120,7 +120,8 @@ TEST(QuestionTool, WantsTheAxisWhereTheMiddleIsOffCentroidAndPeak) {
       [] {
         said_of(measured_tool({1.0, -0.5}));
       },
-      {"where is the tool axis", "the centroid lies (0.", "the peak (", "FWHM is", "`tif centre`"});
+      {"where is the tool axis", "the centroid lies (0.", "the apex of its rounded top, which peak means here, (",
+       "FWHM is", "`tif centre`"});
   EXPECT_NO_THROW(said_of(measured_tool({1.0, -0.5}), {}, TifCentre{TifCentre::Kind::Middle, {}}));
   EXPECT_NO_THROW(said_of(measured_tool({0.15, 0.1})));
 }
