@@ -4,6 +4,7 @@
 
 #include "cli/commands.h"
 #include "cli/json_option.h"
+#include "cli/number_option.h"
 #include "cli/progress_line.h"
 #include "cli/result_folder.h"
 #include "cli/terminal.h"
@@ -53,13 +54,15 @@ void add_example_command(CLI::App& program, int& exit_code) {
       ->required();
   command->add_option("--shape", arguments->shape, "round or rectangle (default round)")
       ->check(CLI::IsMember({"round", "rectangle"}));
-  command->add_option("--width", m.width, fmt::format("width along x or diameter in mm (default {})", m.width))
-      ->type_name("MM");
-  command->add_option("--height", m.height, fmt::format("height along y in mm, rectangle only (default {})", m.height))
-      ->type_name("MM");
-  command->add_option("--hole", m.hole, "diameter of a central hole in mm, round only (default 0)")->type_name("MM");
-  command->add_option("--pitch", m.pitch, fmt::format("pixel pitch in mm (default {})", m.pitch))->type_name("MM");
-  command->add_option("--seed", m.seed, fmt::format("seed of the roughness and the noise (default {})", m.seed))
+  const auto length = [command](const char* flag, double& into, const ValueRange& range, const std::string& help) {
+    add_number(*command, flag, into, range, help)->type_name("MM");
+  };
+  length("--width", m.width, ranges::kSize, fmt::format("width along x or diameter in mm (default {})", m.width));
+  length("--height", m.height, ranges::kSize,
+         fmt::format("height along y in mm, rectangle only (default {})", m.height));
+  length("--hole", m.hole, ranges::kLength, "diameter of a central hole in mm, round only (default 0)");
+  length("--pitch", m.pitch, ranges::kPitch, fmt::format("pixel pitch in mm (default {})", m.pitch));
+  add_whole_number(*command, "--seed", m.seed, fmt::format("seed of the roughness and the noise (default {})", m.seed))
       ->type_name("N");
   arguments->folder.add_to(*command);
   arguments->json.add_to(*command);

@@ -46,12 +46,14 @@ JobOptions JobArguments::options_over(JobOptions options) const {
   return options;
 }
 
-void JobArguments::require(const JobOptions& options, const std::vector<std::string>& flags) {
+void JobArguments::require(const JobOptions& options, const std::vector<std::string>& flags,
+                           const std::vector<std::string>& others) {
   std::vector<std::string> missing;
   for (const JobOptionRecord& record : job_option_table()) {
     const bool wanted = std::find(flags.begin(), flags.end(), record.flag) != flags.end();
     if (wanted && record.get(options).empty()) missing.push_back("--" + record.flag);
   }
+  missing.insert(missing.end(), others.begin(), others.end());
   if (missing.size() < 2) return;
   throw InputError(fmt::format("{}: required; --help says what each is", fmt::join(missing, ", ")));
 }

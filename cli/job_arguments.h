@@ -25,7 +25,9 @@ class JobArguments {
 
   /// Throws InputError that names all of the flags whose option is not given, if these are two or more: whoever lacks
   /// one is told better by what reads it.
-  static void require(const JobOptions& options, const std::vector<std::string>& flags);
+  /// `others` are missing besides: they are of the command alone.
+  static void require(const JobOptions& options, const std::vector<std::string>& flags,
+                      const std::vector<std::string>& others = {});
 
   /// The files that these options name for reading, the job file among them, as check_output_files takes them.
   std::vector<ReadFile> files_read(const JobOptions& options) const;

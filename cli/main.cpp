@@ -96,7 +96,7 @@ int main(int argc, char** argv) {
     return fail(kBadInput, "", dwell::with_flags(error));
   } catch (const dwell::TimeLimitReached& error) {
     const std::string reason = dwell::with_option_names(error.what(), dwell::flag_of);
-    return fail(kLimitReached, "limit reached: ", std::runtime_error(reason));
+    return fail(kLimitReached, "limit reached: ", std::runtime_error(reason + "; nothing was written"));
   } catch (const dwell::Interrupted&) {
     say_interrupted();
     return kInterrupted;

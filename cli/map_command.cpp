@@ -8,6 +8,7 @@
 #include "cli/commands.h"
 #include "cli/job_arguments.h"
 #include "cli/json_option.h"
+#include "cli/named_option.h"
 #include "cli/output_files.h"
 #include "cli/progress_line.h"
 #include "cli/standard_streams.h"
@@ -38,11 +39,12 @@ struct MapArguments {
 /// What the report of the map shall hold.
 MapReportOptions report_options(const MapArguments& arguments, const CLI::App& command, int threads) {
   MapReportOptions options;
-  options.removed = parse_polynomial_spec(arguments.remove);
-  if (!arguments.form.empty()) options.form = parse_polynomial_spec(arguments.form);
-  options.window = parse_spectral_window(arguments.window);
-  options.band_edges = parse_band_edges(arguments.bands);
-  if (!arguments.limit.empty()) options.limit = parse_psd_limit(arguments.limit);
+  const MapArguments& a = arguments;
+  options.removed = of_option("--remove", [&a] { return parse_polynomial_spec(a.remove); });
+  if (!a.form.empty()) options.form = of_option("--form", [&a] { return parse_polynomial_spec(a.form); });
+  options.window = of_option("--window", [&a] { return parse_spectral_window(a.window); });
+  options.band_edges = of_option("--bands", [&a] { return parse_band_edges(a.bands); });
+  if (!a.limit.empty()) options.limit = of_option("--limit", [&a] { return parse_psd_limit(a.limit); });
   const bool asked = command.count("--bands") + command.count("--limit") + command.count("--window") > 0;
   options.spectrum = arguments.psd || asked || !arguments.psd_png.empty();
   if (!arguments.profile_png.empty() && arguments.profile.empty()) {
@@ -129,7 +131,8 @@ int run_map(const MapArguments& arguments, const CLI::App& command) {
   options.map = arguments.file;
   const MapReportOptions wanted = report_options(arguments, command, thread_count(options.threads));
   std::optional<ProfileSpec> line;
-  if (!arguments.profile.empty()) line = parse_profile_spec(arguments.profile);
+  if (!arguments.profile.empty())
+    line = of_option("--profile", [&arguments] { return parse_profile_spec(arguments.profile); });
   add_steps(options, arguments);
   check_outputs(arguments, options);
   std::vector<InputFile> inputs;

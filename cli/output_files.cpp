@@ -74,11 +74,18 @@ void add_places(std::vector<Place>& places, const std::string& name, const fs::p
   if (extension_of(file) == ".npy") places.push_back({"the sidecar of " + name, npy_sidecar_name(file)});
 }
 
-/// A folder that holds a result can be replaced by the next as long as nothing else is in it.
-void keep_results_replaceable(const OutputFile& output, const Place& place) {
+/// A folder that holds a result stays as it was written: its files belong together, and it can be replaced by the next
+/// as long as nothing else is in it.
+void keep_results_whole(const OutputFile& output, const Place& place) {
   const fs::path folder = place.file.has_parent_path() ? place.file.parent_path() : fs::path(".");
   for (const ResultFiles* kind : kinds_of_results()) {
-    if (kind->has(place.file.filename().string()) || !is_result(folder, *kind)) continue;
+    if (!is_result(folder, *kind)) continue;
+    if (kind->has(place.file.filename().string())) {
+      refuse(output,
+             fmt::format("is a file of the earlier {} in '{}', which would then say what it is not; give another "
+                         "name and folder",
+                         kind->kind, folder.string()));
+    }
     refuse(output, fmt::format("'{}' holds an earlier {}, which could then no longer be replaced; give another folder",
                                folder.string(), kind->kind));
   }
@@ -98,7 +105,7 @@ void check_output_files(const std::vector<OutputFile>& outputs, const std::vecto
     std::vector<Place> places;
     add_places(places, output.option, output.file);
     for (const Place& mine : places) {
-      keep_results_replaceable(output, mine);
+      keep_results_whole(output, mine);
       for (const Place& other : taken) {
         if (same_file(mine.file, other.file)) {
           refuse(output,

@@ -22,8 +22,8 @@ struct ReadFile {
 
 /// Refuses, before any work, outputs that could not be written or would destroy something: another extension than the
 /// kind's, a missing folder or one that cannot be written, a name that is no regular file's, the same file twice, or a
-/// file that is read; or a file beside those of an earlier result, which could then no longer be replaced. An NPY map
-/// counts with its sidecar, on both sides. Throws InputError naming option, value and what is accepted.
+/// file that is read; or a file of an earlier result, or one beside its files, which could then no longer be replaced.
+/// An NPY map counts with its sidecar, on both sides. Throws InputError naming option, value and what is accepted.
 void check_output_files(const std::vector<OutputFile>& outputs, const std::vector<ReadFile>& read);
 
 /// What a command writes when all of it has been computed: the map, if any, and the bytes of the other files. All or

@@ -14,6 +14,7 @@
 #include "runs/reports/aim.h"
 #include "runs/reports/map_line.h"
 #include "runs/reports/tool_sheet.h"
+#include "runs/reports/travel_words.h"
 
 namespace dwell::cli {
 namespace {
@@ -36,13 +37,16 @@ std::string front_text(const ParetoSweep& sweep) {
   for (const ParetoPoint& p : sweep.points) applications += p.solver.operator_applications;
   text += fmt::format("solves    {}, {} operator applications, {:.2f} s; {} on the Pareto front:\n",
                       sweep.points.size(), applications, sweep.seconds, on_front);
-  text += fmt::format("{:>12} {:>20} {:>18} {:>10} {:>13} {:>12}\n", "smoothness", "time price [nm^2/s]",
-                      "residual RMS [nm]", "total [s]", "h:min:s", "step RMS [s]");
+  text += fmt::format("          residual: exact, about zero; run: dwell and {:.2f} s of moves ({})\n",
+                      sweep.travel.total(), travel_words(sweep.travel));
+  text += fmt::format("{:>12} {:>20} {:>18} {:>10} {:>10} {:>13} {:>12}\n", "smoothness", "time price [nm^2/s]",
+                      "residual RMS [nm]", "dwell [s]", "run [s]", "h:min:s", "step RMS [s]");
   for (const ParetoPoint& p : sweep.points) {
     if (!p.on_front) continue;
-    text += fmt::format("{:>12.4g} {:>20.4g} {:>18.4g} {:>10.2f} {:>13} {:>12.4g}\n", p.weights.smoothness,
-                        p.weights.time_price, p.trade_off.residual_rms, p.trade_off.total,
-                        clock_text(p.trade_off.total), p.trade_off.step_rms);
+    const double run = p.trade_off.total + sweep.travel.total();
+    text +=
+        fmt::format("{:>12.4g} {:>20.4g} {:>18.4g} {:>10.2f} {:>10.2f} {:>13} {:>12.4g}\n", p.weights.smoothness,
+                    p.weights.time_price, p.exact_rms, p.trade_off.total, run, clock_text(run), p.trade_off.step_rms);
   }
   return text;
 }
@@ -68,9 +72,7 @@ int run_pareto(const ParetoArguments& arguments) {
 /// The options of a plan but for the weights, which are swept, and the program, which is not written.
 std::vector<std::string> swept_flags() {
   std::vector<std::string> flags = every_flag();
-  std::erase_if(flags, [](const std::string& f) {
-    return f == "smoothness" || f == "time-price" || f == "gcode" || f == "lift-height";
-  });
+  std::erase_if(flags, [](const std::string& f) { return f == "smoothness" || f == "time-price" || f == "gcode"; });
   return flags;
 }
 
@@ -98,7 +100,7 @@ void add_pareto_command(CLI::App& program, int& exit_code) {
       "Example:\n"
       "  dwell pareto --map mirror.csv --map-pixel 0.0938 --tif spot.csv --tif-pixel 0.0938 \\\n"
       "               --path raster:pitch=1 --smoothnesses 0.001:10:7 --time-prices 0,1e-6,1e-5 --out pareto/\n"
-      "A job file's smoothness, time_price_nm2_per_s, gcode and lift_height_mm are not used; max_solve_s is for each "
+      "A job file's smoothness, time_price_nm2_per_s and gcode are not used; max_solve_s is for each "
       "solve.\n"
       "Exit codes: 0 done, 1 internal fault, 2 bad usage or input, 3 done but a limit was reached, 130 interrupted.");
   command->callback([arguments, &exit_code] { exit_code = run_pareto(*arguments); });

@@ -7,6 +7,7 @@
 #include "cli/commands.h"
 #include "cli/job_arguments.h"
 #include "cli/json_option.h"
+#include "cli/number_option.h"
 #include "cli/progress_line.h"
 #include "cli/result_folder.h"
 #include "cli/standard_streams.h"
@@ -19,6 +20,8 @@
 
 namespace dwell::cli {
 namespace {
+
+using Words = std::vector<std::string>;
 
 struct PathsArguments {
   std::unique_ptr<JobArguments> job;
@@ -40,10 +43,10 @@ int run_paths(const PathsArguments& arguments) {
     print_kinds();
     return kDone;
   }
-  if (arguments.list.empty())
-    throw InputError("--paths: required; for instance raster,spiral,random (--kinds lists all)");
   const JobOptions options = arguments.job->options();
-  JobArguments::require(options, {"map", "tif", "out"});
+  const bool none = arguments.list.empty();
+  JobArguments::require(options, {"map", "tif", "out"}, none ? Words{"--paths"} : Words{});
+  if (none) throw InputError("--paths: required; for instance raster,spiral,random (--kinds lists all)");
   std::vector<ReadFile> read = arguments.job->files_read(options);
   for (const ListedPath& path : parse_path_list(arguments.list, arguments.pitch.value_or(1.0))) {
     const PathSpec spec = parse_path_spec(path.text);
@@ -79,9 +82,8 @@ void add_paths_command(CLI::App& program, int& exit_code) {
                    "paths as --path of dwell plan takes them, separated by commas, or by semicolons where names of "
                    "files hold commas; a path that says no pitch gets --pitch")
       ->type_name("PATH,...");
-  command
-      ->add_option("--pitch", arguments->pitch,
-                   "pitch in mm of the paths that say none (default a quarter of the removal function's FWHM)")
+  add_number(*command, "--pitch", arguments->pitch, ranges::kPitch,
+             "pitch in mm of the paths that say none (default a quarter of the removal function's FWHM)")
       ->type_name("MM");
   arguments->folder.add_to(*command);
   arguments->json.add_to(*command);

@@ -18,6 +18,7 @@
 #include "runs/reports/plan_files.h"
 #include "runs/reports/plan_output.h"
 #include "runs/reports/tool_sheet.h"
+#include "runs/reports/travel_words.h"
 #include "runs/reports/weight_lines.h"
 #include "solvers/solver_catalogue.h"
 
@@ -58,8 +59,8 @@ std::string plan_text(const PlannedJob& plan, const WrittenPlan& written) {
       plan.dwell.lattices > 1 ? fmt::format(" (solved {} times, each finer)", plan.dwell.lattices) : "");
   text += fmt::format("program   {} by simulating program.nc as read back\n", in_words(written.exact.statistics));
   text += exact_lines(written.exact) + surface_lines(written.surface);
-  text += fmt::format("time      {}, of which lifted moves at maximum feed {:.2f} s\n",
-                      duration_text(written.total_seconds()), written.lift_seconds);
+  text += fmt::format("time      {} for the run: dwell {:.2f} s, {}\n", duration_text(written.total_seconds()),
+                      plan.dwell.seconds.sum(), travel_words(written.travel));
   for (const std::string& warning : written.warnings) text += fmt::format("warning   {}\n", warning);
   return text;
 }

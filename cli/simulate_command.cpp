@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <set>
@@ -9,6 +10,7 @@
 #include "cli/commands.h"
 #include "cli/job_arguments.h"
 #include "cli/json_option.h"
+#include "cli/named_option.h"
 #include "cli/output_files.h"
 #include "cli/progress_line.h"
 #include "cli/terminal.h"
@@ -16,6 +18,7 @@
 #include "core/base/errors.h"
 #include "core/formats/map_formats.h"
 #include "runs/drawing/picture.h"
+#include "runs/job/option_flags.h"
 #include "runs/programs/program_formats.h"
 #include "runs/reports/exact_lines.h"
 #include "runs/reports/map_line.h"
@@ -78,7 +81,8 @@ SimulationRequest request_of_plan(const SimulateArguments& a) {
 SimulationRequest request_of(const SimulateArguments& a) {
   if (!a.plan.empty()) return request_of_plan(a);
   if (a.program.empty()) {
-    throw InputError("PLAN or --program: required; the folder of a plan, or a program alone (" + program_files() + ")");
+    throw InputError("PLAN or --program: required; the folder of a plan, or a program alone (" + program_files() +
+                     ") with --map and --tif");
   }
   const JobOptions options = a.job->options();
   JobArguments::require(options, {"map", "tif"});
@@ -110,15 +114,44 @@ std::string simulation_text(const Simulation& s) {
          exact_lines(s.after);
 }
 
+/// Where another map is read with the plan's options of its own map, what is refused about them says whose they are.
+InputError with_origin_of_options(const InputError& error, const SimulateArguments& a, const JobOptions& options) {
+  const std::vector<const JobOptionRecord*> given = a.job->given();
+  const auto is_given = [&given](const std::string& flag) {
+    return std::any_of(given.begin(), given.end(), [&flag](const auto* record) { return record->flag == flag; });
+  };
+  const std::string what = with_option_names(error.what(), flag_of);
+  std::string from_plan;
+  for (const JobOptionRecord& record : job_option_table()) {
+    const std::string flag = "--" + record.flag, value = record.get(options);
+    const bool of_map = record.flag.starts_with("map-") && is_given("map");
+    const bool of_tif = record.flag.starts_with("tif-") && is_given("tif");
+    if (!(of_map || of_tif) || is_given(record.flag) || value.empty() || what.find(flag) == std::string::npos) continue;
+    from_plan += fmt::format("{}{} {}", from_plan.empty() ? "" : ", ", flag, value);
+  }
+  if (a.plan.empty() || from_plan.empty()) return error;
+  return InputError(fmt::format("{} ({} is of the plan {}; give the option anew for the file that takes its place)",
+                                what, from_plan, a.plan));
+}
+
+Simulation simulated(const SimulateArguments& a, const SimulationRequest& request, const GcodeReading& reading,
+                     const Progress& progress) {
+  try {
+    return simulate_file(request.program, reading, request.options, progress, a.exact, request.source);
+  } catch (const InputError& error) {
+    throw with_origin_of_options(error, a, request.options);
+  }
+}
+
 int run_simulate(const SimulateArguments& arguments) {
   GcodeReading reading;
-  if (!arguments.gcode.empty()) reading.dialect = parse_gcode_dialect(arguments.gcode);
-  if (!arguments.g4.empty()) reading.halts = parse_halt_unit(arguments.g4);
+  const SimulateArguments& a = arguments;
+  if (!a.gcode.empty()) reading.dialect = of_option("--gcode", [&a] { return parse_gcode_dialect(a.gcode); });
+  if (!a.g4.empty()) reading.halts = of_option("--g4", [&a] { return parse_halt_unit(a.g4); });
   const SimulationRequest request = request_of(arguments);
   check_outputs(arguments, request.options, request.program);
   const Progress progress = terminal_progress();
-  const Simulation s =
-      simulate_file(request.program, reading, request.options, progress, arguments.exact, request.source);
+  const Simulation s = simulated(arguments, request, reading, progress);
   progress.step("writing");
   PendingFiles files;
   files.add_map(arguments.residual, s.after.surface);

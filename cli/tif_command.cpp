@@ -5,6 +5,7 @@
 #include "cli/commands.h"
 #include "cli/job_arguments.h"
 #include "cli/json_option.h"
+#include "cli/number_option.h"
 #include "cli/output_files.h"
 #include "cli/progress_line.h"
 #include "cli/terminal.h"
@@ -72,25 +73,27 @@ void add_inputs(CLI::App& command, TifArguments& arguments) {
       ->type_name("FILE");
   command.add_option("--before", job.before, "map before, on the same grid (default: it was flat around the spots)")
       ->type_name("FILE");
-  command.add_option("--dwell-time", job.dwell_time_s, "time that the tool stood on each spot in s")->type_name("S");
-  command.add_option("--feed", job.feed_mm_per_min, "speed along the trench in mm/min")->type_name("MM/MIN");
-  command
-      .add_option("--direction", job.direction_deg,
-                  "direction of the trench in degrees, counter-clockwise from +x (default: as fitted; a given one must "
-                  "agree)")
+  constexpr ValueRange kCut{0.0, 0.5, ""}, kSigmas{0.0, 1e3, ""};
+  add_number(command, "--dwell-time", job.dwell_time_s, ranges::kTime, "time that the tool stood on each spot in s")
+      ->type_name("S");
+  add_number(command, "--feed", job.feed_mm_per_min, ranges::kFeed, "speed along the trench in mm/min")
+      ->type_name("MM/MIN");
+  add_number(command, "--direction", job.direction_deg, ranges::kAngle,
+             "direction of the trench in degrees, counter-clockwise from +x (default: as fitted; a given one must "
+             "agree)")
       ->type_name("DEG");
   command.add_option("--at", job.at, "where a spot is in mm; once for each (default: all that are found)")
       ->type_name("X,Y")
       ->expected(1)
       ->take_all();
-  command.add_option("--radius", job.radius_mm, "how far a spot or trench reaches in mm (default: found)")
+  add_number(command, "--radius", job.radius_mm, ranges::kSize,
+             "how far a spot or trench reaches in mm (default: found)")
       ->type_name("MM");
-  command
-      .add_option("--noise-cut", job.noise_cut,
-                  "share of the peak below which a rate is set to 0 (default 0.01, trench 0)")
+  add_number(command, "--noise-cut", job.noise_cut, kCut,
+             "share of the peak below which a rate is set to 0 (default 0.01, trench 0)")
       ->type_name("SHARE");
-  command
-      .add_option("--noise-sigmas", job.noise_sigmas, "the same in standard deviations of the surroundings (default 0)")
+  add_number(command, "--noise-sigmas", job.noise_sigmas, kSigmas,
+             "the same in standard deviations of the surroundings (default 0)")
       ->type_name("N");
   command
       .add_option("--centre", job.centre,

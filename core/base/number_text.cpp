@@ -92,6 +92,14 @@ double fewest_digits(double value) {
   return value;
 }
 
+std::pair<std::string, std::string> told_apart(double a, double b) {
+  constexpr int kFewest = 4, kMost = 17;
+  for (int digits = kFewest;; ++digits) {
+    std::pair<std::string, std::string> texts{fmt::format("{:.{}g}", a, digits), fmt::format("{:.{}g}", b, digits)};
+    if (texts.first != texts.second || digits == kMost) return texts;
+  }
+}
+
 bool starts_with_spreadsheet_error(std::string_view line) {
   line = trim(line);
   if (line.starts_with('"')) line.remove_prefix(1);

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace dwell {
@@ -22,6 +23,9 @@ std::optional<double> parse_number(std::string_view text);
 /// The finite number that the whole of `text` spells, blanks around it and a leading '+' allowed; nothing if it
 /// spells anything else (NaN and infinity included). Decimal point only, whatever the locale.
 std::optional<double> finite_number(std::string_view text);
+
+/// Two numbers with four digits, or as many more as make them differ (17 tell any two apart).
+std::pair<std::string, std::string> told_apart(double a, double b);
 
 /// Whether a line begins with what spreadsheets write where a formula has no value (#N/A, #DIV/0!, #REF!): '#' begins
 /// no comment there.

@@ -19,8 +19,9 @@ class TimeLimitReached : public std::runtime_error {
 /// A limit on the wall clock, from its construction on, of work that asks a Progress.
 class TimeLimit {
  public:
-  /// `name` is the option that messages name, as "max solve"; `used` is what went of it before [s].
-  TimeLimit(double seconds, std::string name, double used = 0.0);
+  /// `stated` is the limit as the user set it [s], `name` its option, as "max solve"; `used` is what went of it before
+  /// [s]. Where `least` is more, the limit is that; messages give both.
+  TimeLimit(double stated, std::string name, double used = 0.0, double least = 0.0);
 
   /// Since the beginning, with what was used before [s].
   double used() const;
@@ -47,7 +48,7 @@ class TimeLimit {
   std::string message(const std::string& news) const;
 
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
-  double seconds_, used_;
+  double stated_, seconds_, used_;
   std::string name_;
 };
 

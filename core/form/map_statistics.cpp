@@ -55,7 +55,9 @@ double MapStatistics::rms_about_zero() const { return std::hypot(rms, mean); }
 
 std::string mean_in_words(const MapStatistics& s) {
   constexpr double kNone = 1e-6;  // of the PV: what is left of a piston that was removed
-  return std::abs(s.mean) > kNone * s.pv ? fmt::format(", mean {:.4g} nm", s.mean) : "";
+  return std::abs(s.mean) > kNone * s.pv
+             ? fmt::format(", mean {:.4g} nm (RMS about it; {:.4g} nm about zero)", s.mean, s.rms_about_zero())
+             : "";
 }
 
 std::string in_words(const MapStatistics& s) {

@@ -124,6 +124,11 @@ double known_scale(MapHeader& header, const MapReadOptions& options, const std::
   return waves.scale * known_unit(header, waves.wave, options, where);
 }
 
+/// Whether neither the file nor the options say the unit.
+bool assumes_unit(const MapHeader& header, const MapReadOptions& options) {
+  return !header.unit && !options.scale && !options.waves.in_waves;
+}
+
 /// What the name of the file itself calls its data.
 void read_file_name(MapHeader& header, const MapName& name, const MapReadOptions& options, const std::string& where) {
   if (options.quantity != MapQuantity::Height) return;
@@ -229,6 +234,7 @@ HeightMap map_of_source(MapSource source, const MapReadOptions& options, const s
   const std::string field = source.header.pitch ? source.pitch_field : fmt::format("`{} pixel`", options.name);
   check_part_size(grid, field.empty() ? "pitch_mm" : field, where);
   HeightMap map(grid, std::move(source.values));
+  map.unit_assumed = assumes_unit(source.header, options);
   map.history = std::move(source.header.history);
   scale_values(map, scale, where);
   return map;
@@ -293,6 +299,7 @@ HeightMap read_xyz(const MapName& name, std::string_view text, const MapReadOpti
                       : grid_points(xyz.points, known_pitch(xyz.header, options, where),
                                     known_origin(xyz.header, options, where), where, options.name, options.limit);
   check_part_size(map.grid, "the points' pitch", where);
+  map.unit_assumed = assumes_unit(xyz.header, options);
   append(xyz.header.history, std::move(map.history));
   map.history = std::move(xyz.header.history);
   scale_values(map, scale, where);

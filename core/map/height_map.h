@@ -17,6 +17,7 @@ struct HeightMap {
   std::vector<double> values;        // grid.size(), row-major
   std::vector<std::string> history;  // how it was made from what was measured, a step each (one line), oldest first
   MapQuantity quantity = MapQuantity::Height;  // files state it as the unit, so that neither is read as the other
+  bool unit_assumed = false;  // read from a file that states no unit, without an option that does: nm (nm/s) was taken
 
   HeightMap() = default;
   /// All pixels NaN. Throws InputError unless rows, cols >= 1 and both pitches are finite and > 0.

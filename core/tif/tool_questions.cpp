@@ -18,7 +18,7 @@ using Findings = std::vector<ToolFinding>;
 
 std::string place_text(const Grid& grid, Index row, Index col) {
   const Point p = grid.centre(row, col);
-  return fmt::format("row {}, column {} (at {:.4g}, {:.4g} mm)", row + 1, col + 1, p.x, p.y);
+  return fmt::format("row {}, column {} (counted from 1; at {:.4g}, {:.4g} mm)", row + 1, col + 1, p.x, p.y);
 }
 
 double in_percent(double part, double whole) { return 100.0 * part / whole; }
@@ -114,7 +114,9 @@ void question_axis(const MeasuredTool& tool, Findings& findings) {
                    "({:.3g}, {:.3g}) mm from there{}, and the FWHM is {:.4g} mm; required from {:.2g} of that on: "
                    "`tif centre` middle, centroid, peak or X,Y",
                    centroid.x, centroid.y,
-                   top ? fmt::format(" and the peak ({:.3g}, {:.3g}) mm", top->x, top->y) : std::string(),
+                   top ? fmt::format(" and the apex of its rounded top, which peak means here, ({:.3g}, {:.3g}) mm",
+                                     top->x, top->y)
+                       : std::string(),
                    tool.tif.fwhm, tool_limits::kAxisOff)});
 }
 

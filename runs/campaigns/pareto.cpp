@@ -3,16 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <numeric>
-#include <tuple>
+#include <utility>
 
 #include "core/base/errors.h"
 #include "core/base/number_text.h"
 #include "core/base/value_range.h"
 #include "runs/plan/lattice_choice.h"
 #include "runs/plan/plan_problem.h"
+#include "runs/plan/program_prediction.h"
 
 namespace dwell {
 namespace {
@@ -55,10 +58,13 @@ ParetoRanges complete_ranges(ParetoRanges ranges, double highest_price) {
   return ranges;
 }
 
+/// What is to be small.
+std::array<double, 3> costs(const ParetoPoint& p) { return {p.exact_rms, p.trade_off.total, p.trade_off.step_rms}; }
+
 /// At least as good in everything, and better in something.
-bool dominates(const TradeOff& a, const TradeOff& b) {
-  const bool as_good = a.residual_rms <= b.residual_rms && a.total <= b.total && a.step_rms <= b.step_rms;
-  return as_good && (a.residual_rms < b.residual_rms || a.total < b.total || a.step_rms < b.step_rms);
+bool dominates(const ParetoPoint& a, const ParetoPoint& b) {
+  const std::array<double, 3> x = costs(a), y = costs(b);
+  return x != y && std::equal(x.begin(), x.end(), y.begin(), std::less_equal<>());
 }
 
 void report_unconverged(ParetoSweep& sweep) {
@@ -69,6 +75,48 @@ void report_unconverged(ParetoSweep& sweep) {
       "{} of {} solves did not converge; the first, with smoothness {:.4g} and time price {:.4g} nm^2/s: {}: {}",
       std::count_if(sweep.points.begin(), sweep.points.end(), unconverged), sweep.points.size(),
       first->weights.smoothness, first->weights.time_price, to_string(first->solver.status), first->solver.message));
+}
+
+/// The exact residual of a dwell; whether the lattice is too coarse for it.
+bool state_exact_residual(ParetoPoint& point, const Vector& dwell, const ParetoSweep& sweep, const PlanProblem& problem,
+                          double max_feed, const Progress& progress) {
+  const Part& part = *sweep.job.part;
+  const ExactResidual exact = predict_dwell(part, sweep.laid, dwell, problem.left_by(dwell), max_feed,
+                                            ExactCheck::Figure, progress.of_part("exact residual"));
+  point.exact_rms = exact.statistics.rms_about_zero();
+  point.standard_error = exact.standard_error;
+  return lattice_too_coarse(exact, part.before);
+}
+
+/// Solves at every pair of weights, to and fro.
+void sweep_grid(ParetoSweep& sweep, PlanProblem& problem, const DwellOptions& options, const Progress& progress) {
+  const std::size_t rows = sweep.ranges.smoothnesses.size(), columns = sweep.ranges.time_prices.size();
+  sweep.points.resize(rows * columns);
+  std::size_t too_coarse = 0;
+  Vector dwell;  // of the neighbour before
+  for (std::size_t k = 0; k < rows * columns; ++k) {
+    const std::size_t row = rows - 1 - k / columns, turn = k / columns % 2;
+    const std::size_t column = turn == 0 ? columns - 1 - k % columns : k % columns;
+    const Weights weights{sweep.ranges.smoothnesses[row], sweep.ranges.time_prices[column]};
+    const std::string stage = fmt::format("solve {} of {}: smoothness {:.4g}, time price {:.4g} nm^2/s", k + 1,
+                                          rows * columns, weights.smoothness, weights.time_price);
+    WeightedDwell found = problem.solve(weights, std::move(dwell), options.max_seconds, stage, progress);
+    dwell = std::move(found.dwell);
+    sweep.seconds += found.solver.seconds;
+    ++found.solver.operator_applications;
+    ParetoPoint& point = sweep.points[row * columns + column];
+    point = {weights, found.trade_off, 0.0, 0.0, found.solver.objective, std::move(found.solver), false};
+    too_coarse += state_exact_residual(point, dwell, sweep, problem, options.machine.feed_limits().max_feed,
+                                       progress.of_part(stage));
+    progress.report(fmt::format("{}: residual {:.4g} nm RMS, dwell {:.5g} s, step {:.4g} s RMS", stage, point.exact_rms,
+                                point.trade_off.total, point.trade_off.step_rms));
+  }
+  if (too_coarse > 0) {
+    sweep.limits.push_back(fmt::format(
+        "{} of {} solves leave so little that the error of the lattice that they were solved on is more than {:.0f} % "
+        "of it: dwell plan with their weights refines the lattice and leaves less",
+        too_coarse, sweep.points.size(), 100.0 * kWorstLatticeError));
+  }
 }
 
 }  // namespace
@@ -91,13 +139,12 @@ void mark_front(std::vector<ParetoPoint>& points) {
   std::iota(order.begin(), order.end(), std::size_t{0});
   // In lexicographic order a point can only be dominated by one before it, and so by one of the front before it.
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    const TradeOff &p = points[a].trade_off, &q = points[b].trade_off;
-    return std::tie(p.residual_rms, p.total, p.step_rms, a) < std::tie(q.residual_rms, q.total, q.step_rms, b);
+    return std::make_pair(costs(points[a]), a) < std::make_pair(costs(points[b]), b);
   });
   std::vector<std::size_t> front;
   for (const std::size_t k : order) {
-    const bool dominated = std::any_of(
-        front.begin(), front.end(), [&](std::size_t f) { return dominates(points[f].trade_off, points[k].trade_off); });
+    const bool dominated =
+        std::any_of(front.begin(), front.end(), [&](std::size_t f) { return dominates(points[f], points[k]); });
     points[k].on_front = !dominated;
     if (!dominated) front.push_back(k);
   }
@@ -105,34 +152,19 @@ void mark_front(std::vector<ParetoPoint>& points) {
 
 ParetoSweep sweep_weights(const JobOptions& options, const ParetoRanges& ranges, const Progress& progress) {
   ParetoSweep sweep;
-  const auto set_up = time_limit(options.max_solve_s).run(progress, [&](const Progress& limited) {
-    sweep.job = load_job(options, limited);
-    sweep.laid = lay_job_path(sweep.job, limited);
-    if (auto file = path_input(options)) sweep.job.inputs.push_back(std::move(*file));
+  const DwellOptions how = dwell_options(options);
+  const TimeLimit limit = time_limit(options.max_solve_s);
+  sweep.job = limit.run(progress, [&](const Progress& limited) { return load_job(options, limited); });
+  sweep.laid = lay_job_path(sweep.job, limit.used(), progress).laid;
+  sweep.travel = travel_times(sweep.laid, options.lift_height_mm, how.machine);
+  if (auto file = path_input(options)) sweep.job.inputs.push_back(std::move(*file));
+  const auto set_up = limit.run(progress, [&](const Progress& limited) {
     limited.step("setting up the removal operator");
     const LatticeChoice lattice = choose_lattice(*sweep.job.part, sweep.laid.strokes, limited.of_part("lattice"));
-    return std::make_unique<PlanProblem>(*sweep.job.part, sweep.laid, lattice.kernel, dwell_options(options), limited);
+    return std::make_unique<PlanProblem>(*sweep.job.part, sweep.laid, lattice.kernel, how, limited);
   });
-  PlanProblem& problem = *set_up;
-  sweep.ranges = complete_ranges(ranges, problem.highest_price());
-  const std::size_t rows = sweep.ranges.smoothnesses.size(), columns = sweep.ranges.time_prices.size();
-  sweep.points.resize(rows * columns);
-  Vector dwell;  // of the neighbour before
-  for (std::size_t k = 0; k < rows * columns; ++k) {
-    const std::size_t row = rows - 1 - k / columns, turn = k / columns % 2;
-    const std::size_t column = turn == 0 ? columns - 1 - k % columns : k % columns;
-    const Weights weights{sweep.ranges.smoothnesses[row], sweep.ranges.time_prices[column]};
-    const std::string stage = fmt::format("solve {} of {}: smoothness {:.4g}, time price {:.4g} nm^2/s", k + 1,
-                                          rows * columns, weights.smoothness, weights.time_price);
-    WeightedDwell found = problem.solve(weights, std::move(dwell), options.max_solve_s, stage, progress);
-    progress.report(fmt::format("{}: residual {:.4g} nm RMS, total {:.5g} s, step {:.4g} s RMS", stage,
-                                found.trade_off.residual_rms, found.trade_off.total, found.trade_off.step_rms));
-    dwell = std::move(found.dwell);
-    sweep.seconds += found.solver.seconds;
-    ++found.solver.operator_applications;
-    sweep.points[row * columns + column] = {weights, found.trade_off, found.solver.objective, std::move(found.solver),
-                                            false};
-  }
+  sweep.ranges = complete_ranges(ranges, set_up->highest_price());
+  sweep_grid(sweep, *set_up, how, progress);
   mark_front(sweep.points);
   report_unconverged(sweep);
   return sweep;

@@ -23,10 +23,12 @@ struct ParetoRanges {
 
 struct ParetoPoint {
   Weights weights;
-  TradeOff trade_off;
-  double objective = 0.0;  // [nm^2]
-  SolverSummary solver;    // operator_applications with the one that measured the residual
-  bool on_front = false;   // no other point is as good in residual, total and step, and better in one
+  TradeOff trade_off;           // as the solver has it, the residual on its lattice
+  double exact_rms = 0.0;       // the residual from the removal function itself, about zero [nm]
+  double standard_error = 0.0;  // of exact_rms [nm]
+  double objective = 0.0;       // [nm^2]
+  SolverSummary solver;         // operator_applications with the one that measured the residual
+  bool on_front = false;        // no other point is as good in exact residual, total and step, and better in one
 };
 
 struct ParetoSweep {
@@ -34,16 +36,17 @@ struct ParetoSweep {
   LaidPath laid;  // of its path
   ParetoRanges ranges;
   std::vector<ParetoPoint> points;  // by smoothness, then by time price, ascending
+  TravelTimes travel;               // of any run on this path, besides the dwell
   double seconds = 0.0;             // of all solves
   std::vector<std::string> limits;  // not empty = exit code 3
 };
 
-/// Marks the points that no other dominates in (residual, total, step), all to be small. Points that are equal in all
+/// Marks the points that no other dominates in (exact_rms, total, step), all to be small. Points that are equal in all
 /// three are on the front together. Cost O(n^2) at worst; O(n |front|).
 void mark_front(std::vector<ParetoPoint>& points);
 
 /// Solves the dwell problem of a job at every pair of weights, from the largest weights down, each next to the one
-/// before. Throws as plan_job. options.max_solve_s bounds each solve.
+/// before, and states the exact residual of each. Throws as plan_job. options.max_solve_s bounds each solve.
 ParetoSweep sweep_weights(const JobOptions& options, const ParetoRanges& ranges, const Progress& progress);
 
 }  // namespace dwell

@@ -18,11 +18,12 @@ namespace dwell {
 std::string pareto_table_text(const ParetoSweep& sweep) {
   std::string text =
       "smoothness,time_price_nm2_per_s,residual_rms_nm,total_s,step_rms_s,objective_nm2,operator_applications,status,"
-      "front\n";
+      "front,exact_residual_rms_nm,standard_error_nm,run_s\n";
   for (const ParetoPoint& p : sweep.points) {
-    text += fmt::format("{},{},{},{},{},{},{},{},{}\n", p.weights.smoothness, p.weights.time_price,
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", p.weights.smoothness, p.weights.time_price,
                         p.trade_off.residual_rms, p.trade_off.total, p.trade_off.step_rms, p.objective,
-                        p.solver.operator_applications, to_string(p.solver.status), p.on_front ? "yes" : "no");
+                        p.solver.operator_applications, to_string(p.solver.status), p.on_front ? "yes" : "no",
+                        p.exact_rms, p.standard_error, p.trade_off.total + sweep.travel.total());
   }
   return text;
 }
@@ -34,10 +35,13 @@ std::string pareto_json_text(const ParetoSweep& sweep) {
     Json point = trial_block(p.weights, p.trade_off, p.objective, p.solver.operator_applications);
     point["status"] = to_string(p.solver.status);
     point["front"] = p.on_front;
+    point["exact_residual_rms_nm"] = p.exact_rms;
+    point["exact_residual_rms_standard_error_nm"] = p.standard_error;
+    point["run_s"] = p.trade_off.total + sweep.travel.total();
     points.push_back(std::move(point));
   }
   Json options = options_json(sweep.job);
-  for (const char* unused : {"smoothness", "time_price_nm2_per_s", "gcode", "lift_height_mm"}) options.erase(unused);
+  for (const char* unused : {"smoothness", "time_price_nm2_per_s", "gcode"}) options.erase(unused);
   Json summary = json_of_command("pareto");
   summary.update({{"map", plan_map_block(sweep.job)},
                   {"aim", aim_block(correction_aim(sweep.job))},

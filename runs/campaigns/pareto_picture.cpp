@@ -18,7 +18,7 @@ ChartPanel panel_of(const ParetoSweep& sweep, double TradeOff::*x, const std::st
         fmt::format("smoothness {:.3g}", sweep.ranges.smoothnesses[row]), colour_at(ColourMap::Sequential, share), {}};
     for (std::size_t column = 0; column < columns; ++column) {
       const ParetoPoint& p = sweep.points[row * columns + column];
-      line.points.push_back({p.trade_off.*x, p.trade_off.residual_rms, p.on_front});
+      line.points.push_back({p.trade_off.*x, p.exact_rms, p.on_front});
     }
     panel.lines.push_back(std::move(line));
   }

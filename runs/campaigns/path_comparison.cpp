@@ -6,6 +6,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 #include <utility>
 
@@ -68,8 +69,9 @@ void measure(const Part& part, const LaidPath& laid, double pitch, ComparedPath&
 
 void plan_one(Job job, double pitch, ComparedPath& path, const OutputFolder& folder, const Progress& progress) {
   job.options.path = parse_path_spec(path.listed.text);
-  LaidPath laid = lay_job_path(job, progress);
-  measure(*job.part, laid, pitch, path, progress);
+  job.options.out = (std::filesystem::path(job.options.out) / path.listed.name).string();
+  JobPath laid = lay_job_path(job, 0.0, progress);
+  measure(*job.part, laid.laid, pitch, path, progress);
   const PlannedJob plan = plan_job(std::move(job), std::move(laid), progress);
   OutputFolder own(folder.path(path.listed.name), plan_files());
   const WrittenPlan written = write_plan(plan, own, progress);
@@ -83,7 +85,7 @@ void plan_one(Job job, double pitch, ComparedPath& path, const OutputFolder& fol
   path.dwell_min = plan.dwell.seconds.minCoeff();
   path.dwell_max = plan.dwell.seconds.maxCoeff();
   path.step_rms = plan.dwell.step_rms;
-  path.lift_time = written.lift_seconds;
+  path.lift_time = written.travel.lifted;
   path.total_time = written.total_seconds();
   path.solver = plan.dwell.solver;
   path.program = written.program;
@@ -141,6 +143,7 @@ PathComparison compare_paths(const JobOptions& options, const std::string& list,
   for (ListedPath& listed : parse_path_list(list, comparison.pitch)) {
     comparison.paths.emplace_back().listed = std::move(listed);
   }
+  std::optional<TimeLimitReached> out_of_time;
   for (std::size_t k = 0; k < comparison.paths.size(); ++k) {
     ComparedPath& path = comparison.paths[k];
     const std::string stage = fmt::format("path {} of {}, {}", k + 1, comparison.paths.size(), path.listed.text);
@@ -150,10 +153,15 @@ PathComparison compare_paths(const JobOptions& options, const std::string& list,
     } catch (const InputError& error) {
       path.failure = with_flags(error).what();
       progress.report(stage + ": " + path.failure);
+    } catch (const TimeLimitReached& error) {
+      path.failure = with_option_names(error.what(), flag_of);
+      progress.report(stage + ": " + path.failure);
+      if (!out_of_time) out_of_time = error;
     }
   }
   const bool none = std::none_of(comparison.paths.begin(), comparison.paths.end(),
                                  [](const ComparedPath& p) { return p.failure.empty(); });
+  if (none && out_of_time) throw *out_of_time;
   if (none) throw InputError("--paths: none can be planned; the first: " + comparison.paths.front().failure);
   mark_front(comparison.paths);
   collect_limits(comparison);

@@ -20,6 +20,7 @@
 #include "core/tif/tool_questions.h"
 #include "runs/job/option_flags.h"
 #include "runs/job/place_option.h"
+#include "runs/job/scatter_option.h"
 #include "runs/map_steps/map_steps.h"
 
 namespace dwell {
@@ -127,8 +128,25 @@ HeightMap load_rates(const JobOptions& options, std::vector<InputFile>& inputs, 
   return rates;
 }
 
+/// A tool axis far off its own file is a slip, or in another unit.
+void refuse_axis_outside(const JobOptions& options, const Grid& grid) {
+  if (!is_centred_at_a_place(options)) return;
+  const Point axis = options.tif_centre->given, first = grid.centre(0, 0),
+              last = grid.centre(grid.rows - 1, grid.cols - 1);
+  const auto within = [](double v, double from, double to, double margin) {
+    return v >= from - margin && v <= to + margin;
+  };
+  if (within(axis.x, first.x, last.x, 0.5 * grid.pitch_x) && within(axis.y, first.y, last.y, 0.5 * grid.pitch_y))
+    return;
+  throw InputError(fmt::format(
+      "--tif-centre {}: lies outside of the file {}; required a place in it, x from {:.6g} to {:.6g} mm and "
+      "y from {:.6g} to {:.6g} mm",
+      to_string(options.tif_centre), options.tif, first.x, last.x, first.y, last.y));
+}
+
 RemovalFunction removal_of_rates(const JobOptions& options, std::vector<InputFile>& inputs, const Progress& progress) {
   const HeightMap rates = load_rates(options, inputs, progress);
+  refuse_axis_outside(options, rates.grid);
   const bool made_here = made_by_dwell_tif(rates);
   const TifCentre centre = options.tif_centre.value_or(made_here ? TifCentre{TifCentre::Kind::Given, {}}
                                                                  : TifCentre{TifCentre::Kind::Middle, {}});
@@ -144,6 +162,7 @@ RemovalFunction removal_of_rates(const JobOptions& options, std::vector<InputFil
               rim.largest,
               rim.scatter};
   tif.notes = notes_of(question_tool({rates, tif, !options.tif_centre && !made_here, options.tif_pedestal}));
+  if (rates.unit_assumed) tif.notes.emplace_back("no unit in the file: taken as nm/s; `tif unit` states it");
   for (std::string& note : tif.notes) note = with_option_names(note, flag_of);
   return tif;
 }
@@ -153,6 +172,19 @@ void refuse_file_options(const JobOptions& options, const std::string& why) {
   if (!options.tif_steps.empty()) throw InputError(fmt::format("--tif-steps {}: {}", options.tif_steps, why));
   if (options.tif_pedestal)
     throw InputError(fmt::format("--tif-pedestal {}: {}", to_string(*options.tif_pedestal), why));
+}
+
+/// Options that say how to read a file mean nothing for a formula.
+void refuse_reading_options(const JobOptions& o) {
+  const auto refuse = [&o](bool given, const char* option, const std::string& value) {
+    if (given)
+      throw InputError(fmt::format("--{} {}: for a file of rates, not for the formula {}", option, value, o.tif));
+  };
+  refuse(o.tif_centre.has_value(), "tif-centre", to_string(o.tif_centre));
+  refuse(o.tif_no_data.has_value(), "tif-no-data", o.tif_no_data ? to_string(*o.tif_no_data) : "");
+  refuse(o.tif_table.has_value(), "tif-table", o.tif_table ? to_string(*o.tif_table) : "");
+  refuse(o.tif_rows.has_value(), "tif-rows", o.tif_rows ? to_string(*o.tif_rows) : "");
+  refuse(o.tif_grid.has_value(), "tif-grid", dwell::to_string(o.tif_grid));
 }
 
 }  // namespace
@@ -168,6 +200,7 @@ RemovalFunction load_removal_function(const JobOptions& options, std::vector<Inp
                       *options.tif_dwell_time_s, options.tif));
     }
     refuse_file_options(options, "for a file of rates, not for the formula " + options.tif);
+    refuse_reading_options(options);
     return oriented(removal_of_spec(parse_spec_text(options.tif, "tif")), orientation);
   }
   const std::filesystem::path file = split_map_name(options.tif).file;

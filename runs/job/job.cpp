@@ -45,11 +45,21 @@ Job load_job(const JobOptions& options, const Progress& progress) {
   return job;
 }
 
-LaidPath lay_job_path(const Job& job, const Progress& progress) {
-  const DwellOptions options = dwell_options(job.options);
+JobPath lay_job_path(const Job& job, double used_seconds, const Progress& progress) {
+  DwellOptions options = dwell_options(job.options);
+  options.used_seconds = used_seconds;
   const PathSpec& spec = required_path(job.options);
-  if (pitch_is_searched(spec)) return lay_searched_raster(*job.part, spec, job.options.motion, options, progress);
-  return lay_path(*job.part, spec, job.options.motion, options.machine.feed_limits().max_feed, progress);
+  if (pitch_is_searched(spec)) {
+    SearchedRaster found = lay_searched_raster(*job.part, spec, job.options.motion, options, progress);
+    return {std::move(found.laid), std::move(found.dwell)};
+  }
+  return {time_limit(options.max_seconds, used_seconds)
+              .run(progress,
+                   [&](const Progress& limited) {
+                     return lay_path(*job.part, spec, job.options.motion, options.machine.feed_limits().max_feed,
+                                     limited);
+                   }),
+          std::nullopt};
 }
 
 std::optional<InputFile> path_input(const JobOptions& options) {

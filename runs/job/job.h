@@ -7,6 +7,7 @@
 #include "runs/base/input_file.h"
 #include "runs/job/job_options.h"
 #include "runs/plan/dwell_options.h"
+#include "runs/plan/dwell_plan.h"
 #include "runs/plan/laid_path.h"
 #include "runs/plan/part.h"
 
@@ -24,8 +25,15 @@ struct Job {
 /// Interrupted.
 Job load_job(const JobOptions& options, const Progress& progress = {});
 
-/// The path of a job, planned or read from its file, laid on the part. Throws InputError.
-LaidPath lay_job_path(const Job& job, const Progress& progress = {});
+/// The path of a job, laid on the part.
+struct JobPath {
+  LaidPath laid;
+  std::optional<DwellPlan> dwell;  // of it, where laying it has found that as well (SearchedRaster)
+};
+
+/// The path of a job, planned or read from its file. `used_seconds` of the time limit went before. Throws InputError,
+/// TimeLimitReached, Interrupted.
+JobPath lay_job_path(const Job& job, double used_seconds = 0.0, const Progress& progress = {});
 /// The file that the path of these options comes from, if it does, with its hash.
 std::optional<InputFile> path_input(const JobOptions& options);
 

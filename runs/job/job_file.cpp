@@ -78,9 +78,20 @@ void check_schema(const toml::node& node, const std::string& file) {
 /// Whether the value of a file option names a file: a removal function may be a formula.
 bool names_a_file(const std::string& value) { return !is_removal_model(split_kind(value).first); }
 
-/// The value with its file name taken relative to the job file's folder.
-std::string rebased(const JobOptionRecord& record, const std::string& value, const std::filesystem::path& folder,
-                    const std::string& source) {
+/// Says so where a word of layout 1 has another meaning now.
+void note_changed_words(int schema, const std::string& source, const std::string& value, JobOptions& options) {
+  const bool is_weight = source.ends_with("smoothness") || source.ends_with("time_price_nm2_per_s");
+  if (schema > 1 || !is_weight || lower_case(trim(value)) != "auto") return;
+  options.notes.push_back(fmt::format(
+      "{} = \"auto\": this is no longer the corner of the L-curve, as in dwell 0.1, but the weight that belongs "
+      "to tool, path and part; the corner is \"corner\" now (`schema = {}` in the file ends this line)",
+      source, kJobSchema));
+}
+
+}  // namespace
+
+std::string rebased_option(const JobOptionRecord& record, const std::string& value, const std::filesystem::path& folder,
+                           const std::string& source) {
   if (value.empty()) return value;
   if (record.is_file && names_a_file(value)) return (folder / value).lexically_normal().string();
   if (record.key == "map_steps" || record.key == "tif_steps") {
@@ -96,18 +107,6 @@ std::string rebased(const JobOptionRecord& record, const std::string& value, con
   }
   return value;
 }
-
-/// Says so where a word of layout 1 has another meaning now.
-void note_changed_words(int schema, const std::string& source, const std::string& value, JobOptions& options) {
-  const bool is_weight = source.ends_with("smoothness") || source.ends_with("time_price_nm2_per_s");
-  if (schema > 1 || !is_weight || lower_case(trim(value)) != "auto") return;
-  options.notes.push_back(fmt::format(
-      "{} = \"auto\": this is no longer the corner of the L-curve, as in dwell 0.1, but the weight that belongs "
-      "to tool, path and part; the corner is \"corner\" now (`schema = {}` in the file ends this line)",
-      source, kJobSchema));
-}
-
-}  // namespace
 
 void read_job_file(const std::filesystem::path& file, JobOptions& options) {
   const std::string text = read_whole_file(file);
@@ -126,7 +125,7 @@ void read_job_file(const std::filesystem::path& file, JobOptions& options) {
     const JobOptionRecord& record = record_of(name, file.string());
     const std::string source = fmt::format("{}: {}", file.string(), name);
     const std::string value = text_of(node, record, source);
-    set_job_option(options, record, rebased(record, value, file.parent_path(), source), source);
+    set_job_option(options, record, rebased_option(record, value, file.parent_path(), source), source);
     note_changed_words(schema, source, value, options);
   }
 }

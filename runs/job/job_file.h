@@ -15,6 +15,11 @@ inline constexpr int kJobSchema = 2;
 /// file, the line or field, the value and what is accepted; an unknown field is an error that lists the known ones.
 void read_job_file(const std::filesystem::path& file, JobOptions& options);
 
+/// The value of an option with the file names in it taken relative to a folder, and not to the current one; `source`
+/// begins messages. Throws InputError.
+std::string rebased_option(const JobOptionRecord& record, const std::string& value, const std::filesystem::path& folder,
+                           const std::string& source);
+
 /// A commented job file with the values of `options`; what is not given is left as a comment.
 std::string job_file_text(const JobOptions& options);
 

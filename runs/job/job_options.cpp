@@ -33,12 +33,6 @@ double number(const std::string& text, const ValueRange& range) {
   return *value;
 }
 
-double share(const std::string& text) {
-  const auto value = parse_number(text);
-  if (value && *value > 0.0 && *value <= 1.0) return *value;
-  throw InputError(fmt::format("'{}'; required a number > 0 and at most 1", text));
-}
-
 void check_height_or_rate_unit(const std::string& unit) {
   const bool rate = known_rate_unit(unit) || unit.find('/') != std::string::npos;
   unit_factor(unit, rate ? MapQuantity::Rate : MapQuantity::Height);
@@ -202,7 +196,8 @@ std::vector<JobOptionRecord> make_table() {
        false, true, [](Options& o, const std::string& t) { o.tif_dwell_time_s = number(t, ranges::kTime); },
        [](const Options& o) { return shown(o.tif_dwell_time_s); }},
       {"tif-centre", "tif_centre", "WHERE",
-       "the tool axis in the removal function's file: middle (of its grid), centroid, peak, X,Y in mm, or auto: "
+       "the tool axis in the removal function's file: middle (of its grid), centroid, peak (apex of its rounded top), "
+       "X,Y in mm, or auto: "
        "0,0 of a file that dwell tif wrote, the centroid of a spot, the middle of others, if centroid or peak is there",
        false, false, [](Options& o, const std::string& t) { o.tif_centre = parse_tif_centre(t); },
        [](const Options& o) { return to_string(o.tif_centre); }},
@@ -232,8 +227,8 @@ std::vector<JobOptionRecord> make_table() {
        false, false, [](Options& o, const std::string& t) { o.aperture = parse_aperture(t); },
        [](const Options& o) { return to_string(o.aperture); }},
       {"fraction", "fraction", "SHARE",
-       "share of the error that the plan removes, form terms aside, > 0 and at most 1: 0.8 leaves a fifth of it", false,
-       true, [](Options& o, const std::string& t) { o.fraction = share(t); },
+       "share of the error that the plan removes, form terms aside, from 0.01 to 1: 0.8 leaves a fifth of it", false,
+       true, [](Options& o, const std::string& t) { o.fraction = number(t, ranges::kFraction); },
        [](const Options& o) { return shown(o.fraction); }},
       {"min-dwell", "min_dwell_s", "S", "shortest dwell time at a point in s", false, true,
        [](Options& o, const std::string& t) { o.min_dwell_s = number(t, ranges::kDwell); },

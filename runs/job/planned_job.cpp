@@ -1,6 +1,5 @@
 #include "runs/job/planned_job.h"
 
-#include <optional>
 #include <utility>
 
 #include "core/base/errors.h"
@@ -19,14 +18,14 @@ std::vector<std::string> PlannedJob::limits() const {
 namespace {
 
 /// `used` went of the time limit before [s].
-PlannedJob plan_loaded(Job job, LaidPath laid, double used, const Progress& progress) {
+PlannedJob plan_loaded(Job job, JobPath path, double used, const Progress& progress) {
   DwellOptions options = dwell_options(job.options);
   options.used_seconds = used;
   PlannedJob planned;
   planned.job = std::move(job);
   if (auto file = path_input(planned.job.options)) planned.job.inputs.push_back(std::move(*file));
-  planned.laid = std::move(laid);
-  planned.dwell = find_dwell(planned.part(), planned.laid, options, progress);
+  planned.laid = std::move(path.laid);
+  planned.dwell = path.dwell ? std::move(*path.dwell) : find_dwell(planned.part(), planned.laid, options, progress);
   planned.program = make_machine_program(planned.laid, planned.dwell, options.machine, progress);
   return planned;
 }
@@ -36,16 +35,13 @@ PlannedJob plan_loaded(Job job, LaidPath laid, double used, const Progress& prog
 PlannedJob plan_job(const JobOptions& options, const Progress& progress) {
   weights_are_searched(dwell_options(options));  // refuses what cannot be searched before any work is done
   const TimeLimit limit = time_limit(options.max_solve_s);
-  std::optional<Job> job;
-  LaidPath laid = limit.run(progress, [&](const Progress& limited) {
-    job = load_job(options, limited);
-    return lay_job_path(*job, limited);
-  });
-  return plan_loaded(std::move(*job), std::move(laid), limit.used(), progress);
+  Job job = limit.run(progress, [&](const Progress& limited) { return load_job(options, limited); });
+  JobPath path = lay_job_path(job, limit.used(), progress);
+  return plan_loaded(std::move(job), std::move(path), limit.used(), progress);
 }
 
-PlannedJob plan_job(Job job, LaidPath laid, const Progress& progress) {
-  return plan_loaded(std::move(job), std::move(laid), 0.0, progress);
+PlannedJob plan_job(Job job, JobPath path, const Progress& progress) {
+  return plan_loaded(std::move(job), std::move(path), 0.0, progress);
 }
 
 }  // namespace dwell

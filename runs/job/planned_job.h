@@ -27,6 +27,6 @@ struct PlannedJob {
 PlannedJob plan_job(const JobOptions& options, const Progress& progress = {});
 
 /// The same for a job that is loaded, on a path that is laid.
-PlannedJob plan_job(Job job, LaidPath laid, const Progress& progress = {});
+PlannedJob plan_job(Job job, JobPath path, const Progress& progress = {});
 
 }  // namespace dwell

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <algorithm>
-
 #include "core/base/time_limit.h"
 #include "runs/plan/machine_limits.h"
 #include "solvers/problem/dwell_solver.h"
@@ -26,7 +24,7 @@ struct DwellOptions {
 /// max_seconds is less: so short a limit is one on the solve.
 inline TimeLimit time_limit(double max_seconds, double used = 0.0) {
   constexpr double kLeastSetUp = 1.0;
-  return {std::max(max_seconds, kLeastSetUp), "max solve", used};
+  return {max_seconds, "max solve", used, kLeastSetUp};
 }
 
 /// Whether the options leave a weight to a search over plans: at its corner, or by a target. Throws InputError if both

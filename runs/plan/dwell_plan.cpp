@@ -7,8 +7,6 @@
 #include <utility>
 
 #include "core/base/time_limit.h"
-#include "core/removal/simulate.h"
-#include "paths/feed/plan_program.h"
 #include "runs/plan/plan_problem.h"
 #include "runs/plan/program_prediction.h"
 #include "runs/plan/usual_smoothness.h"
@@ -30,22 +28,6 @@ void collect_limits(DwellPlan& plan, const DwellOptions& options) {
              : ""));
   }
   if (plan.search) plan.limits.insert(plan.limits.end(), plan.search->limits.begin(), plan.search->limits.end());
-}
-
-/// The exact residual of dwell times.
-ExactResidual exact_residual_of(const Part& part, const LaidPath& laid, const Vector& dwell, const HeightMap& left,
-                                double max_feed, ExactCheck check, const Progress& progress) {
-  std::vector<double> seconds(dwell.data(), dwell.data() + dwell.size());
-  std::vector<Stroke> strokes = laid.strokes;
-  if (laid.motion == Motion::Stop) {
-    // The tool removes while it moves from stop to stop as well.
-    const RemovingSteps moves =
-        removing_steps(program_of(laid.path, std::vector<double>(seconds.size(), 0.0), laid.motion, max_feed));
-    strokes.insert(strokes.end(), moves.strokes.begin(), moves.strokes.end());
-    seconds.insert(seconds.end(), moves.seconds.begin(), moves.seconds.end());
-  }
-  const RemovalProbe probe(part.map.grid, part.exact, strokes, seconds);
-  return exact_residual(probe, part.map, left, part.form, part.threads, progress, check);
 }
 
 /// The options with numbers in place of Auto. The price is found with the smoothness that is given, or with the usual
@@ -94,8 +76,8 @@ DwellPlan find_dwell_on(const LatticeChoice& lattice, const Part& part, const La
   progress.check();
   const HeightMap left = problem.left_by(plan.seconds);
   plan.residual = map_statistics(left, part.form, part.threads);
-  plan.exact = exact_residual_of(part, laid, plan.seconds, left, options.machine.feed_limits().max_feed, check,
-                                 progress.of_part("exact residual"));
+  plan.exact = predict_dwell(part, laid, plan.seconds, left, options.machine.feed_limits().max_feed, check,
+                             progress.of_part("exact residual"));
   collect_limits(plan, options);
   return plan;
 }

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "paths/feed/plan_program.h"
+
 namespace dwell {
 
 MachineProgram make_machine_program(const LaidPath& laid, const DwellPlan& dwell, const MachineLimits& machine,
@@ -21,9 +23,16 @@ MachineProgram make_machine_program(const LaidPath& laid, const DwellPlan& dwell
   return program;
 }
 
-double lift_seconds(const PathMetrics& metrics, double lift_height_mm, const MachineLimits& machine) {
-  const double up = lift_height_mm * static_cast<double>(metrics.lifts);
-  return (metrics.lifted_length + up) / machine.feed_limits().max_feed;
+TravelTimes travel_times(const LaidPath& laid, double lift_height_mm, const MachineLimits& machine) {
+  const double max_feed = machine.feed_limits().max_feed, lifts = static_cast<double>(laid.metrics.lifts);
+  TravelTimes times;
+  if (laid.motion == Motion::Stop) {
+    const std::vector<double> no_dwell(laid.path.size(), 0.0);
+    times.between_stops = program_of(laid.path, no_dwell, laid.motion, max_feed).total_seconds();
+  }
+  times.lifted = (laid.metrics.lifted_length + lift_height_mm * lifts) / max_feed;
+  times.down = lift_height_mm * (lifts + 1.0) / max_feed;
+  return times;
 }
 
 }  // namespace dwell

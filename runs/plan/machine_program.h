@@ -23,8 +23,16 @@ struct MachineProgram {
 MachineProgram make_machine_program(const LaidPath& laid, const DwellPlan& dwell, const MachineLimits& machine,
                                     const Progress& progress = {});
 
-/// The time of the rapids [s], which the program does not say: up by the lift height, and across, at the maximum feed.
-/// The way down is a feed move of the program.
-double lift_seconds(const PathMetrics& metrics, double lift_height_mm, const MachineLimits& machine);
+/// The times of a run besides its dwell [s], all at the maximum feed. They depend on the path alone.
+struct TravelTimes {
+  double between_stops = 0.0;  // from halt to halt with the tool down; 0 where the tool runs through
+  double lifted = 0.0;         // rapids, up by the lift height and across: the program does not say their time
+  double down = 0.0;           // at the beginning and after each lift: feed moves of the program
+
+  double total() const { return between_stops + lifted + down; }
+};
+
+/// Cost O(points).
+TravelTimes travel_times(const LaidPath& laid, double lift_height_mm, const MachineLimits& machine);
 
 }  // namespace dwell

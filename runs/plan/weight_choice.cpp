@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/time_limit.h"
 #include "runs/plan/weight_verdict.h"
 #include "solvers/weights/weight_search.h"
 
@@ -50,16 +51,17 @@ WeightedDwell choose_weights(PlanProblem& problem, const DwellOptions& options, 
 
   std::vector<WeightedDwell> found;
   SolverSummary sum;
+  const TimeLimit limit(max_seconds, "max solve");  // by the clock: there is work between solves as well
   bool out_of_time = false;
   const auto evaluate = [&](const Weights& weights) -> std::optional<TradeOff> {
-    out_of_time = !found.empty() && sum.seconds >= max_seconds;
+    out_of_time = !found.empty() && !(limit.left() > 0.0);
     if (out_of_time) return std::nullopt;
     const std::string stage = fmt::format("search {}: smoothness {:.4g}, time price {:.4g} nm^2/s", found.size() + 1,
                                           weights.smoothness, weights.time_price);
-    found.push_back(
-        problem.solve(weights, nearest.start_for(weights, found), max_seconds - sum.seconds, stage, progress));
+    found.push_back(problem.solve(weights, nearest.start_for(weights, found),
+                                  found.empty() ? max_seconds : limit.left(), stage, progress));
     const WeightedDwell& f = found.back();
-    progress.report(fmt::format("{}: residual {:.4g} nm RMS, total {:.5g} s, step {:.4g} s RMS", stage,
+    progress.report(fmt::format("{}: residual {:.4g} nm RMS, dwell {:.5g} s, step {:.4g} s RMS", stage,
                                 f.trade_off.residual_rms, f.trade_off.total, f.trade_off.step_rms));
     const long applications = f.solver.operator_applications + 1;
     search.trials.push_back({weights, f.trade_off, f.solver.objective, applications});

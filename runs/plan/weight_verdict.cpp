@@ -111,7 +111,7 @@ std::string search_criterion(const WeightSearchOptions& how) {
   const NamedGoal a = smoothness_of(how), b = price_of(how);
   if (!is_target(a.goal) || !is_target(b.goal)) return criterion_of(a) + "; " + criterion_of(b);
   const char* least = a.goal.kind == GoalKind::ResidualAtMost   ? "step RMS"
-                      : b.goal.kind == GoalKind::ResidualAtMost ? "total"
+                      : b.goal.kind == GoalKind::ResidualAtMost ? "total dwell"
                                                                 : "residual RMS";
   return fmt::format(
       "smoothness up to {:.3g} and time price up to {:.3g}{}: the least {} with {} <= {} {} and {} <= {} {}",

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "core/base/number_text.h"
+
 namespace dwell {
 
 std::string exact_lines(const ExactResidual& e) {
@@ -18,7 +20,8 @@ std::string exact_lines(const ExactResidual& e) {
 std::optional<std::string> more_than_before(const ExactResidual& exact, const MapStatistics& before) {
   const double left = exact.statistics.rms_about_zero(), was = before.rms_about_zero();
   if (left <= was) return std::nullopt;
-  return fmt::format("the program leaves more than there was: {:.4g} nm RMS, before {:.4g} nm", left, was);
+  const auto [now, before_it] = told_apart(left, was);
+  return fmt::format("the program leaves more than there was: {} nm RMS, before {} nm", now, before_it);
 }
 
 }  // namespace dwell

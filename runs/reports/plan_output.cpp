@@ -122,8 +122,8 @@ WrittenPlan write_plan(const PlannedJob& plan, const OutputFolder& folder, const
                                   progress.of_part("simulate"));
   written.program_seconds = program.total_seconds();
   const DwellOptions options = dwell_options(plan.job.options);
-  written.lift_seconds = lift_seconds(plan.laid.metrics, plan.job.options.lift_height_mm, options.machine);
   written.warnings = plan.job.options.notes;
+  written.travel = travel_times(plan.laid, plan.job.options.lift_height_mm, options.machine);
   const bool moves = plan.laid.motion == Motion::Moving;
   for (const std::string& warning :
        run_warnings({written.total_seconds(), plan.dwell.seconds.sum(), moves ? program.removing_length() : 0.0})) {

@@ -3,10 +3,13 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
 #include "core/base/number_text.h"
 #include "core/base/units.h"
+#include "core/base/utf8_text.h"
 #include "runs/base/inputs_json.h"
 #include "runs/reports/aim.h"
 #include "runs/reports/options_json.h"
@@ -67,6 +70,17 @@ Json program_json(const WrittenPlan& written) {
   return program;
 }
 
+/// The way from the plan's folder to the current one, from which the names of files are seen. A way and no place: it
+/// stays right where both are moved together.
+std::string names_from(const PlannedJob& plan) {
+  namespace fs = std::filesystem;
+  std::error_code unknown;
+  const fs::path folder = fs::weakly_canonical(fs::absolute(plan.job.options.out, unknown), unknown);
+  const fs::path here = fs::canonical(fs::current_path(unknown), unknown);
+  const fs::path plain = folder.has_filename() ? folder : folder.parent_path();  // "plan/" is the folder "plan"
+  return with_escaped_bytes(here.lexically_relative(plain).string());
+}
+
 }  // namespace
 
 std::string plan_summary_text(const PlannedJob& plan, const WrittenPlan& written) {
@@ -84,10 +98,13 @@ std::string plan_summary_text(const PlannedJob& plan, const WrittenPlan& written
                   {"program", program_json(written)},
                   {"surface", surface_block(written.surface)},
                   {"total_s", written.total_seconds()},
-                  {"lift_s", written.lift_seconds},
+                  {"lift_s", written.travel.lifted},
+                  {"down_s", written.travel.down},
+                  {"between_stops_s", written.travel.between_stops},
                   {"warnings", written.warnings},
                   {"limits", written.limits},
                   {"options", options_json(plan.job)},
+                  {"names_from", names_from(plan)},
                   {"inputs", inputs_json(plan.job.inputs)}});
   return json_text(std::move(summary));
 }

@@ -9,6 +9,7 @@
 #include "core/base/utf8_text.h"
 #include "core/base/whole_file.h"
 #include "core/formats/map_name.h"
+#include "runs/job/job_file.h"
 #include "runs/reports/program_record.h"
 
 namespace dwell {
@@ -51,14 +52,34 @@ std::string text_of(const nlohmann::json& object, const std::string& key, const 
   throw InputError(fmt::format("{}: {} is missing or no text; required it in a plan's summary", file, key));
 }
 
-/// A name as the system has it: a summary holds bytes that are no UTF-8 as \xE9, unless a file is called so.
-std::string name_of(const std::string& text) {
-  std::error_code unknown;
-  const bool escaped = text.find("\\x") != std::string::npos;
-  return !escaped || std::filesystem::exists(split_map_name(text).file, unknown) ? text : with_bytes_of_escapes(text);
+/// A name as seen from the current folder.
+std::string seen_from(const std::filesystem::path& folder, const std::string& name) {
+  return folder.empty() ? name : (folder / name).lexically_normal().string();
 }
 
-JobOptions options_of(const nlohmann::json& summary, const std::string& file) {
+/// A name as the system has it, in a folder: a summary holds bytes that are no UTF-8 as \xE9, unless a file is called
+/// so.
+std::string name_of(const std::filesystem::path& folder, const std::string& text) {
+  std::error_code unknown;
+  const bool escaped = text.find("\\x") != std::string::npos;
+  const bool is_there = escaped && std::filesystem::exists(seen_from(folder, split_map_name(text).file), unknown);
+  return !escaped || is_there ? text : with_bytes_of_escapes(text);
+}
+
+/// The folder from which the names of files in a summary are seen; empty: the current one.
+std::filesystem::path folder_of_names(const nlohmann::json& summary, const std::filesystem::path& folder) {
+  const auto way = summary.find("names_from");
+  if (way == summary.end() || !way->is_string()) return {};
+  const std::filesystem::path from = (folder / way->get<std::string>()).lexically_normal();
+  const nlohmann::json inputs = summary.value("inputs", nlohmann::json::array());
+  const bool any = std::any_of(inputs.begin(), inputs.end(), [&from](const nlohmann::json& input) {
+    const std::string file = input.is_object() ? input.value("file", "") : "";
+    return !file.empty() && std::filesystem::exists(from / split_map_name(name_of(from, file)).file);
+  });
+  return any && from != "." ? from : std::filesystem::path();
+}
+
+JobOptions options_of(const nlohmann::json& summary, const std::string& file, const std::filesystem::path& names) {
   JobOptions options;
   const auto recorded = summary.find("options");
   if (recorded == summary.end() || !recorded->is_object()) {
@@ -74,7 +95,9 @@ JobOptions options_of(const nlohmann::json& summary, const std::string& file) {
                       "required the version that made the plan",
                       file, key));
     }
-    set_job_option(options, *record, name_of(text_of(*recorded, key, file)), fmt::format("{}: options.{}", file, key));
+    const std::string source = fmt::format("{}: options.{}", file, key);
+    const std::string value = name_of(names, text_of(*recorded, key, file));
+    set_job_option(options, *record, names.empty() ? value : rebased_option(*record, value, names, source), source);
   }
   return options;
 }
@@ -86,15 +109,16 @@ std::string flag_of_role(const std::string& role) { return role == "map" || role
 RecordedPlan read_recorded_plan(const std::filesystem::path& folder) {
   const nlohmann::json summary = summary_of(folder);
   const std::string file = (folder / "summary.json").string();
-  RecordedPlan plan{folder, options_of(summary, file), {}, {}};
+  const std::filesystem::path names = folder_of_names(summary, folder);
+  RecordedPlan plan{folder, options_of(summary, file, names), {}, {}};
   plan.program_sha256 = text_of(summary.value("program", nlohmann::json::object()), "sha256", file);
   const auto inputs = summary.find("inputs");
   if (inputs == summary.end() || !inputs->is_array()) {
     throw InputError(fmt::format("{}: holds no inputs; required them in a plan's summary", file));
   }
   for (const nlohmann::json& input : *inputs) {
-    plan.inputs.push_back(
-        {text_of(input, "role", file), name_of(text_of(input, "file", file)), text_of(input, "sha256", file)});
+    plan.inputs.push_back({text_of(input, "role", file), seen_from(names, name_of(names, text_of(input, "file", file))),
+                           text_of(input, "sha256", file)});
   }
   return plan;
 }
@@ -113,7 +137,8 @@ void check_recorded_inputs(const RecordedPlan& plan, const std::set<std::string>
     if (!std::filesystem::exists(file)) {
       throw InputError(
           fmt::format("{}: the file of the plan's --{} is not there (the plan names it {} the folder in "
-                      "which dwell plan ran); required it, or --{} with the file to take in its place",
+                      "which dwell plan ran, which was looked for beside the plan as it lay then, and the current "
+                      "one); required it, or --{} with the file to take in its place",
                       input.file, flag, file.is_absolute() ? "in full, whatever" : "as seen from", flag));
     }
     const std::string now = sha256_of_file(file);

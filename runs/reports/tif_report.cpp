@@ -137,8 +137,8 @@ std::string tif_text(const TifResult& r) {
     text += fmt::format("{:<9} {} (sha256 {})\n", input.role, input.file, input.sha256);
   if (r.spots) text += spots_text(*r.spots);
   if (r.trench) text += trench_text(*r.trench);
-  text += fmt::format("peak      {:.6g} nm/s at ({:.4g}, {:.4g}) mm from the tool axis\n", a.peak, a.peak_at.x,
-                      a.peak_at.y);
+  text += fmt::format("peak      {:.6g} nm/s, the largest sample, at ({:.4g}, {:.4g}) mm from the tool axis\n", a.peak,
+                      a.peak_at.x, a.peak_at.y);
   text += fmt::format("volume    {:.6g} nm mm^2/s, 99 % of it within {:.4g} mm\n", a.volume, a.radius);
   text += fmt::format("FWHM      {:.4g} mm along x, {:.4g} mm along y, {:.4g} mm of equal area\n", a.fwhm_x, a.fwhm_y,
                       a.fwhm);

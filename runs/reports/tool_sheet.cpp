@@ -38,7 +38,7 @@ std::string tool_lines(const ToolSheet& sheet) {
       "tool      {}, peak {:.4g} nm/s, volume {:.4g} nm mm^2/s, FWHM {:.4g} mm ({:.4g} along x, {:.4g} along y), "
       "radius "
       "{:.4g} mm\n"
-      "          from its axis: centroid at {}, peak at {}; asymmetry {:.2g}\n",
+      "          from its axis: centroid at {}, largest sample at {}; asymmetry {:.2g}\n",
       sheet.kind, a.peak, a.volume, a.fwhm, a.fwhm_x, a.fwhm_y, sheet.radius, place_from_axis(a.centroid, a.fwhm),
       place_from_axis(a.peak_at, a.fwhm), a.asymmetry);
   if (sheet.file) text += tool_file_line("", sheet);

@@ -7,6 +7,7 @@
 
 #include "core/base/duration_text.h"
 #include "runs/base/json_blocks.h"
+#include "runs/job/job.h"
 #include "runs/plan/usual_smoothness.h"
 #include "runs/reports/front_lines.h"
 
@@ -20,17 +21,11 @@ constexpr const char* kIndent = "          ";
 /// Of the objective's optimum [%]: gains below it are said to be little.
 constexpr double kLittleGain = 0.1;
 
-const char* source_of(const WeightGoal& goal) {
-  switch (goal.kind) {
-    case GoalKind::Fixed:
-      return "given";
-    case GoalKind::Auto:
-      return "auto";
-    case GoalKind::Corner:
-      return "corner";
-    default:
-      return "target";
-  }
+/// Where a weight comes from. A search for which there was no time leaves what Auto gives.
+const char* source_of(const WeightGoal& goal, const DwellPlan& plan) {
+  if (goal.kind == GoalKind::Fixed) return "given";
+  if (goal.kind == GoalKind::Auto || !plan.search) return "auto";
+  return goal.kind == GoalKind::Corner ? "corner" : "target";
 }
 
 std::string smoothness_line(const PlannedJob& plan) {
@@ -79,10 +74,12 @@ std::string price_lines(const PlannedJob& plan) {
 std::string weight_lines(const PlannedJob& plan) {
   const JobOptions& options = plan.job.options;
   const DwellPlan& dwell = plan.dwell;
-  std::string text =
-      fmt::format("weights   smoothness {:.4g} ({}), time price {:.4g} nm^2/s ({}){}\n", dwell.weights.smoothness,
-                  source_of(options.smoothness), dwell.weights.time_price, source_of(options.time_price_nm2_per_s),
-                  dwell.search ? fmt::format(", chosen from {} solves", dwell.search->trials.size()) : "");
+  std::string text = fmt::format("weights   smoothness {:.4g} ({}), time price {:.4g} nm^2/s ({}){}\n",
+                                 dwell.weights.smoothness, source_of(options.smoothness, dwell),
+                                 dwell.weights.time_price, source_of(options.time_price_nm2_per_s, dwell),
+                                 dwell.search ? fmt::format(", chosen from {} solves", dwell.search->trials.size())
+                                 : weights_are_searched(dwell_options(options)) ? "; there was no time for the search"
+                                                                                : "");
   if (options.smoothness.kind == GoalKind::Auto) text += smoothness_line(plan);
   if (dwell.worth) text += price_lines(plan);
   if (dwell.weights.time_price == 0.0 && !dwell.worth) {
@@ -114,9 +111,9 @@ Json weights_block(const PlannedJob& plan) {
   const DwellPlan& dwell = plan.dwell;
   const JobOptions& options = plan.job.options;
   Json weights{{"smoothness", dwell.weights.smoothness},
-               {"smoothness_from", source_of(options.smoothness)},
+               {"smoothness_from", source_of(options.smoothness, dwell)},
                {"time_price_nm2_per_s", dwell.weights.time_price},
-               {"time_price_from", source_of(options.time_price_nm2_per_s)}};
+               {"time_price_from", source_of(options.time_price_nm2_per_s, dwell)}};
   if (options.smoothness.kind == GoalKind::Auto) {
     weights["half_held_wave_mm"] = kHalfHeldWave * equivalent_fwhm(plan.part());
   }

@@ -5,6 +5,7 @@
 
 #include "core/removal/exact_residual.h"
 #include "runs/base/json_blocks.h"
+#include "runs/plan/machine_program.h"
 #include "runs/reports/surface_sheet.h"
 
 namespace dwell {
@@ -14,7 +15,7 @@ struct WrittenPlan {
   ExactResidual exact;                // what the program leaves, as read back
   SurfaceSheet surface;               // slopes and bands before, and of that surface
   double program_seconds = 0.0;       // of program.nc, as read back
-  double lift_seconds = 0.0;          // of the lifted moves, whose time program.nc does not say
+  TravelTimes travel;                 // besides the dwell; `travel.lifted` is what program.nc does not say
   std::vector<std::string> warnings;  // what a machine shop would question, a sentence each
   ProgramFigures program;             // of it, for the summary
   std::string program_sha256;
@@ -23,7 +24,7 @@ struct WrittenPlan {
   std::vector<std::string> limits;  // of the plan, and those that reading its files back has shown; a sentence each
   std::string summary;              // the text of summary.json
 
-  double total_seconds() const { return program_seconds + lift_seconds; }
+  double total_seconds() const { return program_seconds + travel.lifted; }
 };
 
 }  // namespace dwell

@@ -136,7 +136,7 @@ class CornerSearch {
     problem.tolerance = kPlaceTolerance;
     // Trials that are repeated cost nothing.
     problem.max_evaluations = 4 * options_.evaluations_a_weight * static_cast<int>(axes_.size());
-    problem.evaluate = [this](const Place& x, double& merit, std::vector<double>&) {
+    problem.evaluate = [this](const Place& x, double& merit) {
       const auto k = trial_at(x);
       if (k) merit = merit_at(*k);
       return k && !book_.ended();

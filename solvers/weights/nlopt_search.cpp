@@ -15,13 +15,11 @@ struct Destroy {
   void operator()(nlopt_opt optimiser) const { nlopt_destroy(optimiser); }
 };
 
-/// NLopt asks for the objective and for the constraints separately, at the same x: both come from one evaluation.
 struct Callback {
   const FewVariableProblem& problem;
   nlopt_opt optimiser;
   std::vector<double> x;  // last evaluated; empty before the first
   double objective = 0.0;
-  std::vector<double> constraints;
   bool ended = false;
   std::exception_ptr thrown;
 
@@ -33,7 +31,7 @@ struct Callback {
     if (ended || asked == x) return;
     x = std::move(asked);
     try {
-      ended = !problem.evaluate(x, objective, constraints);
+      ended = !problem.evaluate(x, objective);
     } catch (...) {  // NLopt is C: nothing may be thrown through it
       thrown = std::current_exception();
       ended = true;
@@ -48,12 +46,6 @@ double objective_at(unsigned n, const double* x, double*, void* data) {
   return callback.objective;
 }
 
-void constraints_at(unsigned, double* result, unsigned n, const double* x, double*, void* data) {
-  auto& callback = *static_cast<Callback*>(data);
-  callback.evaluate_at(n, x);
-  std::copy(callback.constraints.begin(), callback.constraints.end(), result);
-}
-
 }  // namespace
 
 void search_few_variables(const FewVariableProblem& problem) {
@@ -65,16 +57,10 @@ void search_few_variables(const FewVariableProblem& problem) {
       nlopt_create(NLOPT_LN_COBYLA, static_cast<unsigned>(n)));
   if (!owned) throw std::bad_alloc();
   nlopt_opt optimiser = owned.get();
-  Callback callback{problem, optimiser, {}, 0.0, std::vector<double>(static_cast<std::size_t>(problem.constraints)),
-                    false,   {}};
+  Callback callback{problem, optimiser, {}, 0.0, false, {}};
   nlopt_set_lower_bounds(optimiser, problem.lower.data());
   nlopt_set_upper_bounds(optimiser, problem.upper.data());
   nlopt_set_min_objective(optimiser, objective_at, &callback);
-  if (problem.constraints > 0) {
-    const std::vector<double> exactly(static_cast<std::size_t>(problem.constraints), 0.0);
-    nlopt_add_inequality_mconstraint(optimiser, static_cast<unsigned>(problem.constraints), constraints_at, &callback,
-                                     exactly.data());
-  }
   nlopt_set_initial_step(optimiser, problem.first_step.data());
   nlopt_set_xtol_abs1(optimiser, problem.tolerance);
   nlopt_set_maxeval(optimiser, problem.max_evaluations);

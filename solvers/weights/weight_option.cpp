@@ -22,7 +22,7 @@ struct TargetWord {
 };
 constexpr std::array<TargetWord, 3> kTargets{
     {{GoalKind::StepAtMost, "step", "step RMS", "s", &TradeOff::step_rms},
-     {GoalKind::TotalAtMost, "total", "total", "s", &TradeOff::total},
+     {GoalKind::TotalAtMost, "total", "total dwell", "s", &TradeOff::total},
      {GoalKind::ResidualAtMost, "residual", "residual RMS", "nm", &TradeOff::residual_rms}}};
 
 const TargetWord& target_of(GoalKind kind) {

@@ -59,7 +59,13 @@ TEST(OutputFiles, KeepAnEarlierResultReplaceable) {
   ASSERT_EQ(inputs.run(SmallInputs::plan()).exit_code, 0);
   const Words words{"holds an earlier plan, which could then no longer be replaced", "give another folder"};
   expect_refused(inputs, with(inputs.map, {"--write", "plan/x.csv"}), with({"--write 'plan/x.csv'"}, words));
-  expect_refused(inputs, with(inputs.map, {"--write", "plan/dwell.npy"}), words);  // its sidecar is none of a plan
+  const Words part{"is a file of the earlier plan in 'plan'", "another name and folder"};
+  for (const char* name : {"plan/dwell.npy", "plan/residual.npy"})
+    expect_refused(inputs, with(inputs.map, {"--write", name}), part);
+  expect_refused(inputs, with(inputs.map, {"--png", "plan/before.png"}), part);
+  expect_refused(inputs, {"simulate", "plan", "--residual", "plan/residual.npy"}, part);
+  expect_refused(inputs, {"simulate", "plan", "--png", "plan/after.png"}, part);
+  expect_refused(inputs, {"simulate", "plan", "--json=plan/summary.json"}, {"summary"});
   expect_refused(inputs, with(inputs.map, {"--png", "./plan/x.png"}), words);
   expect_refused(inputs, with(inputs.map, {"--json=plan/x.json"}), words);
   EXPECT_EQ(inputs.run(SmallInputs::plan()).exit_code, 0);

@@ -29,8 +29,8 @@ TEST(ParetoCommand, WritesTableAndPictureAndPrintsTheFront) {
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(names_in(inputs / "sweep"), (std::set<std::string>{"pareto.csv", "pareto.png", "pareto.json"}));
   EXPECT_EQ(names_in(inputs.folder.path()), (std::set<std::string>{"map.csv", "tif.csv", "sweep"}));
-  for (const char* part : {"solves    6, ", " on the Pareto front", "residual RMS [nm]", "total [s]", "step RMS [s]",
-                           "time price [nm^2/s]", "written   sweep\n"}) {
+  for (const char* part : {"solves    6, ", " on the Pareto front", "residual RMS [nm]", "dwell [s]", "run [s]",
+                           "residual: exact", "step RMS [s]", "time price [nm^2/s]", "written   sweep\n"}) {
     expect_has(result.out, part);
   }
   const std::string table = read_whole_file(inputs / "sweep/pareto.csv");

@@ -69,7 +69,7 @@ TEST(PlanCommand, SaysWhatAPartialCorrectionAimsAt) {
   for (const char* wrong : {"0", "-0.5", "1.0001", "80", "nan"}) {
     const ProgramResult refused = inputs.run(SmallInputs::plan({"--fraction", wrong}));
     EXPECT_EQ(refused.exit_code, 2);
-    expect_has(refused.err, std::string("--fraction: '") + wrong + "'; required a number > 0 and at most 1");
+    expect_has(refused.err, std::string("--fraction: '") + wrong + "'; required a number from 0.01 to 1");
   }
   EXPECT_EQ(inputs.run({"simulate", "plan", "--fraction", "0.5"}).exit_code, 2) << "has no say in what is removed";
 }
@@ -230,7 +230,7 @@ TEST(PlanCommand, ATargetOutOfReachStillPlansWithExitCode3) {
   const ProgramResult result = inputs.run(SmallInputs::plan({"--time-price", "total<=0.001"}));
   EXPECT_EQ(result.exit_code, 3) << result.err;
   expect_has(result.err, "limit reached: --time-price 'total<=0.001' is not met");
-  expect_has(result.err, "the nearest has total ");
+  expect_has(result.err, "the nearest has total dwell ");
   EXPECT_TRUE(std::filesystem::exists(inputs / "plan/program.nc"));
 }
 
@@ -288,7 +288,8 @@ TEST(PlanCommand, TimeLimitOverBeforeTheSolveIsSaidAndLeavesNothing) {
   const ProgramResult result =
       inputs.run(SmallInputs::plan({"--max-solve", "0.5", "--map-steps", "resample:pitch=0.0025"}));
   EXPECT_EQ(result.exit_code, 3) << result.err;
-  expect_has(result.err, "limit reached: --max-solve of 1 s was over before the solve, at \"map");
+  expect_has(result.err,
+             "limit reached: --max-solve of 0.5 s (what comes before a solve has 1 s in any case) was over before");
   expect_has(result.err, "nothing was written");
   EXPECT_EQ(result.out, "");
   EXPECT_EQ(names_in(inputs.folder.path()), before);

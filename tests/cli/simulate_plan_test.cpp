@@ -80,6 +80,27 @@ TEST(SimulatePlan, TakesEveryOptionFromTheSummaryWhereverTheFolderLies) {
   }
 }
 
+TEST(SimulatePlan, FindsItsFilesFromAnyFolder) {
+  const PlanInputs inputs;
+  const json plan = json::parse(read_whole_file(inputs / "plan/summary.json"));
+  EXPECT_EQ(plan["names_from"], "..");
+  std::filesystem::create_directories(inputs / "far/away");
+  const ProgramResult result = test::run_program(inputs / "far/away", {"simulate", "../../plan", "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(json::parse(result.out)["program"]["residual_rms_nm"], plan["program"]["residual_rms_nm"]);
+  // The plan alone elsewhere: its names are seen from the current folder.
+  std::filesystem::rename(inputs / "plan", inputs / "far/away/plan");
+  EXPECT_EQ(inputs.run({"simulate", "far/away/plan"}).exit_code, 0);
+  inputs.refused({"simulate", "far/away/plan", "--map", "absent.csv"}, {"absent.csv"});
+}
+
+TEST(SimulatePlan, SaysWhoseTheOptionsOfAnotherMapAre) {
+  const PlanInputs inputs;
+  inputs.folder.file("own.csv", "# pitch_mm: 1\n1,2,3\n4,5,7\n");
+  inputs.refused({"simulate", "plan", "--map", "own.csv"},
+                 {"own.csv", "--map-pixel", "(--map-pixel 0.5 is of the plan plan; give the option anew"});
+}
+
 TEST(SimulatePlan, SaysWhatIsGivenInThePlansPlace) {
   const PlanInputs inputs;
   inputs.scale("map.csv", "second.csv", 0.75);

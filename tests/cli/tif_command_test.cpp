@@ -88,7 +88,7 @@ TEST(TifCommand, NamesWhatIsWrong) {
   const std::vector<Case> cases{
       {{}, {"one of", "--spot"}},
       {{"--spot", "after.csv"}, {"--dwell-time", "required"}},
-      {{"--spot", "after.csv", "--dwell-time", "0"}, {"--dwell-time = 0", "from 1e-09"}},
+      {{"--spot", "after.csv", "--dwell-time", "0"}, {"--dwell-time: '0'; required a number from 1e-09", "from 1e-09"}},
       {{"--spot", "after.csv", "--dwell-time", "nan"}, {"--dwell-time"}},
       {{"--spot", "after.csv", "--dwell-time", "4", "--before", "map.csv"}, {"map.csv", "--map-pixel"}},
       {{"--spot", "after.csv", "--dwell-time", "4", "--at", "0,0"}, {"--at 0,0", "no spot there"}},

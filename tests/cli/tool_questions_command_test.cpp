@@ -74,6 +74,29 @@ TEST(ToolQuestions, SayWhatIsDoubtfulInTheTableAndEndWithZero) {
   EXPECT_EQ(tool["axis_from"], "the middle of its grid");
 }
 
+TEST(ToolQuestions, RefuseAnAxisOffTheFileAndOptionsOfAFileForAFormula) {
+  const SmallInputs inputs;
+  const auto refused = [&inputs](const std::vector<std::string>& more, const std::vector<std::string>& parts) {
+    const ProgramResult result = inputs.run(SmallInputs::plan(more));
+    EXPECT_EQ(result.exit_code, 2) << more[1];
+    for (const std::string& part : parts) expect_has(result.err, part);
+  };
+  refused({"--tif-centre", "100,100"}, {"--tif-centre 100,100", "tif.csv", "x from 0 to 6 mm"});
+  refused({"--tif", "gaussian:peak=10,fwhm=2", "--tif-centre", "peak"}, {"--tif-centre peak", "formula gaussian"});
+  refused({"--tif", "gaussian:peak=10,fwhm=2", "--tif-rows", "top"}, {"--tif-rows top", "formula gaussian"});
+  const ProgramResult accepted = inputs.run(SmallInputs::plan({"--tif-centre", "3.1,3"}));
+  EXPECT_EQ(accepted.exit_code, 0) << accepted.err;
+}
+
+TEST(ToolQuestions, SayThatAFileWithoutAUnitIsTakenAsNanometresASecond) {
+  const SmallInputs inputs;
+  const std::string note = "no unit in the file: taken as nm/s; --tif-unit states it";
+  expect_has(inputs.run({"tif", "tif.csv", "--tif-pixel", "0.5"}).out, note);
+  EXPECT_EQ(inputs.run({"tif", "tif.csv", "--tif-pixel", "0.5", "--tif-unit", "nm/s"}).out.find(note),
+            std::string::npos);
+  expect_has(inputs.run(SmallInputs::plan()).out, note);
+}
+
 TEST(ToolQuestions, AcceptAToolThatIsLargerThanThePart) {
   const ToolInputs inputs;
   const ProgramResult result = inputs.run(

@@ -44,6 +44,13 @@ TEST(FewestDigits, UndoWhatAChangeOfUnitsMakesOfANumber) {
   EXPECT_EQ(fewest_digits(HUGE_VAL), HUGE_VAL);
 }
 
+TEST(ToldApart, ShowsAsManyDigitsAsTakeTwoNumbersApart) {
+  using Two = std::pair<std::string, std::string>;
+  EXPECT_EQ(told_apart(18.2, 18.07), (Two{"18.2", "18.07"}));
+  EXPECT_EQ(told_apart(18.070012, 18.070009), (Two{"18.070012", "18.070009"}));
+  EXPECT_EQ(told_apart(2.0, 2.0), (Two{"2", "2"}));
+}
+
 TEST(ParseNumber, TrimsBothEnds) {
   EXPECT_EQ(trim("\t a b \r"), "a b");
   EXPECT_EQ(trim(" \t"), "");

@@ -25,11 +25,23 @@ TEST(TimeLimit, EndsWorkThatAsksAndSaysWhereItWas) {
     limit.run(progress, work_until_stopped);
     ADD_FAILURE() << "no TimeLimitReached";
   } catch (const TimeLimitReached& error) {
-    EXPECT_STREQ(error.what(),
-                 "`max solve` of 0.05 s was over before the solve, at \"counting: 12 of 30\"; nothing was written");
+    EXPECT_STREQ(error.what(), "`max solve` of 0.05 s was over before the solve, at \"counting: 12 of 30\"");
   }
   EXPECT_EQ(shown, "counting: 12 of 30");
   EXPECT_LT(limit.left(), 0.0);
+}
+
+TEST(TimeLimit, SaysTheLimitAsStatedWhereLessThanTheLeast) {
+  const TimeLimit limit(0.01, "max solve", 0.0, 0.05);
+  EXPECT_GT(limit.left(), 0.01);
+  try {
+    limit.run({}, work_until_stopped);
+    ADD_FAILURE() << "no TimeLimitReached";
+  } catch (const TimeLimitReached& error) {
+    EXPECT_STREQ(error.what(),
+                 "`max solve` of 0.01 s (what comes before a solve has 0.05 s in any case) was over before the solve, "
+                 "at \"counting: 12 of 30\"");
+  }
 }
 
 TEST(TimeLimit, LeavesAnInterruptAndAResultAlone) {

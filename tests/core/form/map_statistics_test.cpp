@@ -23,7 +23,7 @@ TEST(MapStatistics, HandCheckedNumbers) {
   EXPECT_DOUBLE_EQ(raw.rms, std::sqrt(14.0 / 4.0));
   EXPECT_DOUBLE_EQ(raw.mean, 3.0);
   EXPECT_DOUBLE_EQ(raw.rms_about_zero(), std::sqrt(50.0 / 4.0));
-  EXPECT_EQ(in_words(raw), "RMS 1.871 nm, PV 5 nm, mean 3 nm");
+  EXPECT_EQ(in_words(raw), "RMS 1.871 nm, PV 5 nm, mean 3 nm (RMS about it; 3.536 nm about zero)");
   const MapStatistics centred = map_statistics(map, {true, false, false});
   EXPECT_DOUBLE_EQ(centred.pv, 5.0);
   EXPECT_DOUBLE_EQ(centred.rms, std::sqrt(14.0 / 4.0));

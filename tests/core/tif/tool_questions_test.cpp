@@ -56,8 +56,9 @@ TEST(QuestionTool, HasNoWordForAToolWithoutDataAroundIt) {
 TEST(QuestionTool, RefusesNoDataWithinTheFootprint) {
   HeightMap rates = measured_tool();
   rates.at(24, 28) = kGapHere;  // (40, -30) mm
-  expect_input_error([&] { said_of(rates); }, {"1 sample without data", "row 25, column 29 (at 40, -30 mm)", "3.9",
-                                               "`tif steps` fill:harmonic fills it"});
+  expect_input_error([&] { said_of(rates); },
+                     {"1 sample without data", "row 25, column 29 (counted from 1; at 40, -30 mm)", "3.9",
+                      "`tif steps` fill:harmonic fills it"});
   rates.at(24, 29) = kGapHere;
   expect_input_error([&] { said_of(rates); }, {"2 samples without data", "fills them"});
 }
@@ -119,7 +120,8 @@ TEST(QuestionTool, WantsTheAxisWhereTheMiddleIsOffCentroidAndPeak) {
       [] {
         said_of(measured_tool({1.0, -0.5}));
       },
-      {"where is the tool axis", "the centroid lies (0.", "the peak (", "FWHM is", "`tif centre`"});
+      {"where is the tool axis", "the centroid lies (0.", "the apex of its rounded top, which peak means here, (",
+       "FWHM is", "`tif centre`"});
   EXPECT_NO_THROW(said_of(measured_tool({1.0, -0.5}), {}, TifCentre{TifCentre::Kind::Middle, {}}));
   EXPECT_NO_THROW(said_of(measured_tool({0.15, 0.1})));
 }

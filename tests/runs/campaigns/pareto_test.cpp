@@ -41,8 +41,9 @@ TEST(WeightList, RefusesTheRestNamingOptionTextAndWhatIsAccepted) {
 bool on_front_by_definition(const std::vector<ParetoPoint>& points, std::size_t k) {
   for (const ParetoPoint& other : points) {
     const TradeOff &a = other.trade_off, &b = points[k].trade_off;
-    const int worse = (a.residual_rms > b.residual_rms) + (a.total > b.total) + (a.step_rms > b.step_rms);
-    const int better = (a.residual_rms < b.residual_rms) + (a.total < b.total) + (a.step_rms < b.step_rms);
+    const double left_a = other.exact_rms, left_b = points[k].exact_rms;
+    const int worse = (left_a > left_b) + (a.total > b.total) + (a.step_rms > b.step_rms);
+    const int better = (left_a < left_b) + (a.total < b.total) + (a.step_rms < b.step_rms);
     if (worse == 0 && better > 0) return false;
   }
   return true;
@@ -54,8 +55,8 @@ TEST(ParetoFront, IsWhatTheDefinitionSays) {
     std::uniform_int_distribution<int> value(0, seed % 2 == 0 ? 5 : 1000);  // with and without ties
     std::vector<ParetoPoint> points(1 + seed);
     for (ParetoPoint& p : points) {
-      p.trade_off = {static_cast<double>(value(random)), static_cast<double>(value(random)),
-                     static_cast<double>(value(random))};
+      p.exact_rms = static_cast<double>(value(random));
+      p.trade_off = {0.0, static_cast<double>(value(random)), static_cast<double>(value(random))};
     }
     mark_front(points);
     std::size_t front = 0;
@@ -83,9 +84,34 @@ TEST(ParetoSweep, HasEveryPairOnceAndWhatAPlanWithItHas) {
     const PlannedJob plan = plan_job(options, {});
     EXPECT_NEAR(p.trade_off.residual_rms, plan.dwell.residual.rms, 1e-9 * plan.dwell.residual.rms);
     EXPECT_EQ(p.trade_off.total, plan.dwell.seconds.sum());
+    EXPECT_NEAR(p.exact_rms, plan.dwell.exact.statistics.rms_about_zero(), 0.03 * p.exact_rms);
     EXPECT_EQ(p.trade_off.step_rms, plan.dwell.step_rms);
     EXPECT_EQ(p.solver.operator_applications, plan.dwell.solver.operator_applications + 1);
     EXPECT_EQ(p.on_front, on_front_by_definition(sweep.points, k));
+  }
+}
+
+TEST(ParetoSweep, StatesTheExactResidualWhereTheLatticeIsWrong) {
+  SmallJob job;
+  job.options.tif = "disc:slope=4,radius=1.1";  // a rim sharper than the pixels
+  job.options.remove = {};
+  const ParetoSweep sweep = sweep_weights(job.options, {{1e-6}, {0.0}}, {});
+  const ParetoPoint& p = sweep.points[0];
+  EXPECT_GT(std::abs(p.exact_rms - p.trade_off.residual_rms), 5.0 * p.standard_error);
+  EXPECT_LE(p.standard_error, 0.011 * p.exact_rms);
+}
+
+TEST(TravelTimes, AreWhatARunTakesBesidesItsDwell) {
+  SmallJob job;
+  for (const Motion motion : {Motion::Moving, Motion::Stop}) {
+    job.options.motion = motion;
+    const PlannedJob plan = plan_job(job.options, {});
+    const TravelTimes travel = travel_times(plan.laid, 10.0, {0.0, job.options.max_feed_mm_per_min});
+    EXPECT_EQ(travel.between_stops > 0.0, motion == Motion::Stop);
+    const double steps = program_of(plan.program.table).total_seconds();  // of the table: without the way down
+    EXPECT_NEAR(steps, plan.dwell.seconds.sum() + travel.between_stops, 1e-6 * steps);
+    EXPECT_NEAR(travel.down, 10.0 / (job.options.max_feed_mm_per_min / 60.0), 1e-12);
+    EXPECT_EQ(travel.lifted, 0.0);
   }
 }
 
@@ -130,14 +156,14 @@ TEST(WritePareto, TableAndJsonSayTheSame) {
   const std::string table = pareto_table_text(sweep);
   EXPECT_TRUE(
       table.starts_with("smoothness,time_price_nm2_per_s,residual_rms_nm,total_s,step_rms_s,objective_nm2,"
-                        "operator_applications,status,front\n"));
+                        "operator_applications,status,front,exact_residual_rms_nm,standard_error_nm,run_s\n"));
   std::size_t at = table.find('\n') + 1;
   for (const auto& p : json["points"]) {
     const std::size_t end = table.find('\n', at);
     ASSERT_NE(end, std::string::npos);
     const std::string row = table.substr(at, end - at);
     const std::vector<std::string_view> fields = split(row, ',');
-    ASSERT_EQ(fields.size(), 9u) << row;
+    ASSERT_EQ(fields.size(), 12u) << row;
     std::size_t column = 0;
     for (const char* key : {"smoothness", "time_price_nm2_per_s", "residual_rms_nm", "total_s", "step_rms_s",
                             "objective_nm2", "operator_applications"}) {
@@ -145,6 +171,10 @@ TEST(WritePareto, TableAndJsonSayTheSame) {
     }
     EXPECT_EQ(fields[7], p["status"].get<std::string>());
     EXPECT_EQ(fields[8], p["front"].get<bool>() ? "yes" : "no");
+    column = 9;
+    for (const char* key : {"exact_residual_rms_nm", "exact_residual_rms_standard_error_nm", "run_s"}) {
+      EXPECT_EQ(parse_number(fields[column++]).value(), p[key].get<double>()) << key;
+    }
     at = end + 1;
   }
   EXPECT_EQ(at, table.size());

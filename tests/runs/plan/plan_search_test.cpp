@@ -121,7 +121,7 @@ TEST(PlanSearch, StartsOtherSolversFromADwellFoundBefore) {
   SmallJob job;
   job.options.solver = SolverKind::ProjectedCg;
   const Job prepared = load_job(job.options);
-  const LaidPath laid = lay_job_path(prepared);
+  const LaidPath laid = lay_job_path(prepared).laid;
   PlanProblem problem(*prepared.part, laid, prepared.part->kernel, dwell_options(job.options));
   const WeightedDwell cold = problem.solve({0.01, 0.0}, {}, 60.0, "solve", {});
   const WeightedDwell warm = problem.solve({0.01, 0.0}, cold.dwell, 60.0, "solve", {});
@@ -265,7 +265,7 @@ TEST(PlanSearch, StopsBetweenAndWithinItsSolvesAndReportsEach) {
   std::size_t reported = 0;
   Progress progress;
   progress.show = [&](const std::string& line) {
-    reported += line.starts_with("search ") && line.find("total") != std::string::npos;
+    reported += line.starts_with("search ") && line.find(" s RMS") != std::string::npos;
   };
   EXPECT_EQ(plan_job(job.options, progress).dwell.search->trials.size(), reported);
 }

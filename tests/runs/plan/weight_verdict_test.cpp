@@ -73,7 +73,7 @@ TEST(WeightVerdict, ASingleTargetNamesTheNearestTrial) {
 
 TEST(WeightVerdict, TheCriterionOfTwoTargetsSaysWhatIsLeast) {
   EXPECT_THAT(search_criterion(step_and_residual()),
-              HasSubstr("the least total with step RMS <= 0.02 s and residual RMS <= 1.5 nm"));
+              HasSubstr("the least total dwell with step RMS <= 0.02 s and residual RMS <= 1.5 nm"));
   WeightSearchOptions how = step_and_residual();
   how.time_price = {300.0, GoalKind::TotalAtMost};
   EXPECT_THAT(search_criterion(how), HasSubstr("the least residual RMS with step RMS"));
