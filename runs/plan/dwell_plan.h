@@ -11,9 +11,9 @@
 #include "runs/plan/lattice_choice.h"
 #include "runs/plan/part.h"
 #include "runs/plan/weight_trials.h"
-#include "solvers/matched/time_price.h"
 #include "solvers/problem/certificate.h"
 #include "solvers/problem/dwell_solver.h"
+#include "solvers/weights/time_worth.h"
 
 namespace dwell {
 

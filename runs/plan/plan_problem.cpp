@@ -11,6 +11,7 @@
 #include "core/removal/removal_geometry.h"
 #include "core/removal/simulate.h"
 #include "paths/feed/plan_program.h"
+#include "solvers/matched/time_price.h"
 #include "solvers/solver_catalogue.h"
 
 namespace dwell {

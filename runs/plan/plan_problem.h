@@ -8,9 +8,9 @@
 #include "runs/plan/dwell_options.h"
 #include "runs/plan/laid_path.h"
 #include "runs/plan/part.h"
-#include "solvers/matched/time_price.h"
 #include "solvers/problem/dwell_problem.h"
 #include "solvers/problem/dwell_solver.h"
+#include "solvers/weights/time_worth.h"
 #include "solvers/weights/weight_search.h"
 
 namespace dwell {

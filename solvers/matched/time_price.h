@@ -3,26 +3,8 @@
 #include "core/base/progress.h"
 #include "solvers/problem/dwell_problem.h"
 #include "solvers/weights/time_worth.h"
-#include "solvers/weights/weight_goal.h"
 
 namespace dwell {
-
-/// What a plan with some time price would leave, take and change from stroke to stroke: estimated on a model.
-struct PricedTradeOff {
-  double price = 0.0;  // [nm^2/s]
-  TradeOff trade_off;
-};
-
-/// The time price that the rules of TimeWorth give a dwell problem.
-struct TimePrice {
-  double price = 0.0;  // [nm^2/s]; 0 if no dwell above the least removes anything
-  PriceRule rule = PriceRule::Share;
-  TradeOff least;       // of the least dwell, exact
-  PricedTradeOff best;  // with next to no price: the least residual that the tool reaches, long as the run may be
-  PricedTradeOff half, twice;  // of the price
-  int models = 0;              // that were solved
-  long applications = 0;       // of the full operator
-};
 
 /// Finds the smallest price that is its own worth, price = worth_of_time(plan with that price): the longest run that
 /// still pays. Begins with a price at which time hardly counts (a millionth of that from which on the least dwell is

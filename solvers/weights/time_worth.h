@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "solvers/weights/weight_goal.h"
+
 namespace dwell {
 
 /// What machine time is worth, free of scale: the two rules of which the smaller price holds. A price of zero leaves
@@ -35,6 +37,23 @@ struct RuledPrice {
 /// second rule says nothing and the first holds; 0 for a plan that takes no time at all. As the price rises, so does
 /// what this gives for the plan with that price: f rises and T falls, and f is a convex function of T.
 RuledPrice worth_of_time(const TimeWorth& worth, const LeftAndTotal& least, const LeftAndTotal& plan);
+
+/// What a plan with some time price would leave, take and change from stroke to stroke: estimated on a model.
+struct PricedTradeOff {
+  double price = 0.0;  // [nm^2/s]
+  TradeOff trade_off;
+};
+
+/// The time price that the rules of TimeWorth give a dwell problem.
+struct TimePrice {
+  double price = 0.0;  // [nm^2/s]; 0 if no dwell above the least removes anything
+  PriceRule rule = PriceRule::Share;
+  TradeOff least;       // of the least dwell, exact
+  PricedTradeOff best;  // with next to no price: the least residual that the tool reaches, long as the run may be
+  PricedTradeOff half, twice;  // of the price
+  int models = 0;              // that were solved
+  long applications = 0;       // of the full operator
+};
 
 /// Reads "0.3" or "0.3,0.1": share and average, each from 1e-6 to 1e3. Throws InputError naming the text and what is
 /// accepted.

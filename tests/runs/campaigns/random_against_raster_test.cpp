@@ -32,6 +32,8 @@ TEST(ZhaRandomPath, ClipsThePeakThatTheRasterLeavesAtEqualMidBandRms) {
   job.tif = "gaussian:peak=10,fwhm=3,radius=4.5";
   job.remove = {true, false};
   job.max_feed_mm_per_min = 6000.0;
+  job.smoothness = {0.1};
+  job.time_price_nm2_per_s = {0.0};
   job.threads = 2;
   OutputFolder out(folder.path() / "paths", path_comparison_files());
   const PathComparison paths = compare_paths(job, "raster:pitch=2.5,random:pitch=1.5,random:pitch=2.5", {}, out, {});

@@ -292,7 +292,7 @@ TEST(WritePlan, SearchIsInTheSummaryAndInItsOwnTable) {
   EXPECT_NE(weights["search"]["criterion"].get<std::string>().find("corner"), std::string::npos);
   EXPECT_EQ(weights["search"]["outcome"], "met");
   EXPECT_TRUE(weights["search"]["front"].empty());
-  EXPECT_EQ(summary["options"]["smoothness"], "auto");
+  EXPECT_EQ(summary["options"]["smoothness"], "corner");
 
   const std::string table = write_trials(*plan.dwell.search);
   EXPECT_TRUE(
