@@ -70,7 +70,10 @@ Part smooth_part() {
 
 TEST(PitchChoice, TellsAGainByThePitchFromOneByTheSmoothness) {
   const Part part = smooth_part();
-  const LaidPath laid = lay_searched_raster(part, parse_path_spec("raster:pitch=auto"), Motion::Moving, {}).laid;
+  DwellOptions options;  // weights as numbers: with Auto, half the pitch is smoothed as much without a word
+  options.smoothness = {0.1};
+  options.time_price = {0.0};
+  const LaidPath laid = lay_searched_raster(part, parse_path_spec("raster:pitch=auto"), Motion::Moving, options).laid;
   const std::string& note = laid.path.notes.back();
   double pitch = 0.0, here = 0.0, half = 0.0, equal = 0.0;
   ASSERT_EQ(std::sscanf(note.c_str(),
@@ -86,8 +89,8 @@ TEST(PitchChoice, TellsAGainByThePitchFromOneByTheSmoothness) {
   // What the note promises: the pitch at hand gains as much by a lower smoothness.
   RasterOptions raster = options_of<RasterOptions>(parse_path_spec("raster:pitch=1"));
   raster.pitch = pitch;
-  DwellOptions lower;
-  lower.smoothness.value = 0.1 / 16.0;
+  DwellOptions lower = options;
+  lower.smoothness = {0.1 / 16.0};
   EXPECT_LE(left_by(part, raster, lower), 1.1 * half);
 }
 
