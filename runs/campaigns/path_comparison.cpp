@@ -161,7 +161,7 @@ PathComparison compare_paths(const JobOptions& options, const std::string& list,
   }
   const bool none = std::none_of(comparison.paths.begin(), comparison.paths.end(),
                                  [](const ComparedPath& p) { return p.failure.empty(); });
-  if (none && out_of_time) throw *out_of_time;
+  if (none && out_of_time) throw TimeLimitReached(*out_of_time);
   if (none) throw InputError("--paths: none can be planned; the first: " + comparison.paths.front().failure);
   mark_front(comparison.paths);
   collect_limits(comparison);
