@@ -64,7 +64,9 @@ struct CommandInputs : SmallInputs {
 /// Runs of each command that between them print every key.
 std::map<std::string, std::vector<Words>> runs_of_commands() {
   return {
-      {"plan", {SmallInputs::plan({"--out", "a"}), SmallInputs::plan({"--out", "a", "--smoothness", "step<=0.05"})}},
+      {"plan",
+       {SmallInputs::plan({"--out", "a", "--time-price", "auto"}),
+        SmallInputs::plan({"--out", "a", "--smoothness", "step<=0.05"})}},
       {"paths",
        {{"paths", "--map", "wide.csv", "--tif", "gaussian:peak=10,fwhm=3,radius=4", "--threads", "1", "--paths",
          "raster:pitch=2;nearest:critical=1e9", "--out", "b"},
@@ -72,7 +74,8 @@ std::map<std::string, std::vector<Words>> runs_of_commands() {
         as("paths", {"--path", "--tif", "--tif-pixel", "--out"},
            {"--tif", "gaussian:peak=10,fwhm=5,radius=5", "--paths", "raster:pitch=2", "--out", "b", "--aperture",
             "rect:0,0,14,1.2"})}},
-      {"pareto", {as("pareto", {"--out"}, {"--smoothnesses", "0.1,1", "--time-prices", "0", "--out", "c"})}},
+      {"pareto",
+       {as("pareto", {"--time-price", "--out"}, {"--smoothnesses", "0.1,1", "--time-prices", "0", "--out", "c"})}},
       {"simulate", {kSimulate, with(kSimulate, {"--exact"}), {"simulate", "plan"}}},
       {"map",
        {kMap,

@@ -199,7 +199,7 @@ TEST(PlanCommand, CommandLineComesOverTheJobFile) {
 
 TEST(PlanCommand, FindsTheWeightThatMeetsATargetAndSaysWhich) {
   const SmallInputs inputs;
-  const ProgramResult usual = inputs.run(SmallInputs::plan());
+  const ProgramResult usual = inputs.run(SmallInputs::plan({"--time-price", "auto"}));
   ASSERT_EQ(usual.exit_code, 0);
   const json own = summary_of(inputs)["weights"];
   EXPECT_EQ(own["smoothness_from"], "auto");

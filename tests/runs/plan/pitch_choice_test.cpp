@@ -97,6 +97,8 @@ TEST(PitchChoice, TellsAGainByThePitchFromOneByTheSmoothness) {
 TEST(PitchChoice, ReturnsTheBestSoFarWhenItsTimeIsOver) {
   const Part part = wavy_part();
   DwellOptions options;
+  options.smoothness = {0.1};
+  options.time_price = {0.0};  // its search is set-up as well
   options.max_seconds = 1e-9;  // the set-up has a second, the first solve no time
   const SearchedRaster found = lay_searched_raster(part, parse_path_spec("raster:pitch=auto"), Motion::Moving, options);
   ASSERT_TRUE(found.dwell);
