@@ -89,6 +89,8 @@ class RasterTrials {
   }
 
   double smoothness() const { return options_.smoothness.value; }
+  /// Whether a raster of half the pitch is smoothed as much by itself.
+  bool smooths_alike() const { return options_.smoothness.kind == GoalKind::Auto; }
   /// Whether the narrower one leaves so much less that the exact figures can tell it, and that it is worth its points.
   bool pays(const TriedRaster& wide, const TriedRaster& narrow) const {
     return wide.residual() > (1.0 + kPitchCost) * narrow.residual() && told_apart(wide, narrow);
@@ -126,6 +128,7 @@ PitchSearch search_pitch(const RasterTrials& trials, const RasterOptions& widest
     search.half = trials.solve_in_time(raster, trials.smoothness());
     search.out_of_time = !search.half;
     if (search.out_of_time || !trials.pays(wide, *search.half)) break;
+    if (raster.pitch < narrowest && trials.smooths_alike()) break;  // what it gains below is the solver's scatter
     if (raster.pitch < narrowest && trials.smoothness() > 0.0) {
       search.equal = trials.solve_in_time(raster, weight_ratio(raster) * trials.smoothness());
       search.out_of_time = !search.equal;

@@ -48,7 +48,9 @@ std::string in_words(const PricedTradeOff& plan) {
 
 /// The least that is left on the path, as far as is known: the plan itself may leave less than the model.
 double least_left(const DwellPlan& plan) {
-  return std::min(plan.worth->best.trade_off.residual_rms, plan.residual.rms_about_zero());
+  const TimePrice& worth = *plan.worth;
+  return std::min({worth.best.trade_off.residual_rms, worth.half.trade_off.residual_rms,
+                   worth.twice.trade_off.residual_rms, plan.residual.rms_about_zero()});
 }
 
 /// What a user wants to know who has to choose a price.
@@ -93,7 +95,7 @@ std::string weight_lines(const PlannedJob& plan) {
 std::string optimum_line(const DwellPlan& plan) {
   const double gap = plan.certificate.gap();
   if (!std::isfinite(gap)) return "optimum   no bound is proven\n";
-  return fmt::format("optimum   at most {:.2g} % below this plan's objective, which is proven\n",
+  return fmt::format("optimum   at most {:.3g} % below this plan's objective: proven, but a rough bound\n",
                      100.0 * gap / (1.0 + gap));
 }
 

@@ -26,7 +26,7 @@ constexpr int kMostReturns = 2;
 constexpr double kSameAfterReturn = 0.02;
 // A model is at rest when the last third of its products has lowered it by less than this share of all of them.
 constexpr double kAtRest = 0.01;
-constexpr long kFirstLook = 12, kMostProducts = 96;
+constexpr long kFirstLook = 12, kMostProducts = 200;
 constexpr double kModelTolerance = 1e-8;  // of the gradient, relative to that at the least dwell
 
 class Search {
