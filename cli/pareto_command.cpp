@@ -72,7 +72,9 @@ int run_pareto(const ParetoArguments& arguments) {
 /// The options of a plan but for the weights, which are swept, and the program, which is not written.
 std::vector<std::string> swept_flags() {
   std::vector<std::string> flags = every_flag();
-  std::erase_if(flags, [](const std::string& f) { return f == "smoothness" || f == "time-price" || f == "gcode"; });
+  std::erase_if(flags, [](const std::string& f) {
+    return f == "smoothness" || f == "time-price" || f == "time-worth" || f == "gcode";
+  });
   return flags;
 }
 
