@@ -2,52 +2,159 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
+
+#include "solvers/problem/bounded_chain.h"
 
 namespace dwell {
 namespace {
 
-/// The bound as a function of theta: concave, as it is the least of concave functions.
+constexpr int kMostTrials = 24;
+constexpr double kFromEnds = 0.3;  // of the interval in which the best theta lies
+// The search ends when no theta can give more than this share of what is between bound and objective.
+constexpr double kLittleMore = 0.02;
+
+/// What the penalty without the price asks of the surplus: 1/2 s'T s + b's + constant.
+struct SurplusPenalty {
+  BoundedChain chain;
+  Vector linear;
+  double constant = 0.0;
+};
+
+void add_smoothness(const DwellProblem& p, Vector& diagonal, Vector& off) {
+  for_parts(p, [&](const DwellPart& part, Index first, Index points) {
+    const double alpha = p.alpha_of(part);
+    if (!(alpha > 0.0) || part.smoothness.empty()) return;
+    for (Index j = 1; j < points; ++j) {
+      if (!part.smoothness.linked(j)) continue;
+      const double before = part.smoothness.scale(j - 1), here = part.smoothness.scale(j);
+      diagonal[first + j - 1] += alpha * before * before;
+      diagonal[first + j] += alpha * here * here;
+      off[first + j] -= alpha * before * here;
+    }
+  });
+}
+
+SurplusPenalty surplus_penalty(const DwellProblem& p) {
+  const Index n = p.points();
+  Vector diagonal = Vector::Constant(n, p.beta), off = Vector::Zero(n), linear = Vector::Zero(n);
+  add_smoothness(p, diagonal, off);
+  double constant = 0.0;
+  if (p.beta > 0.0) {
+    linear = p.beta * p.lower;
+    if (p.reference.size() != 0) linear -= p.beta * p.reference;
+    constant = 0.5 * linear.squaredNorm() / p.beta;
+  }
+  Vector room = p.upper;
+  if (room.size() != 0) room -= p.lower;
+  return {BoundedChain(std::move(diagonal), std::move(off), std::move(room)), std::move(linear), constant};
+}
+
+/// The bound as a function of theta.
 class ScaledDual {
  public:
   ScaledDual(const DwellProblem& problem, const Vector& t, double objective, const Vector& gradient)
-      : p_(problem), gradient_(gradient), square_(2.0 * (objective - problem.gamma * t.sum())) {
-    double moved = 0.0;  // s'M'(M s + q)
-    for (Index j = 0; j < t.size(); ++j) {
-      const double worth = gradient_[j] - p_.gamma;
-      moved += (t[j] - p_.lower[j]) * worth;
-      bounded_ = bounded_ || std::isfinite(p_.upper_at(j));
-      if (!std::isfinite(p_.upper_at(j)) && worth < 0.0) most_ = std::min(most_, p_.gamma / -worth);
-    }
-    linear_ = square_ - moved;
-    constant_ = p_.gamma * p_.lower.sum();
+      : p_(problem), penalty_(surplus_penalty(problem)), surplus_(t - problem.lower), objective_(objective) {
+    worth_ = gradient;
+    price_.setZero(t.size());
+    add_penalty_gradient(p_, t, price_);
+    worth_ -= price_;  // a
+    square_ = 2.0 * (objective - dwell::penalty(p_, t));
+    linear_ = square_ - worth_.dot(surplus_);
+    constant_ = p_.gamma * p_.lower.sum() + penalty_.constant;
+    best_ = p_.gamma * p_.lower.sum();  // no term is below 0
+    s_ = surplus_;
   }
 
-  double operator()(double theta) const {
-    double value = theta * linear_ - 0.5 * theta * theta * square_ + constant_;
-    for (Index j = 0; bounded_ && j < p_.points(); ++j) {
-      const double worth = theta * (gradient_[j] - p_.gamma) + p_.gamma;
-      if (worth < 0.0 && std::isfinite(p_.upper_at(j))) value += worth * (p_.upper[j] - p_.lower[j]);
+  /// Concave: where the slope at a theta is known, no theta beyond can give more than the tangent.
+  double best() {
+    double low = 0.0, high = most_theta(), low_slope = linear_, high_slope = -kInfinite;
+    double theta = high;
+    for (int k = 0; k < kMostTrials && high > low; ++k) {
+      const Trial trial = at(theta);
+      best_ = std::max(best_, trial.value);
+      const bool rises = trial.proves && trial.slope >= 0.0;
+      const double more = rises ? (high - theta) * trial.slope : (low - theta) * trial.slope;
+      if (trial.proves && more <= kLittleMore * (objective_ - best_)) break;
+      (rises ? low : high) = theta;
+      (rises ? low_slope : high_slope) = trial.proves ? trial.slope : -kInfinite;
+      // The slope falls ever faster towards 1, so that where it would vanish on a straight line is only a hint.
+      theta = low + std::clamp(low_slope / (low_slope - high_slope), kFromEnds, 1.0 - kFromEnds) * (high - low);
     }
-    return value;
-  }
-
-  double best() const {
-    if (!bounded_) return (*this)(square_ > 0.0 ? std::clamp(linear_ / square_, 0.0, most_) : 0.0);
-    constexpr int kSteps = 60;  // of a search by thirds: to 1e-10 of the interval
-    double low = 0.0, high = most_;
-    for (int k = 0; k < kSteps; ++k) {
-      const double a = low + (high - low) / 3.0, b = high - (high - low) / 3.0;
-      ((*this)(a) < (*this)(b) ? low : high) = (*this)(a) < (*this)(b) ? a : b;
-    }
-    return std::max((*this)(0.5 * (low + high)), (*this)(most_));
+    return best_;
   }
 
  private:
+  struct Trial {
+    double value, slope;
+    bool proves;  // nothing of note was charged, so that the slope is the value's
+  };
+
+  /// The largest theta in [0, 1] at which no stretch of the path that is free to move as a whole is worth more than it
+  /// costs: beyond it the chain has no minimum. s_j times its scale is then the same for all its points.
+  double most_theta() const {
+    double most = 1.0;
+    if (p_.beta > 0.0) return most;
+    double costs = 0.0, worth = 0.0;
+    const auto end_stretch = [&] {
+      if (worth < 0.0) most = std::min(most, costs / -worth);
+      costs = worth = 0.0;
+    };
+    const auto add = [&](Index j, double step) {
+      const bool held = std::isfinite(penalty_.chain.room(j));
+      costs += held ? kInfinite : p_.gamma * step;
+      worth += worth_[j] * step;
+    };
+    for (Index j = 0; j < p_.points() && p_.parts.empty(); ++j) add(j, 1.0), end_stretch();
+    for_parts(p_, [&](const DwellPart& part, Index first, Index points) {
+      const bool smooth = p_.alpha_of(part) > 0.0 && !part.smoothness.empty();
+      for (Index j = 0; j < points; ++j) {
+        if (!smooth || !part.smoothness.linked(j)) end_stretch();
+        add(first + j, smooth ? 1.0 / part.smoothness.scale(j) : 1.0);
+      }
+      end_stretch();
+    });
+    return most;
+  }
+
+  Trial at(double theta) {
+    price_ = penalty_.linear + theta * worth_;
+    price_.array() += p_.gamma;
+    penalty_.chain.minimise(price_, s_);
+    const double value = linear_ * theta - 0.5 * square_ * theta * theta + constant_ + least();
+    const double charged = charge();
+    return {std::isfinite(value) ? value - charged : -kInfinite, linear_ - square_ * theta + worth_.dot(s_),
+            std::isfinite(value) && charged <= kLittleMore * objective_};
+  }
+
+  /// The least of the chain at these prices, but for charge(): its tangent at s_, over the whole box.
+  double least() {
+    penalty_.chain.multipliers(price_, s_, multipliers_);
+    double sum = penalty_.chain.value(price_, s_);
+    for (Index j = 0; j < s_.size(); ++j) {
+      sum -= multipliers_[j] * s_[j];
+      const double room = penalty_.chain.room(j);
+      if (multipliers_[j] < 0.0 && std::isfinite(room)) sum += multipliers_[j] * room;
+    }
+    return sum;
+  }
+
+  /// What the multipliers of points without upper bound are below 0, times the most surplus that the optimum can have.
+  double charge() const {
+    double lacking = 0.0;
+    for (Index j = 0; j < s_.size(); ++j)
+      if (!std::isfinite(penalty_.chain.room(j))) lacking = std::max(lacking, -multipliers_[j]);
+    if (!(lacking > 0.0)) return 0.0;
+    return p_.gamma > 0.0 ? lacking * (objective_ / p_.gamma - p_.lower.sum()) : kInfinite;
+  }
+
+  static constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
   const DwellProblem& p_;
-  const Vector& gradient_;
-  double square_, linear_ = 0.0, constant_ = 0.0;
-  double most_ = 1.0;
-  bool bounded_ = false;
+  SurplusPenalty penalty_;
+  Vector surplus_, worth_, price_, multipliers_, s_;
+  double objective_, square_ = 0.0, linear_ = 0.0, constant_ = 0.0, best_ = 0.0;
 };
 
 }  // namespace

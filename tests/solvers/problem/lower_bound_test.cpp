@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <random>
+#include <vector>
 
 #include "core/base/numbers.h"
 #include "solvers/problem/certificate.h"
@@ -67,6 +68,31 @@ TEST(LowerBound, ProvesNothingWithoutPriceAndBoundsWhereDwellIsStillWorthSomethi
   EXPECT_DOUBLE_EQ(bound_at(small, Vector::Constant(1, 1.0)), 2.5);
   small.problem.gamma = 0.5;  // t = 2.5: 1/8 + 5/4; theta = 1/4: 3/2 - 1/8
   EXPECT_DOUBLE_EQ(bound_at(small, Vector::Constant(1, 1.0)), 1.375);
+}
+
+TEST(LowerBound, DoesNotSufferFromDwellThatIsRoughButRemovesTheSame) {
+  // Every column twice: what one of a pair gives to the other changes the smoothness and nothing else.
+  Eigen::MatrixXd matrix(30, 8);
+  for (Index i = 0; i < 30; ++i)
+    for (Index j = 0; j < 8; ++j) {
+      const double away = static_cast<double>(i) - 7.0 * static_cast<double>(j / 2) - 3.0;
+      matrix(i, j) = std::exp(-away * away / 20.0);
+    }
+  SmallProblem small(matrix, Vector::LinSpaced(30, 2.0, 5.0));
+  small.set_smoothness(0.5, std::vector<double>(8, 1.0), {0, 1, 1, 1, 1, 1, 1, 1});
+  small.problem.gamma = 0.1;
+  small.problem.lower.setConstant(0.2);
+  const Vector optimum = minimise_by_coordinates(small);
+  const double best = small.quadratic().value(optimum);
+  Vector rough = optimum;
+  for (Index j = 0; j < 8; j += 2) {
+    const double moved = 0.8 * (optimum[j] - 0.2);
+    rough[j] -= moved;
+    rough[j + 1] += moved;
+  }
+  EXPECT_GT(small.quadratic().value(rough), 1.2 * best);
+  EXPECT_NEAR(bound_at(small, rough), best, 1e-7 * best);
+  EXPECT_LE(bound_at(small, rough), best + 1e-9 * best);
 }
 
 }  // namespace

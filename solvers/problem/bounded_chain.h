@@ -1,0 +1,48 @@
+#pragma once
+
+#include <vector>
+
+#include "core/removal/removal_operator.h"
+
+namespace dwell {
+
+/// A convex quadratic over variables in a row, each tied to its neighbours only, within bounds:
+///
+///   minimise  1/2 s'T s + c's   subject to  0 <= s <= room
+///
+/// T is symmetric, tridiagonal and positive semidefinite, with no positive entry off its diagonal. That is what
+/// smoothness along a path, and nothing else, asks of the dwell.
+///
+/// Solved by the primal-dual active set method (Hintermueller, Ito, Kunisch, SIAM J. Optim. 13 (2003) 865), which for
+/// such T is monotone and finite: bounds that hold with a multiplier of the right sign stay, the others are freed or
+/// met, and between them every free stretch is one tridiagonal solve. O(n) a round, and mostly some ten rounds.
+class BoundedChain {
+ public:
+  /// diagonal, n. off[j], n: the entry that ties j to j - 1, <= 0; off[0] does not count. room, n, >= 0; empty =
+  /// infinite. Throws std::invalid_argument if sizes differ or an entry has the wrong sign.
+  BoundedChain(Vector diagonal, Vector off, Vector room);
+
+  Index size() const { return diagonal_.size(); }
+  double room(Index j) const;
+
+  /// Overwrites s by a minimiser; a given s of size n only says where to begin. Where the minimum is -infinity, or the
+  /// rounds are used up, s is some vector within the bounds that need not be near one: multipliers() tells.
+  void minimise(const Vector& c, Vector& s);
+
+  /// T s + c: at a minimiser >= 0 where s = 0, <= 0 where s = room, 0 between.
+  void multipliers(const Vector& c, const Vector& s, Vector& result) const;
+  /// 1/2 s'T s + c's.
+  double value(const Vector& c, const Vector& s) const;
+
+ private:
+  enum class At : char { Free, Zero, Room };
+
+  void solve_free(const Vector& c, Vector& s);
+  Index update_bounds(const Vector& s, const Vector& multipliers);
+
+  Vector diagonal_, off_, room_;
+  std::vector<At> at_;
+  Vector pivot_, multipliers_;
+};
+
+}  // namespace dwell
