@@ -73,7 +73,7 @@ int run_pareto(const ParetoArguments& arguments) {
 std::vector<std::string> swept_flags() {
   std::vector<std::string> flags = every_flag();
   std::erase_if(flags, [](const std::string& f) {
-    return f == "smoothness" || f == "time-price" || f == "time-worth" || f == "gcode";
+    return f == "smoothness" || f == "time-price" || f == "time-worth" || f == "certify" || f == "gcode";
   });
   return flags;
 }

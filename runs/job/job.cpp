@@ -28,6 +28,7 @@ DwellOptions dwell_options(const JobOptions& o) {
                        o.time_worth,
                        o.solver,
                        o.max_solve_s};
+  options.certify = o.certify;
   options.fraction = o.fraction;
   return options;
 }

@@ -62,6 +62,16 @@ int whole(const std::string& text) {
 }
 
 /// A number as the job file and the summary write it: the shortest that reads back equal.
+/// A share in per cent, with its sign so that 1 and 0.01 cannot be mistaken for each other; "off" is 0.
+double proof_share(const std::string& text) {
+  constexpr ValueRange kShares{1e-4, 1000.0, "%"};
+  if (text == "off") return 0.0;
+  const auto value = text.ends_with('%') ? parse_number(text.substr(0, text.size() - 1)) : std::nullopt;
+  if (value && kShares.holds(*value)) return 0.01 * *value;
+  throw InputError(fmt::format("'{}'; required {} such as 1%, or off", text, kShares.text()));
+}
+std::string proof_text(double share) { return share > 0.0 ? fmt::format("{:.12g}%", 100.0 * share) : "off"; }
+
 std::string shown(double value) { return fmt::format("{}", value); }
 std::string shown(const std::optional<double>& value) { return value ? shown(*value) : ""; }
 std::string shown(const std::optional<NoDataMarkers>& value) { return value ? to_string(*value) : ""; }
@@ -253,6 +263,11 @@ std::vector<JobOptionRecord> make_table() {
        "second must be worth MU of the average one",
        false, false, [](Options& o, const std::string& t) { o.time_worth = parse_time_worth(t); },
        [](const Options& o) { return to_string(o.time_worth); }},
+      {"certify", "certify", "SHARE",
+       "go on until the plan's objective is proven to be no more than so much above the optimum: 1% or another share "
+       "in per cent, or off (the proven bound is shown in any case)",
+       false, false, [](Options& o, const std::string& t) { o.certify = proof_share(t); },
+       [](const Options& o) { return proof_text(o.certify); }},
       {"solver", "solver", "NAME", "auto, or another of " + solver_words(), false, false,
        [](Options& o, const std::string& t) { o.solver = parse_solver_kind(t); },
        [](const Options& o) { return to_string(o.solver); }},

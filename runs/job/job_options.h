@@ -63,6 +63,7 @@ struct JobOptions {
   WeightGoal smoothness{0.0, GoalKind::Auto};
   WeightGoal time_price_nm2_per_s{0.0, GoalKind::Auto};
   TimeWorth time_worth;
+  double certify = 0.0;  // share by which the objective may be above the optimum, to be proven; 0 = not asked for
   SolverKind solver = SolverKind::Auto;
   double max_solve_s = 3600.0;
   int threads = 0;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <utility>
 
@@ -18,6 +19,14 @@ namespace {
 
 constexpr double kLeastSolve = 1e-9;  // s; enough for the statement that there was no time
 
+std::string not_proven(const DwellPlan& plan, const DwellOptions& options) {
+  const double gap = plan.certificate.gap();
+  const std::string reached = std::isfinite(gap) ? fmt::format("is {:.3g} % is", 100.0 * gap) : "none is";
+  const bool rough = plan.weights.smoothness == 0.0 || plan.weights.time_price == 0.0;
+  return fmt::format("--certify is {:.3g} %, but what {} proven{}", 100.0 * options.certify, reached,
+                     rough ? "; without smoothness or time price the bound is rough" : "");
+}
+
 void collect_limits(DwellPlan& plan, const DwellOptions& options) {
   if (!plan.solver.converged()) {
     const bool time = plan.solver.status == SolverStatus::TimeLimit;
@@ -27,6 +36,8 @@ void collect_limits(DwellPlan& plan, const DwellOptions& options) {
                            plan.seconds_before_solve)
              : ""));
   }
+  if (options.certify > 0.0 && !(plan.certificate.gap() <= options.certify))
+    plan.limits.push_back(not_proven(plan, options));
   if (plan.search) plan.limits.insert(plan.limits.end(), plan.search->limits.begin(), plan.search->limits.end());
 }
 
@@ -68,12 +79,16 @@ DwellPlan find_dwell_on(const LatticeChoice& lattice, const Part& part, const La
                                     : problem.solve({options.smoothness.value, options.time_price.value},
                                                     std::move(start), most, "solve", progress);
   plan.weights = found.weights;
+  progress.step("solve: certificate");
+  plan.certificate = certify(problem.with(plan.weights), found.dwell);
+  progress.check();
+  if (options.certify > 0.0) {
+    problem.prove(options.certify, std::max(limit.left(), kLeastSolve), found, plan.certificate,
+                  progress.of_part("solve"));
+  }
   plan.seconds = std::move(found.dwell);
   plan.solver = std::move(found.solver);
   plan.step_rms = found.trade_off.step_rms;
-  progress.step("solve: certificate");
-  plan.certificate = certify(problem.with(plan.weights), plan.seconds);
-  progress.check();
   const HeightMap left = problem.left_by(plan.seconds);
   plan.residual = map_statistics(left, part.form, part.threads);
   plan.exact = predict_dwell(part, laid, plan.seconds, left, options.machine.feed_limits().max_feed, check,

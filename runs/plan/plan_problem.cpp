@@ -12,6 +12,7 @@
 #include "core/removal/simulate.h"
 #include "paths/feed/plan_program.h"
 #include "solvers/matched/time_price.h"
+#include "solvers/proof.h"
 #include "solvers/solver_catalogue.h"
 
 namespace dwell {
@@ -88,25 +89,43 @@ const DwellProblem& PlanProblem::with(const Weights& weights) {
   return problem_;
 }
 
-WeightedDwell PlanProblem::solve(const Weights& weights, Vector start, double max_seconds, const std::string& stage,
-                                 const Progress& progress) {
-  progress.check();
-  with(weights);
+SolverOptions PlanProblem::solver_options(double max_seconds, const std::string& stage,
+                                          const Progress& progress) const {
   SolverOptions options;
   options.kind = kind_;
   options.max_seconds = max_seconds;
   options.progress = progress.of_part(stage);
+  return options;
+}
+
+/// What a dwell leaves is removed less target, and what the target spares.
+TradeOff PlanProblem::trade_off_of(const Vector& dwell) {
+  Vector residual;
+  DwellObjective(problem_).residual(dwell, residual);
+  if (spared_figure_.size() > 0) residual -= spared_figure_;
+  return {residual.norm() / std::sqrt(static_cast<double>(problem_.pixels())), dwell.sum(), step_rms(problem_, dwell)};
+}
+
+WeightedDwell PlanProblem::solve(const Weights& weights, Vector start, double max_seconds, const std::string& stage,
+                                 const Progress& progress) {
+  progress.check();
+  with(weights);
   if (kind_ == SolverKind::Auto) start.resize(0);  // see solve() in the header
   WeightedDwell found{weights, std::move(start), {}, {}};
-  found.solver = make_solver(options)->solve(problem_, found.dwell);
+  found.solver = make_solver(solver_options(max_seconds, stage, progress))->solve(problem_, found.dwell);
   progress.check();
   if (!found.solver.usable()) throw std::runtime_error("solver " + to_string(kind_) + ": " + found.solver.message);
-  Vector residual;
-  DwellObjective(problem_).residual(found.dwell, residual);  // removed less target
-  if (spared_figure_.size() > 0) residual -= spared_figure_;
-  found.trade_off = {residual.norm() / std::sqrt(static_cast<double>(problem_.pixels())), found.dwell.sum(),
-                     step_rms(problem_, found.dwell)};
+  found.trade_off = trade_off_of(found.dwell);
   return found;
+}
+
+void PlanProblem::prove(double gap, double max_seconds, WeightedDwell& found, Certificate& certificate,
+                        const Progress& progress) {
+  with(found.weights);
+  const long before = found.solver.iterations;
+  prove_optimum(problem_, solver_options(max_seconds, "proof", progress), gap, found.dwell, found.solver, certificate);
+  progress.check();
+  if (found.solver.iterations > before) found.trade_off = trade_off_of(found.dwell);
 }
 
 TimePrice PlanProblem::find_price(double smoothness, const TimeWorth& worth, const Progress& progress) {

@@ -8,6 +8,7 @@
 #include "runs/plan/dwell_options.h"
 #include "runs/plan/laid_path.h"
 #include "runs/plan/part.h"
+#include "solvers/problem/certificate.h"
 #include "solvers/problem/dwell_problem.h"
 #include "solvers/problem/dwell_solver.h"
 #include "solvers/weights/time_worth.h"
@@ -44,6 +45,10 @@ class PlanProblem {
   WeightedDwell solve(const Weights& weights, Vector start, double max_seconds, const std::string& stage,
                       const Progress& progress);
 
+  /// Goes on from `found` until it is proven to be above the optimum by no more than the share `gap`, for at most
+  /// `max_seconds`; `certificate` is that of `found` before and after. See prove_optimum.
+  void prove(double gap, double max_seconds, WeightedDwell& found, Certificate& certificate, const Progress& progress);
+
   /// The price of a second [nm^2/s] from which on the least dwell is optimal if smoothness is left out: the steepest
   /// descent, there, of half the mean square residual. 1 if nothing descends. Cost: two operator applications.
   double highest_price();
@@ -58,6 +63,9 @@ class PlanProblem {
   HeightMap left_by(const Vector& dwell) const;
 
  private:
+  SolverOptions solver_options(double max_seconds, const std::string& stage, const Progress& progress) const;
+  TradeOff trade_off_of(const Vector& dwell);
+
   Grid grid_;                  // of the map
   std::vector<Index> pixels_;  // of the map, linear indices
   double energy_;              // |b|^2 [nm^2/s^2]

@@ -95,8 +95,9 @@ std::string weight_lines(const PlannedJob& plan) {
 std::string optimum_line(const DwellPlan& plan) {
   const double gap = plan.certificate.gap();
   if (!std::isfinite(gap)) return "optimum   no bound is proven\n";
-  return fmt::format("optimum   at most {:.3g} % below this plan's objective: proven, but a rough bound\n",
-                     100.0 * gap / (1.0 + gap));
+  constexpr double kRough = 0.01;
+  return fmt::format("optimum   this plan's objective is at most {:.3g} % above it: proven{}\n", 100.0 * gap,
+                     gap > kRough ? " (a bound: --certify 1% goes on until it is that near)" : "");
 }
 
 std::optional<std::string> little_gained(const PlannedJob& plan, double before, double after) {

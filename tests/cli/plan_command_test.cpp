@@ -208,7 +208,7 @@ TEST(PlanCommand, FindsTheWeightThatMeetsATargetAndSaysWhich) {
   expect_has(usual.out, " (auto), time price ");
   expect_has(usual.out, "one per cent more time would lower the mean square left by 0.3 %");
   expect_has(usual.out, "the least that this tool leaves on this path is about ");
-  expect_has(usual.out, "optimum   at most ");
+  expect_has(usual.out, "optimum   this plan's objective is at most ");
   const double limit = 0.9 * summary_of(inputs)["dwell"]["total_s"].get<double>();
   const ProgramResult result =
       inputs.run(SmallInputs::plan({"--time-price", "total <= " + std::to_string(limit) + " s"}));
@@ -223,6 +223,24 @@ TEST(PlanCommand, FindsTheWeightThatMeetsATargetAndSaysWhich) {
   // The next plan replaces this one whole, and has no search.
   ASSERT_EQ(inputs.run(SmallInputs::plan()).exit_code, 0);
   EXPECT_FALSE(names_in(inputs / "plan").contains("search.csv"));
+}
+
+TEST(PlanCommand, GoesOnUntilTheOptimumIsProvenOrSaysThatItIsNot) {
+  const SmallInputs inputs;
+  const ProgramResult proven = inputs.run(SmallInputs::plan({"--time-price", "auto", "--certify", "0.1%"}));
+  ASSERT_EQ(proven.exit_code, 0) << proven.err;
+  const json certificate = summary_of(inputs)["solve"]["certificate"];
+  EXPECT_LE(certificate["gap_relative"], 0.001);
+  EXPECT_EQ(summary_of(inputs)["options"]["certify"], "0.1%");
+  // At a price of 0 the optimum is not determined, and nothing is proven.
+  const ProgramResult rough = inputs.run(SmallInputs::plan({"--smoothness", "0", "--certify", "0.1%"}));
+  EXPECT_EQ(rough.exit_code, 3) << rough.err;
+  expect_has(rough.err, "limit reached: --certify is 0.1 %, but ");
+  for (const char* text : {"1", "0.01", "-1%", "%", "1 percent"}) {
+    const ProgramResult refused = inputs.run(SmallInputs::plan({"--certify", text}));
+    EXPECT_EQ(refused.exit_code, 2) << text;
+    expect_has(refused.err, "--certify: '" + std::string(text) + "'; required ");
+  }
 }
 
 TEST(PlanCommand, ATargetOutOfReachStillPlansWithExitCode3) {

@@ -58,6 +58,7 @@ JobOptions unusual() {
   o.time_price_nm2_per_s = {1.0 / 3.0, GoalKind::TotalAtMost};
   o.solver = SolverKind::DenseNnls;
   o.time_worth = {0.25, 0.125};
+  o.certify = 0.0125;
   o.max_solve_s = 12.5;
   o.threads = 2;
   o.gcode = GcodeDialect::G93PerMinute;
