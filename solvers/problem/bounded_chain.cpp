@@ -8,7 +8,7 @@
 namespace dwell {
 namespace {
 
-constexpr int kMostRounds = 60;
+constexpr int kMostRounds = 1000;  // all but the first few look at few variables
 // A free stretch that nothing holds has a singular T: its last pivot is kept above this share of the diagonal.
 constexpr double kLeastPivot = 1e-14;
 
@@ -35,25 +35,23 @@ void BoundedChain::minimise(const Vector& c, Vector& s) {
   for (Index j = 0; j < size(); ++j) {
     // A variable that nothing ties down stands where its cost pushes it: solving for it would divide by 0.
     const bool loose = !(diagonal_[j] > 0.0);
-    At& at = at_[static_cast<std::size_t>(j)];
-    at = s[j] <= 0.0 || loose ? At::Zero : s[j] >= room(j) ? At::Room : At::Free;
+    at(j) = s[j] <= 0.0 || loose ? At::Zero : s[j] >= room(j) ? At::Room : At::Free;
   }
-  for (int round = 0; round < kMostRounds; ++round) {
-    solve_free(c, s);
-    multipliers(c, s, multipliers_);
-    if (update_bounds(s, multipliers_) == 0) break;
+  std::vector<Range> ranges{{0, size()}};
+  for (int round = 0; round < kMostRounds && !ranges.empty(); ++round) {
+    for (const Range& range : ranges) solve_free(c, range, s);
+    ranges = ranges_about(update_bounds(c, ranges, s));
   }
   s = s.cwiseMax(0.0);
   if (room_.size() != 0) s = s.cwiseMin(room_);
 }
 
 /// Elimination without pivoting, as T is positive definite on the free stretches; what is at a bound enters as given.
-void BoundedChain::solve_free(const Vector& c, Vector& s) {
-  const Index n = size();
-  const auto is_free = [&](Index j) { return at_[static_cast<std::size_t>(j)] == At::Free; };
-  for (Index j = 0; j < n; ++j)
-    if (!is_free(j)) s[j] = at_[static_cast<std::size_t>(j)] == At::Zero ? 0.0 : room_[j];
-  for (Index j = 0; j < n; ++j) {
+/// No free variable lies next to the range.
+void BoundedChain::solve_free(const Vector& c, Range range, Vector& s) {
+  for (Index j = range.begin; j < range.end; ++j)
+    if (!is_free(j)) s[j] = at(j) == At::Zero ? 0.0 : room_[j];
+  for (Index j = range.begin; j < range.end; ++j) {
     if (!is_free(j)) continue;
     double right = -c[j], pivot = diagonal_[j];
     if (j > 0 && is_free(j - 1)) {
@@ -63,46 +61,70 @@ void BoundedChain::solve_free(const Vector& c, Vector& s) {
     } else if (j > 0) {
       right -= off_[j] * s[j - 1];
     }
-    if (j + 1 < n && !is_free(j + 1)) right -= off_[j + 1] * s[j + 1];
+    if (j + 1 < size() && !is_free(j + 1)) right -= off_[j + 1] * s[j + 1];
     pivot_[j] = std::max(pivot, kLeastPivot * diagonal_[j]);
     s[j] = right;
   }
-  for (Index j = n - 1; j >= 0; --j) {
+  for (Index j = range.end - 1; j >= range.begin; --j) {
     if (!is_free(j)) continue;
-    if (j + 1 < n && is_free(j + 1)) s[j] -= off_[j + 1] * s[j + 1];
+    if (j + 1 < size() && is_free(j + 1)) s[j] -= off_[j + 1] * s[j + 1];
     s[j] /= pivot_[j];
   }
 }
 
-/// Returns how many variables left a bound or met one.
-Index BoundedChain::update_bounds(const Vector& s, const Vector& multipliers) {
-  Index changes = 0;
-  for (Index j = 0; j < size(); ++j) {
-    At& at = at_[static_cast<std::size_t>(j)];
-    At next = at;
-    const bool loose = !(diagonal_[j] > 0.0);
-    if (at == At::Free) {
-      next = s[j] < 0.0 ? At::Zero : s[j] > room(j) ? At::Room : At::Free;
-    } else if (at == At::Zero && multipliers[j] < 0.0) {
-      next = !loose ? At::Free : room_.size() != 0 ? At::Room : At::Zero;
-    } else if (at == At::Room && multipliers[j] > 0.0) {
-      next = loose ? At::Zero : At::Free;
+/// Where a variable should stand next, by its value and, at a bound, by its multiplier.
+BoundedChain::At BoundedChain::next(const Vector& c, const Vector& s, Index j) const {
+  const At now = at_[static_cast<std::size_t>(j)];
+  if (now == At::Free) return s[j] < 0.0 ? At::Zero : s[j] > room(j) ? At::Room : At::Free;
+  const double multiplier = multiplier_at(c, s, j);
+  const bool loose = !(diagonal_[j] > 0.0);
+  if (now == At::Zero && multiplier < 0.0) return !loose ? At::Free : room_.size() != 0 ? At::Room : At::Zero;
+  if (now == At::Room && multiplier > 0.0) return loose ? At::Zero : At::Free;
+  return now;
+}
+
+/// Frees variables and puts them at bounds in the ranges and right beside them, where values are new; returns which.
+std::vector<Index> BoundedChain::update_bounds(const Vector& c, const std::vector<Range>& ranges, const Vector& s) {
+  std::vector<Index> changed;
+  Index done = 0;
+  for (const Range& range : ranges) {
+    for (Index j = std::max(done, range.begin - 1); j < std::min(size(), range.end + 1); ++j) {
+      const At then = next(c, s, j);
+      if (then != at(j)) changed.push_back(j);
+      at(j) = then;
     }
-    changes += next != at;
-    at = next;
+    done = std::min(size(), range.end + 1);
   }
-  return changes;
+  return changed;
+}
+
+/// The stretches that have to be solved anew: a changed variable with the free ones on either side.
+std::vector<BoundedChain::Range> BoundedChain::ranges_about(const std::vector<Index>& changed) const {
+  std::vector<Range> ranges;
+  for (const Index j : changed) {
+    if (!ranges.empty() && j < ranges.back().end) continue;
+    Range range{j, j + 1};
+    while (range.begin > 0 && is_free(range.begin - 1)) --range.begin;
+    while (range.end < size() && is_free(range.end)) ++range.end;
+    if (!ranges.empty() && range.begin <= ranges.back().end) {
+      ranges.back().end = range.end;
+    } else {
+      ranges.push_back(range);
+    }
+  }
+  return ranges;
+}
+
+double BoundedChain::multiplier_at(const Vector& c, const Vector& s, Index j) const {
+  double sum = diagonal_[j] * s[j];
+  if (j > 0) sum += off_[j] * s[j - 1];
+  if (j + 1 < size()) sum += off_[j + 1] * s[j + 1];
+  return sum + c[j];
 }
 
 void BoundedChain::multipliers(const Vector& c, const Vector& s, Vector& result) const {
-  const Index n = size();
-  result.resize(n);
-  for (Index j = 0; j < n; ++j) {
-    double sum = diagonal_[j] * s[j];
-    if (j > 0) sum += off_[j] * s[j - 1];
-    if (j + 1 < n) sum += off_[j + 1] * s[j + 1];
-    result[j] = sum + c[j];
-  }
+  result.resize(size());
+  for (Index j = 0; j < size(); ++j) result[j] = multiplier_at(c, s, j);
 }
 
 double BoundedChain::value(const Vector& c, const Vector& s) const {

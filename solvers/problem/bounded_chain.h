@@ -15,7 +15,8 @@ namespace dwell {
 ///
 /// Solved by the primal-dual active set method (Hintermueller, Ito, Kunisch, SIAM J. Optim. 13 (2003) 865), which for
 /// such T is monotone and finite: bounds that hold with a multiplier of the right sign stay, the others are freed or
-/// met, and between them every free stretch is one tridiagonal solve. O(n) a round, and mostly some ten rounds.
+/// met, and between them every free stretch is one tridiagonal solve. A round solves the stretches anew in which
+/// something changed: all of them in the first, few in the last, O(n) together where bounds settle after some rounds.
 class BoundedChain {
  public:
   /// diagonal, n. off[j], n: the entry that ties j to j - 1, <= 0; off[0] does not count. room, n, >= 0; empty =
@@ -36,13 +37,22 @@ class BoundedChain {
 
  private:
   enum class At : char { Free, Zero, Room };
+  struct Range {
+    Index begin, end;
+  };
 
-  void solve_free(const Vector& c, Vector& s);
-  Index update_bounds(const Vector& s, const Vector& multipliers);
+  At& at(Index j) { return at_[static_cast<std::size_t>(j)]; }
+  bool is_free(Index j) const { return at_[static_cast<std::size_t>(j)] == At::Free; }
+  At at(Index j) const { return at_[static_cast<std::size_t>(j)]; }
+  void solve_free(const Vector& c, Range range, Vector& s);
+  At next(const Vector& c, const Vector& s, Index j) const;
+  std::vector<Index> update_bounds(const Vector& c, const std::vector<Range>& ranges, const Vector& s);
+  std::vector<Range> ranges_about(const std::vector<Index>& changed) const;
+  double multiplier_at(const Vector& c, const Vector& s, Index j) const;
 
   Vector diagonal_, off_, room_;
   std::vector<At> at_;
-  Vector pivot_, multipliers_;
+  Vector pivot_;
 };
 
 }  // namespace dwell

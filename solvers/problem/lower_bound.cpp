@@ -10,6 +10,8 @@
 namespace dwell {
 namespace {
 
+// Up to this share of the objective, what is charged is rounding.
+constexpr double kLittleCharged = 1e-6;
 constexpr int kMostTrials = 24;
 constexpr double kFromEnds = 0.3;  // of the interval in which the best theta lies
 // The search ends when no theta can give more than this share of what is between bound and objective.
@@ -75,7 +77,9 @@ class ScaledDual {
       const Trial trial = at(theta);
       best_ = std::max(best_, trial.value);
       const bool rises = trial.proves && trial.slope >= 0.0;
-      const double more = rises ? (high - theta) * trial.slope : (low - theta) * trial.slope;
+      // By the tangent up to the end; and the parabola of the residual's own square, which the chain only sharpens.
+      const double more = std::min((rises ? high - theta : low - theta) * trial.slope,
+                                   square_ > 0.0 ? 0.5 * trial.slope * trial.slope / square_ : kInfinite);
       if (trial.proves && more <= kLittleMore * (objective_ - best_)) break;
       (rises ? low : high) = theta;
       (rises ? low_slope : high_slope) = trial.proves ? trial.slope : -kInfinite;
@@ -125,7 +129,7 @@ class ScaledDual {
     const double value = linear_ * theta - 0.5 * square_ * theta * theta + constant_ + least();
     const double charged = charge();
     return {std::isfinite(value) ? value - charged : -kInfinite, linear_ - square_ * theta + worth_.dot(s_),
-            std::isfinite(value) && charged <= kLittleMore * objective_};
+            std::isfinite(value) && charged <= kLittleCharged * objective_};
   }
 
   /// The least of the chain at these prices, but for charge(): its tangent at s_, over the whole box.
