@@ -13,6 +13,7 @@
 #include "solvers/matched/smooth_dwell.h"
 #include "solvers/native/bounded_lbfgs.h"
 #include "solvers/native/projected_lbfgs.h"
+#include "solvers/problem/lower_bound.h"
 #include "solvers/problem/stopping_rules.h"
 
 namespace dwell {
@@ -34,6 +35,10 @@ constexpr long kLeastBeforeSettling = 48;  // on the dwell points: a warm start 
 // minimiser's own vectors. Measured on six scenarios: 10 to 40, and 45 to 60.
 constexpr double kPointWork = 25.0;
 constexpr double kSmoothWork = 60.0;
+// A settled objective that may, by the proven bound, still be above the optimum by more than this share is watched on
+// with a tolerance a tenth as large: how far the last rounds fell is a matter of chance.
+constexpr double kUncertain = 0.15;
+constexpr double kStricter = 0.1;
 // A model leads on as long as its steps gain these shares of what they promise; with its own gradient, as long as the
 // full problem's gradient after a step is no more than so many times the model's.
 constexpr double kLeadsOn = 0.1;
@@ -72,7 +77,8 @@ class Run {
         t_(t),
         finest_(finest_factor(problem)),
         sigma_(narrowest_sigma(problem)),
-        pair_cost_(pair_cost(problem)) {
+        pair_cost_(pair_cost(problem)),
+        tolerance_(options.objective_tolerance) {
     monitor_ = [this](const QuadraticPoint& model) { return go_on(model); };
   }
 
@@ -83,6 +89,7 @@ class Run {
     const CoarseFactor fine = fine_pixels(sigma_, factor);
     const bool smooth = !done() && point_.x == p_.lower && smooth_levels(fine);
     if (smooth) most_products_ = kFirstOnPoints;
+    if (smooth && !done()) settle_if_proven();
     if (!done()) points_levels(smooth ? fine : factor);
     point_.x.swap(t_);
     summary_.objective = point_.value;
@@ -227,9 +234,9 @@ class Run {
       const bool leads =
           exact ? gained > kLeadsOn * promised
                 : gained > kLeadsOnItsOwn * promised && gradient_norm(point_) < kOwnGradient * left_by_model;
-      const double little = o_.objective_tolerance * std::abs(before);
+      const double little = tolerance_ * std::abs(before);
       if (gained < little && (leads || promised < little) && points_products_ >= kLeastBeforeSettling) {
-        settle(gained, factor);
+        settle_unless_uncertain(gained, factor);
       } else if (!leads && !exact && fine) {
         exact = true;
       } else if (!leads) {
@@ -245,6 +252,35 @@ class Run {
   }
 
   double gradient_norm(const QuadraticPoint& point) const { return projected_gradient_norm(p_.lower, p_.upper, point); }
+
+  /// How far the objective may be above the optimum at most, of the latter; infinite where the bound is rough, as it is
+  /// without price or smoothness. Cost O(points).
+  double proven_gap() const {
+    const bool sharp = p_.gamma > 0.0 && squared_steps(p_, point_.x) > 0.0;
+    const double bound = sharp ? lower_bound(p_, point_.x, point_.value, point_.gradient) : 0.0;
+    return bound > 0.0 ? (point_.value - bound) / bound : std::numeric_limits<double>::infinity();
+  }
+
+  /// Where smooth dwell is all that the removal function can tell apart, nothing is left to do on the points.
+  void settle_if_proven() {
+    const double gap = proven_gap();
+    if (!(gap <= o_.objective_tolerance)) return;
+    rules_.stop(
+        SolverStatus::Settled,
+        fmt::format("settled: objective {:.6g} is proven to be within {:.2g} of the optimum's; {} operator pairs "
+                    "and {:.1f} pairs' worth of coarse transforms; |pg| {:.2g}",
+                    point_.value, gap, summary_.iterations, summary_.coarse_pairs,
+                    gradient_norm(point_) / rules_.gradient_scale()));
+  }
+
+  void settle_unless_uncertain(double gained, CoarseFactor factor) {
+    const double gap = tolerance_ < o_.objective_tolerance ? 0.0 : proven_gap();
+    if (std::isfinite(gap) && gap > kUncertain) {
+      tolerance_ *= kStricter;
+    } else {
+      settle(gained, factor);
+    }
+  }
 
   void settle(double gained, CoarseFactor factor) {
     rules_.stop(
@@ -269,6 +305,7 @@ class Run {
   double sigma_, pair_cost_;  // of the narrowest removal function [pixels]; transform_cost of an operator pair
   double product_cost_ = 0.0;
 
+  double tolerance_;                        // of the objective; the options' or less
   double product_work_ = 0.0, work_ = 0.0;  // in operator pairs
   long products_ = 0, budget_ = 0;          // of the running round
   long next_look_ = 0, most_products_ = std::numeric_limits<long>::max();

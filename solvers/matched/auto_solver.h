@@ -16,7 +16,8 @@ namespace dwell {
 /// on, its pixels are halved again; below a factor of three, ProjectedLbfgs on the full problem finishes. Settled when
 /// a round on the dwell points gains less than SolverOptions::objective_tolerance of the objective, but not before 48
 /// products on them; a round ends early where its model is at rest, and the first after smooth dwell with 48 products.
-/// These are rules, not a bound: on ten scenarios 0.1 to 1 % of the objective was left.
+/// These are rules: on ten scenarios 0.1 to 1 % of the objective was left. The bound, where it is sharp (lower_bound),
+/// has a say: smooth dwell proven to be within the tolerance is the answer; a settled one that may be far off goes on.
 ///
 /// Needs DwellProblem::geometry and a removal function wider than a few pixels; otherwise projected-lbfgs solves, and
 /// the message says so. Monotone: stopping at any time leaves a feasible t no worse than the start. Memory: 14 vectors
