@@ -53,10 +53,10 @@ std::string plan_text(const PlannedJob& plan, const WrittenPlan& written) {
   text += fmt::format("feed      {:.4g} to {:.4g} mm/min, {} of {} segments at a limit\n",
                       units::mm_per_min(plan.program.feed.min_speed), units::mm_per_min(plan.program.feed.max_speed),
                       plan.program.feed.segments_limited, plan.laid.path.size());
-  text += fmt::format(
-      "predicted {} by the solver, on a lattice of {} x {} cells a pixel{}\n", in_words(plan.dwell.residual),
-      plan.dwell.lattice.kernel.division.x, plan.dwell.lattice.kernel.division.y,
-      plan.dwell.lattices > 1 ? fmt::format(" (solved {} times, each finer)", plan.dwell.lattices) : "");
+  text +=
+      fmt::format("predicted {} by the solver, on a lattice of {}{}\n", in_words(plan.dwell.residual),
+                  lattice_words(plan.dwell.lattice.kernel),
+                  plan.dwell.lattices > 1 ? fmt::format(" (solved {} times, each finer)", plan.dwell.lattices) : "");
   text += fmt::format("program   {} by simulating program.nc as read back\n", in_words(written.exact.statistics));
   text += exact_lines(written.exact) + surface_lines(written.surface);
   text += fmt::format("time      {} for the run: dwell {:.2f} s, {}\n", duration_text(written.total_seconds()),

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "core/removal/coarse_removal.h"
 #include "core/removal/inner_lattice.h"
 #include "core/removal/lattice_removal.h"
 #include "core/removal/scattered_removal.h"
@@ -16,6 +17,8 @@ RemovalGeometry removal_geometry(const Grid& map, const std::vector<Index>& pixe
 }
 
 std::unique_ptr<RemovalOperator> make_removal_operator(const RemovalGeometry& g) {
+  if (g.kernel.coarse != CoarseFactor{})
+    return std::make_unique<CoarseRemoval>(g.lattice, g.pixels, g.kernel, g.strokes, g.threads);
   if (LatticeRemoval::commensurate(g.lattice, g.strokes))
     return std::make_unique<LatticeRemoval>(g.lattice, g.pixels, g.kernel, g.strokes, g.threads);
   return std::make_unique<ScatteredRemoval>(g.lattice, g.pixels, g.kernel, g.strokes, g.threads);

@@ -23,8 +23,9 @@ struct RemovalGeometry {
 RemovalGeometry removal_geometry(const Grid& map, const std::vector<Index>& pixels, RemovalKernel kernel,
                                  std::vector<Stroke> strokes, int threads);
 
-/// The cheapest exact operator: LatticeRemoval if the strokes are translates of one by whole pixels, else
-/// ScatteredRemoval. The operator copies what it needs of the geometry.
+/// The cheapest operator: CoarseRemoval if the kernel asks for a coarse one; else, exact for the kernel's spline,
+/// LatticeRemoval if the strokes are translates of one by whole pixels, or ScatteredRemoval. The operator copies what
+/// it needs of the geometry.
 std::unique_ptr<RemovalOperator> make_removal_operator(const RemovalGeometry& geometry);
 
 /// The operator of several tools or passes on the same pixels: a StackedRemoval, or for one part its operator alone.

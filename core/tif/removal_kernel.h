@@ -2,6 +2,7 @@
 
 #include <functional>
 
+#include "core/base/coarse_factor.h"
 #include "core/numerics/spline_surface.h"
 #include "core/tif/removal_function.h"
 
@@ -26,6 +27,9 @@ struct RemovalKernel {
   Index half_rows = 0;         // coefficients reach from -half to +half pixels about the axis
   Index half_cols = 0;
   PixelDivision division;  // of the map's pixels into the pitch of the samples
+  /// Where the removal function is much wider than a pixel, operators take the removal for a spline on every so many
+  /// pixels (CoarseRemoval); 1 = on the samples' own lattice. The samples do not depend on it.
+  CoarseFactor coarse{};
 
   double rate(Point displacement) const { return surface(displacement); }
 };

@@ -35,7 +35,7 @@ MatchedRemoval::MatchedRemoval(const DwellProblem& problem, const std::vector<Gr
     const RemovalKernel kernel = matched_kernel(of_part.kernel, factor);
     add_tool(kernel, dwell[k]);
     coarse += transform_cost(lattice, kernel);
-    fine += transform_cost(of_part.lattice, of_part.kernel);
+    fine += operator_cost(of_part.lattice, of_part.kernel);
   }
   surface_.resize(lattice.size());
   if (tools_.size() > 1) of_tool_.resize(lattice.size());

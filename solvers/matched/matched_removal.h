@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "core/numerics/padded_convolution.h"
-#include "solvers/matched/matched_kernel.h"
+#include "core/removal/matched_kernel.h"
 #include "solvers/matched/spline_gram.h"
 #include "solvers/problem/dwell_problem.h"
 

@@ -51,7 +51,7 @@ double narrowest_sigma(const DwellProblem& problem) {
 
 double pair_cost(const DwellProblem& problem) {
   double sum = 0.0;
-  for (const DwellPart& part : problem.parts) sum += transform_cost(part.geometry->lattice, part.geometry->kernel);
+  for (const DwellPart& part : problem.parts) sum += operator_cost(part.geometry->lattice, part.geometry->kernel);
   return sum;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "solvers/matched/matched_kernel.h"
+#include "core/removal/matched_kernel.h"
 #include "solvers/problem/dwell_problem.h"
 
 namespace dwell {

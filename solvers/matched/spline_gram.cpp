@@ -36,21 +36,13 @@ std::vector<std::array<double, 10>> products_by_phase(Index factor, bool slope) 
 
 }  // namespace
 
-Grid SplineGram::lattice_of(const Grid& map, CoarseFactor factor) {
-  Grid lattice;
-  lattice.rows = (map.rows - 1) / factor.y + 4;
-  lattice.cols = (map.cols - 1) / factor.x + 4;
-  lattice.pitch_x = map.pitch_x * static_cast<double>(factor.x);
-  lattice.pitch_y = map.pitch_y * static_cast<double>(factor.y);
-  lattice.origin = map.origin - Point{lattice.pitch_x, lattice.pitch_y};
-  return lattice;
-}
-
 SplineGram::SplineGram(const Grid& map, CoarseFactor factor, int threads)
-    : map_(map), lattice_(lattice_of(map, factor)), factor_(factor), threads_(threads) {
+    : map_(map),
+      lattice_(lattice_of(map, factor)),
+      factor_(factor),
+      sampling_(map, factor, threads),
+      threads_(threads) {
   stencil_.assign(static_cast<std::size_t>(lattice_.size() * kWidth * kWidth), 0.0F);
-  for (Index k = 0; k < factor.x; ++k) along_x_.push_back(line_weights(k, factor.x, false));
-  for (Index k = 0; k < factor.y; ++k) along_y_.push_back(line_weights(k, factor.y, false));
 }
 
 // The weights are products of x and y, so sums are gathered first along a row of pixels within one coarse column (10
@@ -140,22 +132,4 @@ void SplineGram::apply_row(Index r, const double* d, double* out) const {
 }
 
 // Summed along a row within one coarse column first, as in add().
-void SplineGram::spread(const std::vector<Index>& pixels, const Vector& v, Vector& out) const {
-  out.setZero(lattice_.size());
-  for (std::size_t i = 0; i < pixels.size();) {
-    const Index row = pixels[i] / map_.cols, cell = pixels[i] % map_.cols / factor_.x,
-                cell_end = std::min(row * map_.cols + (cell + 1) * factor_.x, (row + 1) * map_.cols);
-    std::array<double, 4> sum{};
-    for (; i < pixels.size() && pixels[i] < cell_end; ++i) {
-      const auto& x = along_x_[static_cast<std::size_t>(pixels[i] - row * map_.cols - cell * factor_.x)];
-      for (std::size_t k = 0; k < 4; ++k) sum[k] += x[k] * v[static_cast<Index>(i)];
-    }
-    const auto& y = along_y_[static_cast<std::size_t>(row % factor_.y)];
-    for (std::size_t j = 0; j < 4; ++j) {
-      double* to = out.data() + (row / factor_.y + static_cast<Index>(j)) * lattice_.cols + cell;
-      for (std::size_t k = 0; k < 4; ++k) to[k] += y[j] * sum[k];
-    }
-  }
-}
-
 }  // namespace dwell

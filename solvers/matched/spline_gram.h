@@ -3,16 +3,11 @@
 #include <array>
 #include <vector>
 
-#include "core/base/grid.h"
+#include "core/base/coarse_factor.h"
+#include "core/numerics/spline_sampling.h"
 #include "core/removal/removal_operator.h"
 
 namespace dwell {
-
-/// Coarse pitch in pixels of the map.
-struct CoarseFactor {
-  Index x = 1;
-  Index y = 1;
-};
 
 /// Normal matrices of cubic B-splines on a coarse lattice. With (S d)_i = sum_k d_k B3((x_i - x_k) / hx) B3((y_i -
 /// y_k) / hy) the surface of coefficients d at pixel i, it holds sums of terms S' diag(w) S, where S may also take the
@@ -26,7 +21,7 @@ class SplineGram {
   /// The zero matrix.
   SplineGram(const Grid& map, CoarseFactor factor, int threads);
 
-  static Grid lattice_of(const Grid& map, CoarseFactor factor);
+  static Grid lattice_of(const Grid& map, CoarseFactor factor) { return SplineSampling::lattice_of(map, factor); }
 
   const Grid& lattice() const { return lattice_; }  // its nodes number the vectors below
 
@@ -40,7 +35,7 @@ class SplineGram {
   void apply_to_stretch(const Eigen::Ref<const Vector>& d, Eigen::Ref<Vector> out) const;
 
   /// S' v for one value a pixel. Cost about five multiply-adds a pixel.
-  void spread(const std::vector<Index>& pixels, const Vector& v, Vector& out) const;
+  void spread(const std::vector<Index>& pixels, const Vector& v, Vector& out) { sampling_.spread(pixels, v, out); }
 
  private:
   static constexpr Index kReach = 3;  // cubic B-splines overlap if their nodes are at most 3 apart
@@ -54,7 +49,7 @@ class SplineGram {
   CoarseFactor factor_;
   // (row, dy, dx, col): contiguous along columns. Single precision: reading it is what apply() costs.
   std::vector<float> stencil_;
-  std::vector<std::array<double, 4>> along_x_, along_y_;  // weights by pixel within a coarse step
+  SplineSampling sampling_;
   int threads_;
 };
 

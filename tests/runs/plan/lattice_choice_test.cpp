@@ -1,9 +1,11 @@
 #include "runs/plan/lattice_choice.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "core/removal/scattered_removal.h"
 #include "core/removal/simulate.h"
 #include "runs/plan/dwell_plan.h"
 #include "runs/plan/machine_program.h"
@@ -46,6 +48,29 @@ TEST(LatticeChoice, DividesThePixelsForASharpTool) {
   LatticeChoice last = finer;
   while (!last.finest) last = finer_lattice(part, last);
   EXPECT_EQ(finer_lattice(part, last).kernel.division, last.kernel.division);
+}
+
+/// A million pixels of which no tool of 40 can tell its neighbours apart.
+TEST(LatticeChoice, TakesOneNodeInManyPixelsForAToolMuchWiderThanOne) {
+  const Part part = make_part(bowl(0.04, 0.03), gaussian_removal(10.0, 4.0, 8.0), {}, 2);
+  const LaidPath laid = raster(part);
+  const LatticeChoice choice = choose_lattice(part, laid.strokes, {});
+  EXPECT_GE(choice.kernel.coarse.x, 6);
+  EXPECT_GT(choice.kernel.coarse.y, choice.kernel.coarse.x);  // about square in mm
+  EXPECT_LE(choice.error, 1e-4);
+  EXPECT_EQ(lattice_words(choice.kernel),
+            fmt::format("one node in {} x {} pixels", choice.kernel.coarse.x, choice.kernel.coarse.y));
+  const LatticeChoice finer = finer_lattice(part, choice);
+  EXPECT_LT(finer.kernel.coarse.x, choice.kernel.coarse.x);
+  LatticeChoice last = finer;
+  for (int k = 0; k < 8 && last.kernel.coarse != CoarseFactor{}; ++k) last = finer_lattice(part, last);
+  EXPECT_EQ(last.kernel.coarse, CoarseFactor{});
+  EXPECT_EQ(last.kernel.division, PixelDivision{});
+  const Vector seconds = Vector::Constant(static_cast<Index>(laid.strokes.size()), 0.02);
+  const std::vector<Index> pixels = finite_pixels(part.map);
+  const Vector fine = removal_once(part.map.grid, pixels, part.kernel, laid.strokes, seconds, 2);
+  const Vector coarse = removal_once(part.map.grid, pixels, choice.kernel, laid.strokes, seconds, 2);
+  EXPECT_LT((coarse - fine).norm(), 1e-4 * fine.norm());
 }
 
 /// What the plan's program leaves, from the removal function at every pixel.

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "core/base/coarse_factor.h"
 #include "core/tif/removal_kernel.h"
-#include "solvers/matched/spline_gram.h"
 
 namespace dwell {
 
@@ -11,13 +11,20 @@ namespace dwell {
 CoarseFactor matched_factor(const RemovalKernel& kernel, double tolerance);
 
 /// The kernel on pixels `factor` times coarser that takes dwell to the spline coefficients of the removal: the spline
-/// through every factor-th sample, prefiltered once more. Tails below 1e-5 of the largest coefficient are cut off.
-RemovalKernel matched_kernel(const RemovalKernel& kernel, CoarseFactor factor);
+/// through every factor-th sample, prefiltered once more. Tails below `tail` of the largest coefficient are cut off.
+RemovalKernel matched_kernel(const RemovalKernel& kernel, CoarseFactor factor, double tail = 1e-5);
 
 /// Sigma, in pixels, of the Gaussian whose volume and energy are the kernel's.
 double equivalent_sigma(const RemovalKernel& kernel);
 
+/// The pitch that is no more than `share` of equivalent_sigma, in whole pixels: about equal both ways; at least 1.
+CoarseFactor coarse_factor(const RemovalKernel& kernel, double share);
+
 /// N log2 N for the padded transform of a map with this kernel: the unit in which operators of different size compare.
 double transform_cost(const Grid& map, const RemovalKernel& kernel);
+
+/// Cost of an operator pair of the map's pixels with this kernel, in the unit of transform_cost: of CoarseRemoval,
+/// mostly that of its passes over the pixels.
+double operator_cost(const Grid& map, const RemovalKernel& kernel);
 
 }  // namespace dwell
