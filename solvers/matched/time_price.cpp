@@ -26,7 +26,11 @@ constexpr int kMostReturns = 2;
 constexpr double kSameAfterReturn = 0.02;
 // A model is at rest when the last third of its products has lowered it by less than this share of all of them.
 constexpr double kAtRest = 0.01;
-constexpr long kFirstLook = 12, kMostProducts = 200;
+constexpr long kFirstLook = 12;
+// Products with the model at a price: so much work on variables, and within these limits. A price need not be as exact
+// as a plan, and every step goes on from where the last one ended.
+constexpr double kWorkAPrice = 4e7;
+constexpr long kFewestProducts = 40, kMostProducts = 200;
 constexpr double kModelTolerance = 1e-8;  // of the gradient, relative to that at the least dwell
 
 class Search {
@@ -85,6 +89,8 @@ class Search {
   void make_model() {
     model_ = make_dwell_model(p_, objective_);
     lower_.setZero(model_->size());
+    most_products_ = std::clamp(std::lround(kWorkAPrice / static_cast<double>(std::max<Index>(1, model_->size()))),
+                                kFewestProducts, kMostProducts);
     upper_ = model_->largest();
     lbfgs_ = std::make_unique<BoundedLbfgs>(lower_, upper_, p_.threads());
     s_.setZero(model_->size());
@@ -127,7 +133,7 @@ class Search {
         shown = std::chrono::steady_clock::now();
         if (progress_.stop_asked()) return false;
       }
-      if (++products >= kMostProducts) return false;
+      if (++products >= most_products_) return false;
       if (products < next_look) return true;
       next_look = products + products / 2;
       const double lately = seen - now.value, all = start - now.value;
@@ -218,6 +224,7 @@ class Search {
   std::unique_ptr<BoundedLbfgs> lbfgs_;
   TimePrice found_;
   LeftAndTotal least_;
+  long most_products_ = kMostProducts;  // with the model at a price
   double price_ = 0.0, highest_ = 0.0, tolerance_ = 0.0;
   Vector t_, r_, gradient_, d_, image_;  // the plan on the full problem
   double value_ = 0.0;
