@@ -4,6 +4,7 @@
 
 #include <stdexcept>
 
+#include "core/base/counted.h"
 #include "core/form/form_polynomials.h"
 
 namespace dwell {
@@ -11,8 +12,8 @@ namespace dwell {
 Eigen::MatrixXd form_basis(const Grid& grid, const std::vector<Index>& pixels, const FormTerms& terms,
                            const std::vector<double>& weights, int threads) {
   if (!weights.empty() && weights.size() != pixels.size()) {
-    throw std::invalid_argument(
-        fmt::format("form_basis: {} weights for {} pixels; one a pixel, or none", weights.size(), pixels.size()));
+    throw std::invalid_argument(fmt::format("form_basis: {} weights for {}; one a pixel, or none", weights.size(),
+                                            counted(pixels.size(), "pixel")));
   }
   return FormPolynomials(grid, pixels, terms, weights, threads).columns();
 }

@@ -53,11 +53,21 @@ Sums sums_of_row(const HeightMap& map, Index row) {
 
 double MapStatistics::rms_about_zero() const { return std::hypot(rms, mean); }
 
+namespace {
+
+/// What is left of a piston that was removed is no mean.
+bool has_mean(const MapStatistics& s) {
+  constexpr double kNone = 1e-6;  // of the PV
+  return std::abs(s.mean) > kNone * s.pv;
+}
+
+}  // namespace
+
+const char* about_zero_in_words(const MapStatistics& s) { return has_mean(s) ? " about zero" : ""; }
+
 std::string mean_in_words(const MapStatistics& s) {
-  constexpr double kNone = 1e-6;  // of the PV: what is left of a piston that was removed
-  return std::abs(s.mean) > kNone * s.pv
-             ? fmt::format(", mean {:.4g} nm (RMS about it; {:.4g} nm about zero)", s.mean, s.rms_about_zero())
-             : "";
+  return has_mean(s) ? fmt::format(", mean {:.4g} nm (RMS about it; {:.4g} nm about zero)", s.mean, s.rms_about_zero())
+                     : "";
 }
 
 std::string in_words(const MapStatistics& s) {

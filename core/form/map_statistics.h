@@ -20,6 +20,8 @@ struct MapStatistics {
 
 /// "RMS 1.473 nm, PV 4.98 nm", and the mean where there is one.
 std::string in_words(const MapStatistics& statistics);
+/// " about zero" where there is a mean, so that an RMS about zero is another than one about the mean; else nothing.
+const char* about_zero_in_words(const MapStatistics& statistics);
 /// ", mean 22.48 nm" where there is a mean, else nothing.
 std::string mean_in_words(const MapStatistics& statistics);
 

@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 
+#include "core/base/counted.h"
 #include "core/base/errors.h"
 #include "core/base/number_text.h"
 #include "core/base/units.h"
@@ -166,8 +167,8 @@ MapSource parse_codev_int(std::string_view text, const std::string& where, const
       },
       where);
   if (words.next()) {
-    throw InputError(fmt::format("{}, line {}: {} follows the {} rows of {} values; nothing more is accepted", where,
-                                 words.line(), in_quotes(words.word()), source.rows, source.cols));
+    throw InputError(fmt::format("{}, line {}: {} follows the {} of {} values; nothing more is accepted", where,
+                                 words.line(), in_quotes(words.word()), counted(source.rows, "row"), source.cols));
   }
   return source;
 }

@@ -15,6 +15,7 @@
 #include "core/base/word_list.h"
 #include "core/formats/field_name.h"
 #include "core/formats/remark_guard.h"
+#include "core/formats/said_orientation.h"
 #include "core/formats/said_wavelength.h"
 #include "core/formats/wavefront_words.h"
 #include "core/map/value_units.h"
@@ -144,8 +145,11 @@ std::optional<double> unit_of_comment(const std::string& comment) {
 /// The same card as a field; nothing if neither its name nor its text can speak of a map.
 std::optional<MapField> field_of_card(const Card& card, const Keywords& keywords) {
   const FieldName name = parse_field_name(card.name);
-  const bool says_nothing =
-      name.topic == MapTopic::Other && !name.place && !card.is_text() && !names_wavelength(card.name);
+  const bool says_nothing = name.topic == MapTopic::Other && !name.place && !card.is_text() &&
+                            !names_wavelength(card.name) &&
+                            !read_axis_claim(card.name, card.value == "T"   ? "true"
+                                                        : card.value == "F" ? "false"
+                                                                            : card.value);
   if (is_read_elsewhere(card.name) || says_nothing) return std::nullopt;
   MapField field;
   field.name = card.name;

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/base/counted.h"
 #include "core/base/errors.h"
 #include "core/base/number_text.h"
 #include "core/base/units.h"
@@ -98,8 +99,8 @@ std::vector<double> coordinates(const Hdf5File& file, const std::string& scale, 
   const auto table = file.table(scale);
   if (!table || !table->texts.empty() || table->numbers.size() != count) {
     refuse(where, scale,
-           fmt::format("{}, holds {} numbers that can be read; {} are required", axis.lines,
-                       table ? table->numbers.size() : 0, count));
+           fmt::format("{}, holds {} that can be read; {} are required", axis.lines,
+                       counted(table ? table->numbers.size() : 0, "number"), count));
   }
   std::vector<double> values = table->numbers;
   unpack_values(packing_of_data_set(

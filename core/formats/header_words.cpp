@@ -160,6 +160,8 @@ HeaderKey parse_header_key(std::string_view text) {
   std::string_view rest = trim(text);
   key.per_pixel = cut_per_pixel(rest);
   take_words(key, parts_of_name(rest), rest);
+  constexpr std::array<std::string_view, 3> kDegrees{"deg", "degree", "degrees"};  // say no more: rotation_deg
+  if (key.words.size() > 1 && is_among(key.words.back(), kDegrees)) key.words.pop_back();
   for (const std::string& word : key.words) key.stem += word;
   return key;
 }

@@ -111,7 +111,7 @@ class MapFieldsReader {
   }
 
   void read_other(const MapField& field, const FieldName& name) {
-    if (is_unit_of_values(field, name)) return;
+    if (is_unit_of_values(field, name) || take_axis_claim(field)) return;
     switch (name.topic) {
       case MapTopic::Pitch:
         return take_pitch(field, name);
@@ -273,8 +273,21 @@ class MapFieldsReader {
       if (unclear.empty() && known_value_unit(text) && lower_case(trim(text)) != "in") {
         unclear = unclear_remarks(fmt::format("{} = {}", field.name, text), place, RemarkPlace::Field);
       }
+      if (unclear.empty()) unclear = questions_of_orientation(fmt::format("{}: {}", field.name, text), place);
       said_.header.unclear.insert(said_.header.unclear.end(), unclear.begin(), unclear.end());
     }
+  }
+
+  /// "columns = 'y'", "seen = 'from below'": a few words may say an orientation together with the name alone.
+  static std::vector<UnclearStatement> questions_of_orientation(const std::string& statement,
+                                                                const std::string& place) {
+    constexpr std::size_t kLongest = 60;  // characters
+    if (statement.size() > kLongest) return {};
+    std::vector<UnclearStatement> unclear = unclear_remarks(statement, place, RemarkPlace::Field);
+    std::erase_if(unclear, [](const UnclearStatement& said) {
+      return said.about != UnclearStatement::About::Rows && said.about != UnclearStatement::About::Axes;
+    });
+    return unclear;
   }
 
   void add_statement(UnclearStatement::About about, const MapField& field, const char* what) {
@@ -294,6 +307,20 @@ class MapFieldsReader {
                        std::all_of(field.texts.begin(), field.texts.end(),
                                    [&](const std::string& text) { return is_usual_orientation(text, axis); });
     if (!usual) question_rows(field);
+  }
+
+  /// "y_up = false".
+  bool take_axis_claim(const MapField& field) {
+    if (field.texts.size() + field.numbers.size() != 1) return false;
+    std::string value = field.texts.empty() ? fmt::format("{}", field.numbers.front()) : field.texts.front();
+    if (field.logical && !field.numbers.empty()) value = field.numbers.front() != 0.0 ? "true" : "false";
+    const auto claim = read_axis_claim(field.name, value);
+    if (claim && !claim->usual && claim->axis != 'z') question_rows(field);
+    if (claim && !claim->usual && claim->axis == 'z') {
+      add_statement(UnclearStatement::About::Factor, field,
+                    "a sign of the values; those that are positive are taken for material to remove");
+    }
+    return claim.has_value();
   }
 
   /// "order = 'zernike'" is of something else; "dims = 'lon, lat'" is not.

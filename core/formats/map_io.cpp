@@ -7,9 +7,11 @@
 #include <iterator>
 #include <utility>
 
+#include "core/base/counted.h"
 #include "core/base/errors.h"
 #include "core/base/number_text.h"
 #include "core/base/units.h"
+#include "core/base/value_range.h"
 #include "core/base/whole_file.h"
 #include "core/formats/file_kind.h"
 #include "core/formats/map_formats.h"
@@ -180,18 +182,24 @@ void append(std::vector<std::string>& history, std::vector<std::string> lines) {
   history.insert(history.end(), std::make_move_iterator(lines.begin()), std::make_move_iterator(lines.end()));
 }
 
-/// Numbers of the file to nm; infinite ones are refused.
-void scale_values(HeightMap& map, double scale, const std::string& where) {
+/// Numbers of the file to nm (nm/s); what no part has is refused.
+void scale_values(HeightMap& map, double scale, const MapReadOptions& options, const std::string& where) {
+  const bool rate = options.quantity == MapQuantity::Rate;
+  const char* const unit = rate ? "nm/s" : "nm";
+  const double most = rate ? ranges::kRate.most : ranges::kHeight.most;
   for (std::size_t i = 0; i < map.values.size(); ++i) {
     double& value = map.values[i];
     const double read = value;
     value *= scale;
-    if (!std::isinf(value)) continue;
+    if (std::isnan(value) || std::abs(value) <= most) continue;
     const Index pixel = static_cast<Index>(i);
-    throw InputError(
-        fmt::format("{}: value {} in row {}, column {} of the map is infinite (in nm); a finite number, or "
-                    "nan for no data, is required",
-                    where, read, pixel / map.grid.cols + 1, pixel % map.grid.cols + 1));
+    throw InputError(fmt::format(
+        "{}: value {} in row {}, column {} of the map is {} {}; a number from {:g} to {:g} {}, nan for no data or one "
+        "of "
+        "its usual marks (3.4e38 and the like) is required: is the unit right, or does it mark no data (give `{} no "
+        "data`)?",
+        where, read, pixel / map.grid.cols + 1, pixel % map.grid.cols + 1,
+        std::isinf(value) ? "infinite in" : fmt::format("{:g}", value), unit, -most, most, unit, options.name));
   }
 }
 
@@ -222,8 +230,8 @@ HeightMap map_of_source(MapSource source, const MapReadOptions& options, const s
   check_pixels(static_cast<double>(source.rows), static_cast<double>(source.cols), options.limit, where);
   const std::optional<Point> pitch = known_pitch(source.header, options, where);
   if (!pitch) {
-    throw InputError(fmt::format("{}: the file says no pixel pitch; give `{} pixel` [mm] > 0{}", where, options.name,
-                                 source.pitch_hint));
+    throw MissingPitch(fmt::format("{}: the file says no pixel pitch; give `{} pixel` [mm] > 0{}", where, options.name,
+                                   source.pitch_hint));
   }
   const Point on_camera{source.camera_pixel.x * pitch->x, source.camera_pixel.y * pitch->y};
   const Point origin = known_origin(source.header, options, where).value_or(on_camera);
@@ -236,7 +244,7 @@ HeightMap map_of_source(MapSource source, const MapReadOptions& options, const s
   HeightMap map(grid, std::move(source.values));
   map.unit_assumed = assumes_unit(source.header, options);
   map.history = std::move(source.header.history);
-  scale_values(map, scale, where);
+  scale_values(map, scale, options, where);
   return map;
 }
 
@@ -266,9 +274,9 @@ HeightMap fit_points_of(const XyzText& xyz, const MapReadOptions& options, const
     const Grid grid = grid_over(points, options.grid->pitch, options.origin, options.limit);
     ScatterSummary summary;
     HeightMap map = scattered_surface(std::move(points), grid, *options.grid, summary, options.threads, progress);
-    map.history.push_back(fmt::format(
-        "grid pitch={},reach={:.6g}: {} points about {:.4g} mm apart, {} of {} pixels have data", options.grid->pitch,
-        summary.reach, xyz.points.size(), summary.spacing, summary.pixels, map.grid.size()));
+    map.history.push_back(fmt::format("grid pitch={},reach={:.6g}: {} about {:.4g} mm apart, {} of {} pixels have data",
+                                      options.grid->pitch, summary.reach, counted(xyz.points.size(), "point"),
+                                      summary.spacing, summary.pixels, map.grid.size()));
     return map;
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", where, error.what()));
@@ -302,7 +310,7 @@ HeightMap read_xyz(const MapName& name, std::string_view text, const MapReadOpti
   map.unit_assumed = assumes_unit(xyz.header, options);
   append(xyz.header.history, std::move(map.history));
   map.history = std::move(xyz.header.history);
-  scale_values(map, scale, where);
+  scale_values(map, scale, options, where);
   return map;
 }
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "core/base/errors.h"
 #include "core/base/grid_limit.h"
 #include "core/base/pitch.h"
 #include "core/base/progress.h"
@@ -35,6 +36,12 @@ struct MapReadOptions {
   std::optional<MapRows> rows;           // at which edge the first row of a grid lies; default: as the format says
   std::optional<ScatterOptions> grid;    // points x y z are scattered: a surface is fitted to them
   int threads = 1;                       // for that fit
+};
+
+/// Neither the file nor an option says the pixel pitch.
+class MissingPitch : public InputError {
+ public:
+  using InputError::InputError;
 };
 
 /// Reads a map by the file's content and extension (docs/formats.md). `file` may name one array of a file that holds

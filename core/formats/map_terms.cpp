@@ -82,7 +82,7 @@ constexpr TermGroup kGroups[] = {
      "facteurdechelle echelle conversiondeshauteurs divisor divider denominator exponent signflip flipsign negate "
      "negated nmscale umscale mult multiplyby multiplied to powerof10 poweroften "
      "powerten power10 decimalexponent zexponent unitexponent prefix siprefix unitprefix metricprefix sign signs zsign "
-     "heightsign "
+     "heightsign magnitude magnitud orderofmagnitude ordermagnitude groessenordnung "
      "signconvention polarity vorzeichen zdirection zdir zpositive positivedirection normalised normalized "
      "normalisation normalization normalise normalize normiert normierung normed fringe"},
     {MapTopic::Label, kOpen, kSilent, false, "longname label zlabel datalabel quantity btype"},
@@ -93,7 +93,7 @@ constexpr TermGroup kGroups[] = {
      "reflected "
      "reflect reflection mirroring rotangle rotationangle rot rot90 rotation90 clocking clockingangle view viewed "
      "viewedfrom viewfrom viewpoint viewdirection seenfrom handedness handed chirality transform transformation affine "
-     "affinetransform upsidedown invertx inverty swapxy swapaxes roworigin parity ansicht"},
+     "affinetransform angle angledeg winkel upsidedown invertx inverty swapxy swapaxes roworigin parity ansicht"},
     {MapTopic::Orientation, kOpen, kDoubt, true, "axis dir direction sign sense down invert inverted"},
     {MapTopic::AxisOrder, kClear, kDoubt, false,
      "dims dimensionlabels dimensionnames dimensionorder dimorder axes axisorder axesorder axisnames axislabels "

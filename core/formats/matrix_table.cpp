@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/counted.h"
 #include "core/base/errors.h"
 #include "core/base/units.h"
 #include "core/map/value_units.h"
@@ -148,7 +149,8 @@ Headings stated(const MapSource& m, bool named_columns) {
 std::string in_words(const Headings& h) {
   const auto line = [](const char* what, const std::optional<Steps>& s) {
     if (!s) return fmt::format("the first {}", what);
-    return fmt::format("the first {} ({} numbers from {} in steps of {:.9g})", what, s->count, s->first, s->step);
+    return fmt::format("the first {} ({} from {} in steps of {:.9g})", what, counted(s->count, "number"), s->first,
+                       s->step);
   };
   const std::string row = h.row ? line("row", h.x) : "", column = h.column ? line("column", h.y) : "";
   return row + (h.row && h.column ? " and " : "") + column;
@@ -175,11 +177,11 @@ void refuse_last(const MapSource& m, const std::string& where, const std::string
   for (const bool rows : {false, true}) {
     const auto last = lone_last(m, rows);
     if (!last) continue;
-    throw InputError(
-        fmt::format("{}: the last {} ({} numbers from {} in steps of {:.9g}) looks like an index or coordinates, not "
-                    "like heights; put it first and give `{} table` index or mm, or leave it out of the file, or give "
-                    "`{} table` heights to take it as heights",
-                    where, rows ? "row" : "column", last->count, last->first, last->step, name, name));
+    throw InputError(fmt::format(
+        "{}: the last {} ({} from {} in steps of {:.9g}) looks like an index or coordinates, not "
+        "like heights; put it first and give `{} table` index or mm, or leave it out of the file, or give "
+        "`{} table` heights to take it as heights",
+        where, rows ? "row" : "column", counted(last->count, "number"), last->first, last->step, name, name));
   }
 }
 
@@ -210,10 +212,10 @@ bool looks_like_points(const MapSource& m) {
 void refuse_suspicious(const MapSource& m, const std::string& where, const std::string& name) {
   if (looks_like_points(m)) {
     throw InputError(fmt::format(
-        "{}: its {} rows of {} numbers look like points x y z, not like a matrix of heights; name it .xyz or begin it "
+        "{}: its {} of {} numbers look like points x y z, not like a matrix of heights; name it .xyz or begin it "
         "with a line 'x y z' (and leave other columns out), or give `{} table` heights to take every number as a "
         "height",
-        where, m.rows, m.cols, name));
+        where, counted(m.rows, "row"), m.cols, name));
   }
   const Headings found = suspected(m);
   if (!found.row && !found.column) return;

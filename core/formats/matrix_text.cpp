@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "core/base/counted.h"
 #include "core/base/errors.h"
 #include "core/base/number_text.h"
 #include "core/base/text_lines.h"
@@ -152,8 +153,8 @@ MapSource parse_matrix_text(std::string_view text, const std::string& where, boo
     if (matrix.rows == 0) {
       matrix.cols = count;
     } else if (count != matrix.cols) {
-      throw InputError(fmt::format("{}, line {}: {} columns; line {} has {} and every row must have as many", where,
-                                   lines.number(), count, first_line, matrix.cols));
+      throw InputError(fmt::format("{}, line {}: {}; line {} has {} and every row must have as many", where,
+                                   lines.number(), counted(count, "column"), first_line, matrix.cols));
     }
     ++matrix.rows;
   }

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
+#include "core/base/counted.h"
 #include "core/base/errors.h"
 #include "core/base/number_text.h"
 #include "core/formats/smeared_marker.h"
@@ -23,8 +25,7 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 std::size_t remove_huge(const RawValues& raw, double& largest) {
   std::size_t count = 0;
   for (double& value : *raw.values) {
-    if (!(std::abs(value) >= kLeastMarker * std::abs(raw.factor))) continue;
-    if (std::isinf(value)) continue;  // of an array; refused by whoever reads the map
+    if (!is_huge_marker(value / raw.factor)) continue;
     if (!(std::abs(value) < std::abs(largest))) largest = value;
     value = kNone;
     ++count;
@@ -89,13 +90,35 @@ Rest rest_of(const std::vector<double>& values, const Extreme& low, const Extrem
 
 void refuse_smeared(const RawValues& raw, double extreme, const std::string& where, const std::string& name) {
   const double shown = extreme / raw.factor;
-  if (!is_smeared_marker(*raw.values, raw.cols, extreme, shown)) return;
+  const MarkerRim rim = rim_of_marker(*raw.values, raw.cols, extreme, shown);
+  if (rim == MarkerRim::None) return;
+  const bool interpolated = rim == MarkerRim::Interpolated;
   throw InputError(fmt::format(
-      "{}: {} pixels are {}, and what lies between it and the others stands at its rim alone: a mark for no data, over "
-      "which was interpolated? Give `{} no data` {} if so (the rim stays: better take the map from before that), or "
-      "`{} "
-      "no data` none if it is a height",
-      where, std::count(raw.values->begin(), raw.values->end(), extreme), shown, name, shown, name));
+      "{}: {} pixels are {}, {}? Give `{} no data` {} if so{}, or `{} no data` none if it is a height", where,
+      std::count(raw.values->begin(), raw.values->end(), extreme), shown,
+      interpolated ? "and what lies between it and the others stands at its rim alone: a mark for no data, over which "
+                     "was interpolated"
+                   : "far from all others: a mark for no data",
+      name, shown, interpolated ? " (the rim stays: better take the map from before that)" : "", name));
+}
+
+void refuse_far_marks(const RawValues& raw, const Extreme& low, const Extreme& high, const std::string& where,
+                      const std::string& name) {
+  const Rest rest = rest_of(*raw.values, low, high);
+  const auto refuse = [&](const Extreme& extreme, double nearest) {
+    const double shown = extreme.value / raw.factor;
+    throw InputError(fmt::format(
+        "{}: {} pixels are {}{}, and no other is nearer than {}: a mark for no data? Give `{} no data` {} if so, or "
+        "`{} no data` none if it is a height",
+        where, extreme.count, shown, extreme.codes.size() > 1 ? " or next to it" : "", nearest / raw.factor, name,
+        shown, name));
+  };
+  const auto lone = [&](const Extreme& extreme, double nearest) {
+    const double gap = std::abs(nearest - extreme.value);
+    return extreme.may_mark() && rest.span > 0.0 && gap > kFarSpans * rest.span;
+  };
+  if (lone(low, rest.low)) refuse(low, rest.low);
+  if (lone(high, rest.high)) refuse(high, rest.high);
 }
 
 void refuse_lone_extreme(const RawValues& raw, const std::string& where, const std::string& name) {
@@ -109,27 +132,36 @@ void refuse_lone_extreme(const RawValues& raw, const std::string& where, const s
     low.count_if_next(v);
     high.count_if_next(v);
   }
+  if (low.may_mark() || high.may_mark()) refuse_far_marks(raw, low, high, where, name);
   refuse_smeared(raw, low.value, where, name);
   refuse_smeared(raw, high.value, where, name);
-  if (!low.may_mark() && !high.may_mark()) return;
-  const Rest rest = rest_of(*raw.values, low, high);
-  const auto refuse = [&](const Extreme& extreme, double nearest) {
-    const double shown = extreme.value / raw.factor;
-    throw InputError(fmt::format(
-        "{}: {} pixels are {} or next to it, and no other is nearer than {}: a mark for no data? Give `{} no data` "
-        "{} if so, or "
-        "`{} no data` none if it is a height",
-        where, extreme.count, shown, nearest / raw.factor, name, shown, name));
-  };
-  const auto lone = [&](const Extreme& extreme, double nearest) {
-    const double gap = std::abs(nearest - extreme.value);
-    return extreme.may_mark() && rest.span > 0.0 && gap > kFarSpans * rest.span;
-  };
-  if (lone(low, rest.low)) refuse(low, rest.low);
-  if (lone(high, rest.high)) refuse(high, rest.high);
 }
 
 }  // namespace
+
+bool is_huge_marker(double value) {
+  const double size = std::abs(value);
+  if (!(size >= kLeastMarker) || std::isinf(value)) return false;
+  // The largest numbers are often written with two or three digits, as 3.4e38.
+  constexpr double kFewDigits = 5e-3, kSinglePrecision = 1e-6;
+  constexpr std::array kLargest{3.4028234663852886e38,
+                                1.7014117331926443e38,
+                                9.969209968386869e36,
+                                1.2676506002282294e30,
+                                1.7976931348623157e308,
+                                8.988465674311579e307,
+                                1e300};
+  // Of netCDF, Surfer and others; and those of GrADS.
+  constexpr std::array kWritten{9.999e20, 9.99e33, 1e308};
+  const auto within = [size](double part) {
+    return [size, part](double marker) { return std::abs(size / marker - 1.0) <= part; };
+  };
+  if (std::any_of(kLargest.begin(), kLargest.end(), within(kFewDigits))) return true;
+  if (std::any_of(kWritten.begin(), kWritten.end(), within(kSinglePrecision))) return true;
+  constexpr double kLargestPower = 38.0;  // that single precision holds
+  const double power = std::round(std::log10(size));
+  return power <= kLargestPower && within(kSinglePrecision)(std::pow(10.0, power));
+}
 
 bool is_marker(double value, double marker) {
   constexpr double kRounding = 1e-12;  // of a factor that the reader has multiplied by
@@ -164,14 +196,15 @@ std::vector<std::string> remove_no_data(const RawValues& raw, const std::optiona
   std::vector<std::string> history;
   double largest = 0.0;
   if (const std::size_t count = remove_huge(raw, largest); count > 0) {
-    history.push_back(
-        fmt::format("no data: {} pixels of {:g} or more, as {:g}", count, kLeastMarker, largest / raw.factor));
+    history.push_back(fmt::format("no data: {} of the usual marks ({:g} and more), as {:g}", counted(count, "pixel"),
+                                  kLeastMarker, largest / raw.factor));
   }
   for (const double marker : raw.no_data) {
-    history.push_back(fmt::format("no data: {} pixels of {}, as the file says", remove_marker(raw, marker), marker));
+    history.push_back(
+        fmt::format("no data: {} of {}, as the file says", counted(remove_marker(raw, marker), "pixel"), marker));
   }
   for (const double marker : asked ? asked->values : std::vector<double>()) {
-    history.push_back(fmt::format("no data: {} pixels of {}, as asked", remove_marker(raw, marker), marker));
+    history.push_back(fmt::format("no data: {} of {}, as asked", counted(remove_marker(raw, marker), "pixel"), marker));
   }
   if (!asked || !asked->values.empty()) refuse_lone_extreme(raw, where, name);
   return history;

@@ -26,14 +26,19 @@ struct RawValues {
   std::size_t cols = 0;         // of the grid, row-major; 0: points, or a grid of nobody knows how many columns
 };
 
-/// Numbers from which on no instrument means a height, as the file holds them: the largest float (3.4e38), half of it,
-/// 9.97e36 of netCDF, 1e30 and 1e20 of others.
+/// The least of the numbers that stand for no data without anybody saying so, as the file holds them.
 inline constexpr double kLeastMarker = 1e20;
+
+/// Whether a number of a file is one that programs write for no data and that no instrument means as a height: the
+/// largest float (3.4e38), half of it, the largest double, half of it, 9.97e36 of netCDF, 2^100, 1e300,
+/// 1e308, 9.999e20, 9.99e33, and the powers of ten from 1e20 to 1e38; of either sign. Other numbers as large (1e150)
+/// are slips.
+bool is_huge_marker(double value);
 
 /// Whether a number of a file is the marker, which may be written with more digits than single precision holds.
 bool is_marker(double value, double marker);
 
-/// Sets to NaN what is no height: numbers of kLeastMarker and more, and those that the file or the user names. Returns
+/// Sets to NaN what is no height: numbers that is_huge_marker knows, and those that the file or the user names. Returns
 /// a line each, for the map's history. Without a word of the user, one extreme value is refused that stands in four
 /// pixels or more while nothing else is near it (-9999, 32767, 65535 around a part): farther from all others than ten
 /// times what 98 % of these span; or, on a grid, smeared into the part at its rim alone

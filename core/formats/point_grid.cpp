@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/counted.h"
 #include "core/base/errors.h"
 #include "core/numerics/lattice_fit.h"
 
@@ -80,10 +81,10 @@ void check_size(const Lattice& x, const Lattice& y, std::size_t points, const st
   const double pixels = static_cast<double>(x.count) * static_cast<double>(y.count);
   if (!(pixels <= std::max(kMostPixels, kMostPixelsPerPoint * static_cast<double>(points)))) {
     throw InputError(
-        fmt::format("{}: {} points make a grid of {} x {} pixels (pitch {} x {} mm); a grid of at most {} "
+        fmt::format("{}: {} make a grid of {} x {} pixels (pitch {} x {} mm); a grid of at most {} "
                     "pixels a point is accepted: look for a stray point, or give `{} grid` pitch=MM if the points are "
                     "scattered",
-                    where, points, y.count, x.count, x.pitch, y.pitch, kMostPixelsPerPoint, name));
+                    where, counted(points, "point"), y.count, x.count, x.pitch, y.pitch, kMostPixelsPerPoint, name));
   }
 }
 
@@ -109,10 +110,10 @@ void check_filled(const Lattice& x, const Lattice& y, const std::vector<long>& l
   }
   if (static_cast<double>(neighboured) >= kLeastNeighboured * static_cast<double>(points)) return;
   throw InputError(fmt::format(
-      "{}: its {} points fill {:.3g} % of a grid of {} x {} places (pitch {:.6g} x {:.6g} mm) and do not lie "
+      "{}: its {} fill {:.3g} % of a grid of {} x {} places (pitch {:.6g} x {:.6g} mm) and do not lie "
       "side by side on it; {:.0f} % are required of points of a regular grid. Give `{} grid` pitch=MM to fit "
       "a surface to scattered points",
-      where, points, 100.0 * filled, y.count, x.count, x.pitch, y.pitch, 100.0 * kLeastFilled, name));
+      where, counted(points, "point"), 100.0 * filled, y.count, x.count, x.pitch, y.pitch, 100.0 * kLeastFilled, name));
 }
 
 }  // namespace

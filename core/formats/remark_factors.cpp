@@ -102,6 +102,11 @@ bool is_relative(const Remark& words, std::size_t at) {
          holds_value_word(words, clause_of(words, at), at);
 }
 
+/// Whether nothing but a unit stands behind the word.
+bool ends_with_a_unit(const Remark& words, std::size_t at) {
+  return at + 2 == words.size() && known_value_unit(words[at + 1].text) && words[at + 1].before == ' ';
+}
+
 /// "x1000", "1e-6 m", "0.1 nm", "micro": a remark that is nothing but a factor, or a unit with one.
 bool stands_alone(const Remark& words, std::size_t at) {
   constexpr std::array<std::string_view, 6> kPrefixes{"micro", "nano", "milli", "pico", "mikro", "femto"};
@@ -116,8 +121,13 @@ bool stands_alone(const Remark& words, std::size_t at) {
   if (begins && at + 2 == words.size() && sign &&
       (is_power_of_ten(words[at + 1].text) || is_other_number(words[at + 1].text)))
     return true;
-  const bool pair =
-      begins && at + 2 == words.size() && known_value_unit(words[at + 1].text) && words[at + 1].before == ' ';
+  // "x 1e-6 m", "e-6 m"
+  const bool of_unit = ends_with_a_unit(words, at);
+  if (begins && of_unit && at + 2 == words.size() && is_power_of_ten("1" + word)) return true;
+  if (begins && at + 3 == words.size() && sign && ends_with_a_unit(words, at + 1) &&
+      (is_power_of_ten(words[at + 1].text) || is_power_of_ten("1" + words[at + 1].text)))
+    return true;
+  const bool pair = begins && of_unit;
   if (!pair) return false;
   const bool small = known_value_unit(words[at + 1].text).value_or(0.0) < units::kNmPerMm;
   return is_power_of_ten(word) || (at == 0 && small && is_among(word, kSteps));

@@ -126,6 +126,56 @@ bool names_columns_first(const Remark& words, std::size_t at) {
   return is_among(words[at].folded, kOrders) || (fortran && order);
 }
 
+/// Whether a word of the list stands at most four words before the place.
+template <class Words>
+bool is_near_before(const Remark& words, std::size_t at, const Words& known) {
+  constexpr std::size_t kReach = 4;
+  for (std::size_t i = at > kReach ? at - kReach : 0; i < at; ++i) {
+    if (is_among(words[i].folded, known)) return true;
+  }
+  return false;
+}
+
+/// "array is [x, y]", "indexed as z[ix][iy]", "index order x, y": the first index is that of the columns. A list of
+/// three, as "columns [x, y, z]", is none of indices.
+bool indexes_columns_first(const Remark& words, std::size_t at) {
+  constexpr std::array<std::string_view, 8> kFirst{"x", "nx", "ix", "col", "column", "columns", "cols", "ncols"};
+  constexpr std::array<std::string_view, 7> kSecond{"y", "ny", "iy", "row", "rows", "nrows", "line"};
+  constexpr std::array<std::string_view, 33> kArrays{
+      "array",       "arrays",   "matrix",  "data",    "values",  "map",        "heights",    "height", "image",
+      "img",         "z",        "index",   "indices", "indexed", "indexing",   "shape",      "stored", "order",
+      "ordered",     "layout",   "dims",    "h",       "axes",    "dimensions", "subscripts", "feld",   "matrize",
+      "reihenfolge", "ordering", "indexes", "a",       "tableau", "ordre"};
+  constexpr std::array<std::string_view, 7> kOrders{"order",  "ordering",    "ordered", "indexing",
+                                                    "layout", "reihenfolge", "ordre"};
+  if (!is_among(words[at].folded, kFirst) || at + 1 >= words.size() || !is_among(words[at + 1].folded, kSecond)) {
+    return false;
+  }
+  // "image size (x, y)", "data points [x, y]"
+  constexpr std::array<std::string_view, 20> kOfOthers{
+      "size",   "pixels", "resolution", "range",     "pitch",  "spacing",     "step",   "centre", "center", "origin",
+      "offset", "points", "position",   "positions", "extent", "coordinates", "places", "sizes",  "pixel",  "point"};
+  if (is_near_before(words, at, kOfOthers)) return false;
+  const char before_second = words[at + 1].before;
+  const bool listed = words[at].bracketed() && (before_second == ',' || before_second == ' ') && words[at + 1].closed;
+  const bool subscripts = words[at].before == '[' && words[at].closed && before_second == '[' && words[at + 1].closed;
+  if (subscripts || (listed && is_near_before(words, at, kArrays))) return true;
+  const bool ends = at + 2 == words.size() || words[at + 2].clause;
+  return before_second == ',' && ends && is_near_before(words, at, kOrders);
+}
+
+/// "image coordinates", "screen convention": y runs down there.
+bool names_image_axes(const Remark& words, std::size_t at) {
+  constexpr std::array<std::string_view, 8> kDown{"image",   "screen", "display", "bitmap",
+                                                  "picture", "camera", "matrix",  "raster"};
+  constexpr std::array<std::string_view, 6> kAxes{"coordinates", "coordinate",  "coords",
+                                                  "convention",  "conventions", "axes"};
+  constexpr std::array<std::string_view, 4> kOne{"bildkoordinaten", "bildschirmkoordinaten", "kamerakoordinaten",
+                                                 "image-coordinates"};
+  if (is_among(words[at].folded, kOne)) return true;
+  return is_among(words[at].folded, kDown) && at + 1 < words.size() && is_among(words[at + 1].folded, kAxes);
+}
+
 template <class Rule>
 bool any_place(const Remark& words, Rule rule) {
   for (std::size_t i = 0; i < words.size(); ++i) {
@@ -142,13 +192,13 @@ bool speaks_of_rows(const Remark& words) {
       "image",    "origin",  "index",      "row0",  "pixel", "first",  "column", "columns",
       "ursprung", "origine", "upper-left", "fila",  "filas", "riga",   "righe"};
   return (holds_any(words, kRowWords) && holds_any(words, kTop)) || exchanges_indices(words) ||
-         any_place(words, names_columns_first);
+         any_place(words, names_columns_first) || any_place(words, indexes_columns_first);
 }
 
 bool speaks_of_axes(const Remark& words) {
   constexpr std::array<std::string_view, 5> kAxes{"y", "y-axis", "yaxis", "y_axis", "y-direction"};
   return any_place(words, is_turned) || any_place(words, is_seen_from_behind) || any_place(words, points_left) ||
-         (holds_any(words, kAxes) && holds_any(words, kTop));
+         any_place(words, names_image_axes) || (holds_any(words, kAxes) && holds_any(words, kTop));
 }
 
 bool names_orientation(std::string_view remark) {

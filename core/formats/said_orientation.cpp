@@ -103,6 +103,34 @@ bool names_a_mirroring(std::string_view text) {
   return is_among(letters_of(text), kWays);
 }
 
+std::optional<AxisClaim> read_axis_claim(std::string_view name, std::string_view value) {
+  constexpr std::array<std::string_view, 10> kFillers{"axis", "is",       "points", "positive",  "increases",
+                                                      "runs", "pointing", "goes",   "direction", "to"};
+  constexpr std::array<std::string_view, 5> kUp{"up", "upward", "upwards", "oben", "haut"};
+  constexpr std::array<std::string_view, 5> kDown{"down", "downward", "downwards", "unten", "bas"};
+  constexpr std::array<std::string_view, 3> kYes{"yes", "true", "on"}, kNo{"no", "false", "off"};
+  const std::string letters = letters_of(name.substr(name.find_last_of("./:") + 1));
+  if (letters.empty() || std::string_view("xyz").find(letters.front()) == std::string_view::npos) return std::nullopt;
+  const char axis = letters.front();
+  std::string_view rest = std::string_view(letters).substr(1);
+  for (bool cut = true; cut;) {
+    cut = false;
+    for (const std::string_view filler : kFillers) {
+      if (rest.starts_with(filler)) rest.remove_prefix(filler.size()), cut = true;
+    }
+  }
+  const bool sideways = axis == 'x';
+  const bool usual = sideways ? rest == "right" || rest == "theright" : is_among(rest, kUp);
+  const bool other = sideways ? rest == "left" || rest == "theleft" : is_among(rest, kDown);
+  if (!usual && !other) return std::nullopt;
+  const std::string word = letters_of(value);
+  // "x_right = 1" may be a place.
+  const bool affirmed = is_among(word, kYes) || (word == "1" && !sideways);
+  const bool denied = is_among(word, kNo) || (word == "0" && !sideways);
+  if (!affirmed && !denied) return std::nullopt;
+  return AxisClaim{axis, affirmed == usual};
+}
+
 AxisOrder read_axis_order(const std::vector<std::string>& texts, const std::vector<double>& numbers) {
   if (texts.empty()) {
     const bool turned = numbers.size() == 2 && numbers[0] == numbers[1] + 1.0 && numbers[0] <= 2.0;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,6 +20,16 @@ bool names_a_direction(std::string_view name);
 /// Whether the value of "mirror" is a direction in which the map was mirrored ("x", "left-right", "yes"), and not which
 /// mirror it is.
 bool names_a_mirroring(std::string_view text);
+
+/// What a statement says whose name is a claim of where an axis points and whose value affirms or denies it: "y_up =
+/// false", "x axis left: no". Usual: x to the right, y and z up.
+struct AxisClaim {
+  char axis;
+  bool usual;
+};
+
+/// Nothing if the name is no such claim, or the value neither affirms nor denies it. Cost O(length).
+std::optional<AxisClaim> read_axis_claim(std::string_view name, std::string_view value);
 
 /// What a statement of the order of the axes says: "dims = y x", "order = F".
 enum class AxisOrder { RowsFirst, ColumnsFirst, Unknown };

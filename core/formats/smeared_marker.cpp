@@ -21,11 +21,11 @@ void widen(std::vector<char>& marks, std::size_t begin, std::size_t count, std::
 
 }  // namespace
 
-bool is_smeared_marker(const std::vector<double>& values, std::size_t cols, double value, double in_file) {
+MarkerRim rim_of_marker(const std::vector<double>& values, std::size_t cols, double value, double in_file) {
   constexpr double kLeastMark = 99.0, kFarSpans = 10.0;
   constexpr std::ptrdiff_t kLeastRepeats = 4;
-  if (cols == 0 || in_file != std::round(in_file) || !(std::abs(in_file) >= kLeastMark)) return false;
-  if (std::count(values.begin(), values.end(), value) < kLeastRepeats) return false;
+  if (cols == 0 || in_file != std::round(in_file) || !(std::abs(in_file) >= kLeastMark)) return MarkerRim::None;
+  if (std::count(values.begin(), values.end(), value) < kLeastRepeats) return MarkerRim::None;
   std::vector<char> near(values.size());
   std::transform(values.begin(), values.end(), near.begin(), [&](double v) { return v == value ? 1 : 0; });
   const std::size_t rows = values.size() / cols;
@@ -40,7 +40,13 @@ bool is_smeared_marker(const std::vector<double>& values, std::size_t cols, doub
     if (!(values[i] <= high)) high = values[i];
   }
   const double gap = std::min(std::abs(low - value), std::abs(high - value));
-  return count >= kLeastRepeats && high > low && gap > kFarSpans * (high - low);
+  if (count < kLeastRepeats || !(high > low) || !(gap > kFarSpans * (high - low))) return MarkerRim::None;
+  // Heights at the rim that stand about where the part does were not interpolated.
+  constexpr double kLeastShare = 0.05;
+  const bool between = std::any_of(values.begin(), values.end(), [&](double v) {
+    return v != value && !std::isnan(v) && std::max(low - v, v - high) > kLeastShare * gap;
+  });
+  return between ? MarkerRim::Interpolated : MarkerRim::Sharp;
 }
 
 }  // namespace dwell

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <system_error>
 
+#include "core/base/counted.h"
 #include "core/base/errors.h"
 #include "core/base/number_text.h"
 
@@ -12,8 +13,8 @@ namespace dwell {
 namespace {
 
 [[noreturn]] void refuse_short(const TextGrid& grid, const std::string& found, const std::string& where) {
-  throw InputError(
-      fmt::format("{}: truncated; {}, {} rows of {} values are required", where, found, grid.rows, grid.cols));
+  throw InputError(fmt::format("{}: truncated; {}, {} of {} values are required", where, found,
+                               counted(grid.rows, "row"), grid.cols));
 }
 
 }  // namespace
@@ -37,7 +38,7 @@ std::vector<double> read_text_grid(TextWords& words, const TextGrid& grid, std::
   for (std::size_t row = 0; row < rows; ++row) {
     double* const out = values.data() + (grid.top_first ? rows - 1 - row : row) * cols;
     for (std::size_t col = 0; col < cols; ++col) {
-      if (!words.next()) refuse_short(grid, fmt::format("it ends after {} values", row * cols + col), where);
+      if (!words.next()) refuse_short(grid, fmt::format("it ends after {}", counted(row * cols + col, "value")), where);
       const std::optional<double> number = value(words.word());
       if (!number) {
         throw InputError(

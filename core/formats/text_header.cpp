@@ -136,6 +136,7 @@ bool TextHeader::read_loose(std::string_view text) {
 /// the line may be prose.
 bool TextHeader::take(HeaderKey key, std::string_view value, bool loose) {
   if (add_wavelength(key, value, fmt::format("line {}", line_), header_)) return true;
+  if (!loose && take_axis_claim(key, value)) return true;
   const HeaderMeaning meaning = meaning_of(key);
   if (key.stem == "channel" || key.stem == "valueunits") layout_.set_gwyddion();
   constexpr std::size_t kWordsOfProse = 2;
@@ -168,6 +169,18 @@ bool TextHeader::take(HeaderKey key, std::string_view value, bool loose) {
     default:
       return false;
   }
+}
+
+/// "y_up: false".
+bool TextHeader::take_axis_claim(const HeaderKey& key, std::string_view value) {
+  const auto claim = read_axis_claim(key.shown, value);
+  if (!claim || claim->usual) return claim.has_value();
+  const bool sign = claim->axis == 'z';
+  add_unclear(sign ? About::Factor : About::Axes,
+              fmt::format("{} = '{}' looks like {}", key.shown, value,
+                          sign ? "a sign of the values; those that are positive are taken for material to remove"
+                               : "an orientation; x is taken to point to the right and y up"));
+  return true;
 }
 
 /// `sure`: refused if it does not fit; `named`: honoured if it does.

@@ -56,6 +56,7 @@ class TextHeader {
   bool take_interval(const HeaderKey& key, const HeaderLengths& lengths, std::string_view value);
   bool take_no_data(const HeaderKey& key, std::string_view value, bool sure, bool named);
   bool take_scale(const HeaderKey& key, std::string_view value, bool loose);
+  bool take_axis_claim(const HeaderKey& key, std::string_view value);
   bool take_orientation(const HeaderKey& key, std::string_view value, MapTopic topic);
   bool take_unknown_unit(const HeaderKey& key, std::string_view value);
   bool take_prose_pitch(const HeaderKey& key, std::string_view value);

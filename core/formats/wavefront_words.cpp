@@ -12,7 +12,9 @@ namespace dwell {
 namespace {
 
 constexpr std::array<std::string_view, 6> kWavefrontWords{"opd", "opds", "opdmap", "opdmaps", "wfr", "wfe"};
-constexpr std::array<std::string_view, 4> kWavefrontPhrases{"wavefront", "wellenfront", "frontdonde", "opticalpath"};
+constexpr std::array<std::string_view, 8> kWavefrontPhrases{"wavefront",       "wellenfront",  "frontdonde",
+                                                            "opticalpath",     "doublepass",   "doublepath",
+                                                            "doppeldurchgang", "doublepassage"};
 
 bool is_latin(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
 bool is_capital(char c) { return std::isupper(static_cast<unsigned char>(c)) != 0; }

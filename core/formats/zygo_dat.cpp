@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "core/base/counted.h"
 #include "core/base/errors.h"
 #include "core/base/units.h"
 
@@ -102,9 +103,9 @@ Block phase_block(const Header& header, std::size_t file_size, const std::string
   const Block block{header.size() + intensity_bytes, header.unsigned16(70), header.unsigned16(68)};
   if (block.rows == 0 || block.cols == 0) {
     throw InputError(
-        fmt::format("{}: the Zygo file holds {} columns (byte 68) x {} rows (byte 70) of heights; at "
+        fmt::format("{}: the Zygo file holds {} (byte 68) x {} rows (byte 70) of heights; at "
                     "least one of each is required",
-                    where, block.cols, block.rows));
+                    where, counted(block.cols, "column"), block.rows));
   }
   const std::uint64_t phase = std::uint64_t{4} * block.rows * block.cols;
   if (header.unsigned32(72) != phase) {

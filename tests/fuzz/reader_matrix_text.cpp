@@ -16,7 +16,7 @@ void read_as(std::string_view bytes, const std::optional<MatrixTable>& table) {
   dwell::apply_matrix_table(matrix, table, named, "map", "map");
   dwell::fuzz::require_sound(matrix);
   dwell::remove_no_data({&matrix.values, 1.0, matrix.header.no_data}, dwell::NoDataMarkers{}, "map", "map");
-  for (const double value : matrix.values) dwell::fuzz::require(!(value >= dwell::kLeastMarker));
+  for (const double value : matrix.values) dwell::fuzz::require(!dwell::is_huge_marker(value));
 }
 
 }  // namespace

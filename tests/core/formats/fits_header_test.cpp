@@ -192,5 +192,14 @@ TEST(FitsHeader, APitchBesideBinningIsLeftOpen) {
   const MapSource ours = read_with({"PITCHMM =                  0.5", "XBINNING=                    2"});
   EXPECT_TRUE(ours.header.pitch);
 }
+
+TEST(FitsHeader, AsksAboutWhatIsClaimedOfTheAxes) {
+  for (const char* card : {"YUP     =                    F", "ANGLEDEG=                   15",
+                           "MAGNITUD=                   -6", "COLUMNS = 'y       '"})
+    EXPECT_FALSE(read_with({card}).header.unclear.empty()) << card;
+  for (const char* card : {"YUP     =                    T", "YDOWN   =                    F"})
+    EXPECT_TRUE(read_with({card}).header.unclear.empty()) << card;
+}
+
 }  // namespace
 }  // namespace dwell

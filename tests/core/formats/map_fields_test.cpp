@@ -12,6 +12,9 @@ namespace {
 MapField number(const std::string& name, const std::vector<double>& numbers) {
   return {name, numbers, {}, "field " + name, {}};
 }
+MapField logical(const std::string& name, bool value) {
+  return {name, {value ? 1.0 : 0.0}, {}, "field " + name, {}, true};
+}
 MapField text(const std::string& name, const std::string& value) { return {name, {}, {value}, "field " + name, {}}; }
 
 SaidOfMap said(const std::vector<MapField>& fields) { return read_map_fields(fields, "map a"); }
@@ -158,13 +161,22 @@ TEST(MapFields, AskWhichWayTheMapLiesAndWhatItsNumbersAre) {
                                 text("first_axis", "x"),
                                 text("rows", "x"),
                                 number("y_down", {1}),
+                                text("columns", "y"),
+                                text("y_up", "false"),
+                                logical("y_up", false),
+                                logical("grid.yAxisDown", true),
+                                text("x_right", "no"),
+                                logical("x_axis_left", true),
+                                number("angle_deg", {15}),
+                                text("layout", "array is [x, y]"),
                                 text("origin", "upper")}) {
     EXPECT_EQ(asked(field), About::Rows) << field.name;
   }
   for (const MapField& field :
        {number("exponent", {-6}), text("prefix", "micro"), number("sign", {-1}), text("z_sign", "negative"),
         number("fringe_nm", {316}), number("counts_to_nm", {0.25}), number("normalized", {1}), number("divisor", {10}),
-        number("to_nm", {0.3}), number("mult", {2}), text("height", "10 nm")}) {
+        number("to_nm", {0.3}), number("mult", {2}), number("magnitude", {-6}), text("z_up", "false"),
+        logical("z_up", false), text("note", "x 1e-6 m"), text("height", "10 nm")}) {
     EXPECT_EQ(asked(field), About::Factor) << field.name;
   }
   for (const MapField& field : {number("mask", {9}), number("background", {9}), number("bad", {7})}) {
@@ -185,6 +197,13 @@ TEST(MapFields, AskWhichWayTheMapLiesAndWhatItsNumbersAre) {
                                 number("order", {4}),
                                 text("y_axis", "up"),
                                 number("y_axis", {1}),
+                                text("columns", "x"),
+                                text("y_up", "true"),
+                                logical("y_up", true),
+                                logical("y_down", false),
+                                logical("x_right", true),
+                                text("z_up", "yes"),
+                                number("angle_deg", {0}),
                                 text("ROWORDER", "BOTTOM-UP"),
                                 text("origin", "lower"),
                                 text("origin", "lower left"),

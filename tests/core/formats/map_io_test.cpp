@@ -257,12 +257,13 @@ TEST(MapIo, NamesMissingFilesAndDirectories) {
   test::expect_input_error([&] { read_map(folder.path()); }, {folder.path().string(), "directory"});
 }
 
-TEST(MapIo, RefusesInfinityAfterScaling) {
+TEST(MapIo, RefusesWhatIsBeyondAnyHeightAfterScaling) {
   const TemporaryFolder folder;
   MapReadOptions options = with_pitch(1.0);
   options.scale = 1e300;
   const auto file = folder.file("a.csv", "1,2\n3,1e19\n");
-  test::expect_input_error([&] { read_map(file, options); }, {"a.csv", "1e+19", "row 2, column 2"});
+  test::expect_input_error([&] { read_map(file, options); },
+                           {"a.csv", "value 1 in row 1, column 1 of the map is 1e+300 nm", "is the unit right"});
 }
 
 TEST(MapIo, RefusesToWriteWhatItCouldNotRead) {

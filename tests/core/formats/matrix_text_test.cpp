@@ -84,7 +84,7 @@ TEST(MatrixText, NamesLineAndColumnOfWhatItRefuses) {
   const auto refused = [](const std::string& text, std::initializer_list<std::string> words) {
     test::expect_input_error([&] { parse_matrix_text(text, "map a.csv"); }, words);
   };
-  refused("1,2\n3\n", {"map a.csv", "line 2", "1 columns", "line 1 has 2"});
+  refused("1,2\n3\n", {"map a.csv", "line 2", "1 column", "line 1 has 2"});
   refused("# c\n1,2\n3,4,5\n", {"line 3", "3 columns", "line 2 has 2"});
   refused("1,2\n3,x4\n", {"line 2, column 2", "'x4'", "not a number"});
   refused("1,2\n3,4 5\n", {"line 2, column 2", "'4 5'"});

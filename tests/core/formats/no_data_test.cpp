@@ -47,7 +47,8 @@ TEST(NoData, TheLargestFloatAndItsKinAreNoHeights) {
     const auto history = remove_from(values);
     EXPECT_EQ(count_of_data(values), kPart) << mark;
     ASSERT_EQ(history.size(), 1u) << mark;
-    EXPECT_NE(history[0].find("no data: 30 pixels of 1e+20 or more"), std::string::npos) << history[0];
+    EXPECT_NE(history[0].find("no data: 30 pixels of the usual marks (1e+20 and more)"), std::string::npos)
+        << history[0];
     // Also where the reader has scaled the file's numbers already.
     if (mark < 1e300) {
       values = framed(mark * 1e-9);
@@ -132,6 +133,64 @@ TEST(NoData, RefusesAMarkThatIsSmearedIntoThePart) {
   EXPECT_TRUE(remove(smeared(-9999.0, 2000.0)).empty()) << "a part that spans as much";
 }
 
+// A frame over whose edge nobody has interpolated is not said to be so.
+TEST(NoData, SpeaksOfInterpolationOnlyWhereThereWasOne) {
+  for (const std::size_t cols : {std::size_t{0}, std::size_t{9}}) {
+    std::vector<double> values = framed(-9999.0);
+    try {
+      remove_no_data({&values, 1.0, {}, cols}, {}, "map a.csv", "map");
+      ADD_FAILURE() << "accepted";
+    } catch (const InputError& error) {
+      const std::string message = error.what();
+      EXPECT_EQ(
+          message,
+          "map a.csv: 30 pixels are -9999, and no other is nearer than 80: a mark for no data? Give `map no data` "
+          "-9999 if so, or `map no data` none if it is a height");
+    }
+  }
+  // A part with a rough rim, which is neither interpolated nor near.
+  std::vector<double> rough = smeared(-9999.0, 20.0);
+  for (std::size_t i = 0; i < rough.size(); ++i) {
+    if (rough[i] < -400.0 && rough[i] > -9998.0) rough[i] = (i % 3 == 0 ? -380.0 : 380.0);
+  }
+  try {
+    remove_no_data({&rough, 1.0, {}, 28}, {}, "map a.csv", "map");
+    ADD_FAILURE() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_EQ(std::string(error.what()).find("interpolated"), std::string::npos) << error.what();
+  }
+}
+
+TEST(NoData, KnowsTheUsualMarksAmongLargeNumbers) {
+  for (const double mark : {3.4e38, -3.40282e38, 1.7e38, 9.97e36, 9.96921e36, 1e20, -1e34, 1e37, 1.26765e30, 9.999e20,
+                            1.79e308, -8.98847e307, 1e300, double{1e35F}}) {
+    EXPECT_TRUE(is_huge_marker(mark)) << mark;
+  }
+  for (const double height : {1e150, -1e150, 2e25, 1e19, 1e39, 1e301, 3.3e38, 0.0, std::nan(""), HUGE_VAL}) {
+    EXPECT_FALSE(is_huge_marker(height)) << height;
+  }
+}
+
+// What is beyond any height and no usual mark is a slip: refused with its place, also among a few others.
+TEST(NoData, RefusesWhatIsNeitherAHeightNorAMark) {
+  const test::TemporaryFolder folder;
+  MapReadOptions options;
+  expect_input_error([&] { read_map(folder.file("a.csv", "# pitch_mm: 1\n1,2,3\n4,1e150,6\n"), options); },
+                     {"a.csv", "value 1e+150 in row 2, column 2", "from -1e+09 to 1e+09 nm", "`map no data`"});
+  expect_input_error([&] { read_map(folder.file("a.xyz", "0 0 1\n1 0 2\n0 1 -1e150\n1 1 4\n"), options); },
+                     {"a.xyz", "value -1e+150 in row 2, column 1", "nm"});
+  expect_input_error([&] { read_map(folder.file("b.csv", "# pitch_mm: 1\n# unit: m\n1,2,3\n"), options); },
+                     {"b.csv", "value 2 in row 1, column 2", "2e+09 nm"});
+  expect_input_error([&] { read_map(folder.file("c.csv", "# pitch_mm: 1\n1e150,1e150,3\n1e150,1e150,2\n"), options); },
+                     {"c.csv", "value 1e+150 in row 1, column 1"});
+  options.no_data = NoDataMarkers{{1e150}};
+  EXPECT_EQ(read_map(folder.path() / "a.csv", options).valid_pixels(), 5);
+  MapReadOptions rates;
+  rates.name = "tif";
+  rates.quantity = MapQuantity::Rate;
+  expect_input_error([&] { read_map(folder.path() / "a.csv", rates); }, {"1e+09 nm/s", "`tif no data`"});
+}
+
 TEST(NoData, LeavesHeightsAlone) {
   // Zero, flat parts, plateaus of removal functions, quantised and few heights, a spike on its own.
   std::vector<std::vector<double>> maps{framed(0.0), framed(130.0), framed(79.0), {1.0, 1.0, 1.0, 1.0, 50.0, 51.0}};
@@ -168,7 +227,7 @@ TEST(NoData, ComparesWithTheNumbersOfTheFile) {
   EXPECT_EQ(map.valid_pixels(), 3);
   EXPECT_EQ(map.at(1, 1), 3500.0);
   ASSERT_EQ(map.history.size(), 1u);
-  EXPECT_EQ(map.history[0], "no data: 1 pixels of -9999, as asked");
+  EXPECT_EQ(map.history[0], "no data: 1 pixel of -9999, as asked");
   map = read_map(folder.file("a.xyz", "0 0 -9999\n1 0 2\n0 1 3\n1 1 4\n"), options);
   EXPECT_EQ(map.valid_pixels(), 3);
   write_whole_file(folder.path() / "a.npy", npy_bytes(HeightMap({2, 2, 1, 1, {}}, {1.0, -9999.0, 3.0, 7.0})));
@@ -185,7 +244,7 @@ TEST(NoData, ComparesWithTheNumbersOfTheFile) {
   EXPECT_DOUBLE_EQ(map.at(0, 2), -2.5);
   const MapReadOptions none;
   map = read_map(folder.file("b.csv", "# pitch_mm: 1\n# nodata: -1\n-1,1\n2,3.5\n"), none);
-  EXPECT_EQ(map.history, std::vector<std::string>{"no data: 1 pixels of -1, as the file says"});
+  EXPECT_EQ(map.history, std::vector<std::string>{"no data: 1 pixel of -1, as the file says"});
   EXPECT_EQ(map.valid_pixels(), 3);
 }
 
@@ -200,7 +259,7 @@ TEST(NoData, RefusesHeightsThatNoPartSpans) {
   MapReadOptions rates;
   rates.name = "tif";
   rates.quantity = MapQuantity::Rate;
-  const auto fast = folder.file("b.csv", "# pitch_mm: 1\n# unit: m/s\n1,2\n3,4\n");
+  const auto fast = folder.file("b.csv", "# pitch_mm: 1\n# unit: mm/s\n1,2\n3,14\n");
   expect_input_error([&] { read_map(fast, rates); }, {"b.csv", "rates", "mm/s", "`tif no data`"});
 }
 

@@ -126,7 +126,7 @@ TEST(NpySidecar, ItsMarkersOfNoDataAndItsUnitHoldForTheArray) {
   const HeightMap read = read_map(file, options);
   EXPECT_EQ(read.at(0, 2), 3000.0);
   EXPECT_TRUE(std::isnan(read.at(0, 1)));
-  EXPECT_EQ(read.history, (std::vector<std::string>{"no data: 1 pixels of -9999, as the file says"}));
+  EXPECT_EQ(read.history, (std::vector<std::string>{"no data: 1 pixel of -9999, as the file says"}));
 }
 
 TEST(NpySidecar, TakesOneNumberForBothPitchesAndNullForNothing) {

@@ -84,6 +84,15 @@ TEST(RemarkGuard, LetsProsePass) {
                              "positive is up",
                              "not normalised",
                              "10x objective",
+                             "array is [y, x]",
+                             "columns [x, y, z]",
+                             "centre [x, y] of the part",
+                             "z[iy][ix]",
+                             "image size (x, y)",
+                             "data points (x, y)",
+                             "camera frame 12",
+                             "display system: X11",
+                             "image of the part",
                              "2 x 3 array of parts",
                              "9 rows x 12 columns",
                              "1 in = 25.4 mm",
@@ -154,6 +163,10 @@ TEST(RemarkGuard, FindsAFactor) {
                              "x 10^-6",
                              "values in %",
                              "micro",
+                             "x 1e-6 m",
+                             "e-6 m",
+                             "x e-6 m",
+                             "* 1e-9 m",
                              "divisor 1000"});
 }
 
@@ -170,12 +183,15 @@ TEST(RemarkGuard, FindsPlacesInAnotherUnit) {
 }
 
 TEST(RemarkGuard, FindsAnOrientation) {
-  expect_all(About::Rows, {"row 0 = top", "origin: upper left", "rows run down", "row 1 = largest y",
-                           "erste Zeile oben", "rows = x, columns = y", "columns: y", "first index is x",
-                           "x is the row index", "axis 0 = x", "rows along y", "Fortran order", "column-major"});
+  expect_all(About::Rows,
+             {"row 0 = top", "origin: upper left", "rows run down", "row 1 = largest y", "erste Zeile oben",
+              "rows = x, columns = y", "columns: y", "first index is x", "x is the row index", "axis 0 = x",
+              "rows along y", "Fortran order", "column-major", "array is [x, y]", "indexed z[ix][iy]",
+              "data stored as (x, y)", "index order x, y", "shape (nx, ny)", "array is [column, row]"});
   expect_all(About::Axes, {"image flipped", "y axis points downwards", "y down", "upside down", "rotated by 90 deg",
                            "gespiegelt", "viewed from the back", "seen through the substrate", "rear view",
-                           "mirror image", "x to the left", "x axis points left", "left-handed", "rot90"});
+                           "mirror image", "x to the left", "x axis points left", "left-handed", "rot90",
+                           "image coordinates", "screen convention", "seen from below"});
 }
 
 TEST(RemarkGuard, FindsAPlaceOfTheMap) {

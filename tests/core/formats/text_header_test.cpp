@@ -126,15 +126,18 @@ TEST(TextHeader, TakesAUnitThatIsNamedTwiceOrParted) {
 }
 
 TEST(TextHeader, AsksWhichWayTheMapLiesAndWhatItsNumbersAre) {
-  for (const char* line : {"# orientation = 3", "# rotation: 90 deg", "# clocking: 45 deg", "# view: back",
-                           "# y axis: down", "# transposed: yes"}) {
+  for (const char* line :
+       {"# orientation = 3", "# rotation: 90 deg", "# clocking: 45 deg", "# view: back", "# y axis: down",
+        "# transposed: yes", "# y_up: false", "# y down: yes", "# x axis left = true", "# angle: 15 deg",
+        "# angle_deg: 15", "# image coordinates", "# seen from below"}) {
     expect_unclear(line, About::Axes, {"line 2", "orientation"});
   }
-  for (const char* line : {"# order: F", "# dims: x, y", "# index order: x, y"}) {
+  for (const char* line : {"# order: F", "# dims: x, y", "# index order: x, y", "# columns: y", "# array is [x, y]"}) {
     expect_unclear(line, About::Rows, {"line 2", "orientation"});
   }
-  for (const char* line : {"# exponent: -6", "# prefix: micro", "# sign: -1", "# power of ten: -6", "# divisor: 1000",
-                           "# counts to nm: 0.25", "# normalised: yes"}) {
+  for (const char* line :
+       {"# exponent: -6", "# prefix: micro", "# sign: -1", "# power of ten: -6", "# divisor: 1000",
+        "# counts to nm: 0.25", "# normalised: yes", "# magnitude: -6", "# z_up: no", "# x 1e-6 m", "# e-6 m"}) {
     expect_unclear(line, About::Factor, {"line 2", "values"});
   }
   for (const char* line : {"# mask: 9", "# background 9", "# outside: 9", "# Hintergrund: 9"}) {
@@ -146,10 +149,16 @@ TEST(TextHeader, AsksWhichWayTheMapLiesAndWhatItsNumbersAre) {
   expect_unclear("# xmin=-25", About::Origin, {"xmin", "origin_mm"});
   expect_unclear("# x range: -25 25", About::Origin, {"x range", "origin_mm"});
   expect_unclear("# reference pixel: 5, 6", About::Origin, {"reference pixel"});
-  for (const char* line :
-       {"# orientation: none", "# row order: bottom-up", "# rotation: 0", "# flip: no", "# order: C", "# dims: y, x",
-        "# sign: +1", "# prefix: run7_", "# mask: 3 mm", "# outside diameter: 100 mm", "# x range: 0 5.5",
-        "# origin: lower", "# origin: lower left", "# rows: y; columns: x"}) {
+  for (const char* line : {"# orientation: none",  "# row order: bottom-up",
+                           "# rotation: 0",        "# flip: no",
+                           "# order: C",           "# dims: y, x",
+                           "# sign: +1",           "# prefix: run7_",
+                           "# mask: 3 mm",         "# outside diameter: 100 mm",
+                           "# x range: 0 5.5",     "# origin: lower",
+                           "# origin: lower left", "# rows: y; columns: x",
+                           "# y_up: true",         "# y down: no",
+                           "# z_up: yes",          "# angle: 0",
+                           "# columns: x",         "# array is [y, x]"}) {
     const MapHeader header = header_of(line);
     EXPECT_TRUE(says_nothing(header)) << line << (header.unclear.empty() ? "" : ": " + header.unclear[0].message);
   }

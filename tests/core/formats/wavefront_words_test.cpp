@@ -6,13 +6,30 @@ namespace dwell {
 namespace {
 
 TEST(WavefrontWords, CallDataAPathDifference) {
-  for (const char* text : {"OPD", "opd", "OPD_map", "m1_opd_2", "opdMap", "OPDMap", "/run/opd1", "WFR", "rms-wfe",
-                           "WFE_RMS", "wavefront", "Wavefront error", "transmittedWavefront", "wave front",
-                           "optical path difference", "Wellenfront", "front d'onde", "(OPD)"}) {
+  for (const char* text : {"OPD",
+                           "opd",
+                           "OPD_map",
+                           "m1_opd_2",
+                           "opdMap",
+                           "OPDMap",
+                           "/run/opd1",
+                           "WFR",
+                           "rms-wfe",
+                           "WFE_RMS",
+                           "wavefront",
+                           "Wavefront error",
+                           "transmittedWavefront",
+                           "wave front",
+                           "optical path difference",
+                           "Wellenfront",
+                           "front d'onde",
+                           "(OPD)",
+                           "double pass",
+                           "measured in double-pass"}) {
     EXPECT_TRUE(names_wavefront(text)) << text;
   }
   for (const char* text : {"", "surface", "opdrachtgever", "wave", "dropdown", "path", "front", "heights in waves",
-                           "topdown", "UPDATE", "copd"}) {
+                           "topdown", "UPDATE", "copd", "two passes of polishing"}) {
     EXPECT_FALSE(names_wavefront(text)) << text;
   }
 }
