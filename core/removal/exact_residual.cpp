@@ -97,7 +97,7 @@ class ResidualCheck {
       result = estimate();
     }
     result.surface = surface();
-    if (check_ != ExactCheck::Lattice) result.ripple = ripple();
+    if (check_ != ExactCheck::Lattice) add_ripple(result, progress);
     return result;
   }
 
@@ -195,17 +195,40 @@ class ResidualCheck {
     return map;
   }
 
-  /// RMS within pixels of the removal less the parabolic surface that has the means of the pixels around, over a few
-  /// pixels at random.
-  double ripple() const {
-    constexpr Index kPixels = 24;
-    const Index last = std::min(looked(), order_.largest() + kPixels);
-    const Index first = last > order_.largest() ? order_.largest() : 0;
-    std::vector<double> squares(static_cast<std::size_t>(last - first));
+  /// RMS within pixels of the removal less the parabolic surface that has the means of the pixels around, over pixels
+  /// at random: until it is known to kEnoughRipple, or so many are looked at as are cheap.
+  void add_ripple(ExactResidual& result, const Progress& progress) const {
+    constexpr Index kFirst = 24;
+    constexpr double kEnoughRipple = 0.02, kCheapRipple = 4e7, kPointsOfAPixel = 57.0;
+    const double cheap = kCheapRipple / (kPointsOfAPixel * std::max(1.0, probe_.points_under_tool()));
+    const Index most =
+        std::min(std::max(kFirst, static_cast<Index>(std::min(cheap, 1e5))), static_cast<Index>(pixels_.size()));
+    std::vector<Index> places = pixels_;
+    RandomNumbers random{2};
+    std::vector<double> squares;
+    for (Index next = kFirst; static_cast<Index>(squares.size()) < most; next *= 2) {
+      progress.check();
+      const auto first = static_cast<Index>(squares.size()), last = std::min(next, most);
+      squares.resize(static_cast<std::size_t>(last));
+      for (Index k = first; k < last; ++k) random.draw(places, static_cast<std::size_t>(k));
 #pragma omp parallel for num_threads(threads_) schedule(dynamic, 1)
-    for (Index k = first; k < last; ++k)
-      squares[static_cast<std::size_t>(k - first)] = ripple_in(map_.grid.centre(pixel_at(k)), k);
-    return std::sqrt(std::accumulate(squares.begin(), squares.end(), 0.0) / static_cast<double>(squares.size()));
+      for (Index k = first; k < last; ++k) {
+        const auto i = static_cast<std::size_t>(k);
+        squares[i] = ripple_in(map_.grid.centre(places[i]), k);
+      }
+      set_ripple(result, squares);
+      if (result.ripple_error <= kEnoughRipple * result.ripple) return;
+    }
+  }
+
+  static void set_ripple(ExactResidual& result, const std::vector<double>& squares) {
+    const auto n = static_cast<double>(squares.size());
+    const double mean = std::accumulate(squares.begin(), squares.end(), 0.0) / n;
+    double scatter = 0.0;
+    for (const double square : squares) scatter += (square - mean) * (square - mean);
+    result.ripple = std::sqrt(mean);
+    const double deviation = n > 1.0 ? std::sqrt(scatter / (n - 1.0) / n) : mean;
+    result.ripple_error = mean > 0.0 ? 0.5 * deviation / result.ripple : 0.0;
   }
 
   /// Mean square of the ripple in a pixel, at one random place in each of 4 x 4 parts of it.

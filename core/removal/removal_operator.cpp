@@ -4,12 +4,15 @@
 
 #include <stdexcept>
 
+#include "core/base/counted.h"
+
 namespace dwell {
 namespace {
 
 void check_size(const char* what, Index expected, Index actual) {
   if (expected != actual)
-    throw std::invalid_argument(fmt::format("{} has {} values; the operator needs {}", what, actual, expected));
+    throw std::invalid_argument(
+        fmt::format("{} has {}; the operator needs {}", what, counted(actual, "value"), expected));
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 
 #include <stdexcept>
 
+#include "core/base/counted.h"
+
 namespace dwell {
 namespace {
 
@@ -13,8 +15,8 @@ Index common_rows(const Parts& parts) {
   if (parts.empty()) throw std::invalid_argument("stacked removal: at least one part is required");
   for (const auto& part : parts) {
     if (part->rows() != parts.front()->rows()) {
-      throw std::invalid_argument(
-          fmt::format("stacked removal: a part has {} pixels; the first has {}", part->rows(), parts.front()->rows()));
+      throw std::invalid_argument(fmt::format("stacked removal: a part has {}; the first has {}",
+                                              counted(part->rows(), "pixel"), parts.front()->rows()));
     }
   }
   return parts.front()->rows();

@@ -129,6 +129,17 @@ TEST(ExactResidual, StatesTheRippleWithinPixels) {
   const PixelMeanTable narrow = tabulate_pixel_mean(gaussian_removal(1.0, fwhm, 3.0 * fwhm), map.grid);
   const ExactResidual rough = exact_residual(RemovalProbe(map.grid, narrow, strokes, more), map, map, {}, 1);
   EXPECT_GT(rough.ripple, 0.01 * -rough.statistics.mean);
+  EXPECT_GT(rough.ripple_error, 0.0);
+  EXPECT_LT(rough.ripple_error, 0.2 * rough.ripple);
+  // Whatever the lattice says, and however many pixels are looked at besides: it is that of the program.
+  HeightMap other = map;
+  for (std::size_t i = 0; i < other.values.size(); ++i) other.values[i] = static_cast<double>(i * i % 37);
+  for (const ExactCheck check : {ExactCheck::Figure, ExactCheck::EveryPixel}) {
+    const ExactResidual again =
+        exact_residual(RemovalProbe(map.grid, narrow, strokes, more), map, other, {true, true}, 1, {}, check);
+    EXPECT_EQ(again.ripple, rough.ripple);
+    EXPECT_EQ(again.ripple_error, rough.ripple_error);
+  }
   EXPECT_DOUBLE_EQ(rough.total(), std::hypot(rough.statistics.rms_about_zero(), rough.ripple));
 }
 
