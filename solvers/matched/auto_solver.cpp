@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/base/counted.h"
 #include "solvers/matched/model_pixels.h"
 #include "solvers/matched/resolution_matched_hessian.h"
 #include "solvers/matched/smooth_dwell.h"
@@ -227,7 +228,7 @@ class Run {
       points_products_ += products_;
       const double left_by_model = gradient_norm(model_);
       d_ -= point_.x;
-      const double promised = point_.value - model_.value, before = point_.value;
+      const double promised = point_.value - model_.value, before = point_.value, total = point_.x.sum();
       if (promised > 0.0) move_along_d();
       if (done()) break;
       const double gained = before - point_.value;
@@ -237,6 +238,9 @@ class Run {
       const double little = tolerance_ * std::abs(before);
       if (gained < little && (leads || promised < little) && points_products_ >= kLeastBeforeSettling) {
         settle_unless_uncertain(gained, factor);
+      } else if (points_products_ >= kLeastBeforeSettling &&
+                 rules_.undetermined(before, point_.value, total, point_.x.sum())) {
+        break;
       } else if (!leads && !exact && fine) {
         exact = true;
       } else if (!leads) {
@@ -285,10 +289,10 @@ class Run {
   void settle(double gained, CoarseFactor factor) {
     rules_.stop(
         SolverStatus::Settled,
-        fmt::format("settled: objective {:.6g} fell by {:.2g} in the last round, {} products on {} x {} pixels; {} "
+        fmt::format("settled: objective {:.6g} fell by {:.2g} in the last round, {} on {} x {} pixels; {} "
                     "operator pairs and {:.1f} pairs' worth of coarse transforms; |pg| {:.2g}",
-                    point_.value, gained, products_, factor.x, factor.y, summary_.iterations, summary_.coarse_pairs,
-                    gradient_norm(point_) / rules_.gradient_scale()));
+                    point_.value, gained, counted(products_, "product"), factor.x, factor.y, summary_.iterations,
+                    summary_.coarse_pairs, gradient_norm(point_) / rules_.gradient_scale()));
   }
 
   const DwellProblem& p_;

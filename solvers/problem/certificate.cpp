@@ -7,6 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "core/base/counted.h"
 #include "solvers/problem/lower_bound.h"
 
 namespace dwell {
@@ -24,8 +25,8 @@ double Certificate::gap() const {
 Certificate certify(const DwellProblem& problem, const Vector& t) {
   validate(problem);
   if (t.size() != problem.points()) {
-    throw std::invalid_argument(
-        fmt::format("dwell has {} values; the problem has {} points", t.size(), problem.points()));
+    throw std::invalid_argument(fmt::format("dwell has {}; the problem has {}", counted(t.size(), "value"),
+                                            counted(problem.points(), "point")));
   }
   if (!t.allFinite()) throw std::invalid_argument("dwell has a value that is not finite");
 

@@ -7,6 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "core/base/counted.h"
 #include "solvers/problem/blocks.h"
 
 namespace dwell {
@@ -15,7 +16,7 @@ namespace {
 [[noreturn]] void reject(const std::string& message) { throw std::invalid_argument("DwellProblem." + message); }
 
 void check_size(const char* field, Index actual, Index expected) {
-  if (actual != expected) reject(fmt::format("{} has {} values; {} required", field, actual, expected));
+  if (actual != expected) reject(fmt::format("{} has {}; {} required", field, counted(actual, "value"), expected));
 }
 
 void check_finite(const char* field, const Vector& v) {
@@ -80,7 +81,7 @@ void validate(const DwellProblem& p) {
   if (p.reference.size() != 0) check_size("reference", p.reference.size(), p.removal->cols());
   if (p.weights.size() != 0) check_size("weights", p.weights.size(), p.removal->rows());
   if (p.form.cols() > kMaxFormTerms)
-    reject(fmt::format("form has {} columns; at most {} accepted", p.form.cols(), kMaxFormTerms));
+    reject(fmt::format("form has {}; at most {} accepted", counted(p.form.cols(), "column"), kMaxFormTerms));
   if (p.form.cols() != 0) check_size("form rows", p.form.rows(), p.removal->rows());
   validate_parts(p);
   check_finite("target", p.target);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "core/base/counted.h"
 #include "core/base/errors.h"
 
 namespace dwell {
@@ -26,6 +27,8 @@ std::string to_string(SolverStatus status) {
       return "interrupted";
     case SolverStatus::Failed:
       return "failed";
+    case SolverStatus::Undetermined:
+      return "undetermined";
     case SolverStatus::Stalled:
       return "stalled";
   }
@@ -49,8 +52,8 @@ SolverSummary DwellSolver::solve(const DwellProblem& problem, Vector& t) {
   validate(problem);
   if (t.size() == 0) t = problem.lower;
   if (t.size() != problem.points()) {
-    throw std::invalid_argument(
-        fmt::format("start has {} values; the problem has {} points", t.size(), problem.points()));
+    throw std::invalid_argument(fmt::format("start has {}; the problem has {}", counted(t.size(), "value"),
+                                            counted(problem.points(), "point")));
   }
   if (!t.allFinite()) throw std::invalid_argument("start has a value that is not finite");
   clip_to_bounds(problem, t);

@@ -33,6 +33,9 @@ enum class SolverStatus {
   TimeLimit,
   Interrupted,  // the progress handle said stop
   Failed,
+  /// The problem has no weight that determines its answer, and the objective falls only by ever more dwell: feasible,
+  /// but how far to go is for a time price or smoothness to say.
+  Undetermined,
   Stalled,  // a third-party solver gave up before any of our rules was met: feasible, but no optimum within tolerance
 };
 std::string to_string(SolverStatus status);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cmath>
 
 #include "solvers/problem/box_minimiser.h"
 #include "solvers/problem/dwell_solver.h"
@@ -13,6 +14,9 @@ namespace dwell {
 ///   converged       |projected gradient| <= gradient_tolerance * |A' W P z|
 ///   settled         half as much work again, at least settle_iterations, lowers the objective by less than
 ///                   objective_tolerance of itself
+///   undetermined    without smoothness, price and reference: after a tenth of the most iterations, in half as much work
+///                   again the dwell grows by over a tenth, and the objective falls by less than a tenth of that, both
+///                   as logarithms
 ///   limits          iterations and coarse work, seconds
 ///   interrupted     the progress handle says stop; asked after every iteration and, by poll(), within long ones
 ///   failed          an objective or a gradient that is not finite
@@ -22,8 +26,7 @@ namespace dwell {
 class StoppingRules {
  public:
   /// The clock starts here. All three must outlive this.
-  StoppingRules(const DwellProblem& problem, const SolverOptions& options, SolverSummary& summary)
-      : problem_(problem), options_(options), summary_(summary) {}
+  StoppingRules(const DwellProblem& problem, const SolverOptions& options, SolverSummary& summary);
 
   /// Where the solve starts: the scale |A' W P z| of its gradients (1 in place of zero) and its objective [nm^2].
   void start(double gradient_scale, double value);
@@ -49,16 +52,23 @@ class StoppingRules {
   template <class ProjectedGradient>
   bool settled(double value, const ProjectedGradient& projected_gradient) {
     if (stopped() || !cycle_is_over()) return false;
-    if (falls_still(value)) return false;
-    settle(value, projected_gradient());
-    return true;
+    if (value >= checkpoint_ - options_.objective_tolerance * std::abs(checkpoint_)) {
+      settle(value, projected_gradient());
+      return true;
+    }
+    if (undetermined(checkpoint_, value, checkpoint_total_, total_)) return true;
+    set_checkpoint(value);
+    return false;
   }
+  /// True, and stopped, if the problem has no weights and, from `before` to `value` [nm^2], the objective fell too
+  /// little for the dwell that it took, from `total_before` to `total` [s]. For solvers with rounds of their own.
+  bool undetermined(double before, double value, double total_before, double total);
   /// Stopped: nothing that the solver can do lowers the objective any more.
   void stop_at_rest(double value, double projected_gradient);
 
  private:
   bool cycle_is_over() const;
-  bool falls_still(double value);
+  void set_checkpoint(double value);
   void settle(double value, double projected_gradient);
   void show(double value);
 
@@ -70,6 +80,8 @@ class StoppingRules {
   double gradient_scale_ = 1.0;
   // The objective is compared at iterations a cycle apart.
   double checkpoint_ = 0.0;
+  double checkpoint_total_ = 0.0, total_ = 0.0;  // of the dwell [s], kept of problems without weights alone
+  bool weightless_ = false;
   long checkpoint_iteration_ = 0;
 };
 
