@@ -9,6 +9,7 @@
 #include "cli/result_folder.h"
 #include "cli/standard_streams.h"
 #include "cli/terminal.h"
+#include "core/base/counted.h"
 #include "core/base/duration_text.h"
 #include "core/base/units.h"
 #include "runs/job/job_file.h"
@@ -38,14 +39,15 @@ std::string plan_text(const PlannedJob& plan, const WrittenPlan& written) {
   text += fmt::format("before    {} ({} removed)\n", in_words(plan.part().before), to_string(plan.part().form));
   text += aim_line(correction_aim(plan.job));
   text += tool_lines(tool_sheet(plan.part().tif));
-  text += fmt::format("path      {}, {} points, {:.6g} mm, longest jump {:.4g} mm, {} lifts\n", plan.laid.path.kind,
-                      plan.laid.metrics.points, plan.laid.metrics.length, plan.laid.metrics.longest_jump,
-                      plan.laid.metrics.lifts);
+  text += fmt::format("path      {}, {}, {:.6g} mm, longest jump {:.4g} mm, {}\n", plan.laid.path.kind,
+                      counted(plan.laid.metrics.points, "point"), plan.laid.metrics.length,
+                      plan.laid.metrics.longest_jump, counted(plan.laid.metrics.lifts, "lift"));
   for (const std::string& note : plan.laid.path.notes) text += fmt::format("          {}\n", note);
   text += weight_lines(plan);
-  text += fmt::format("solver    {}: {} after {} iterations, {} operator applications, {:.2f} s\n",
-                      to_string(plan.dwell.solver.kind), to_string(plan.dwell.solver.status),
-                      plan.dwell.solver.iterations, plan.dwell.solver.operator_applications, plan.dwell.solver.seconds);
+  text +=
+      fmt::format("solver    {}: {} after {}, {}, {:.2f} s\n", to_string(plan.dwell.solver.kind),
+                  to_string(plan.dwell.solver.status), counted(plan.dwell.solver.iterations, "iteration"),
+                  counted(plan.dwell.solver.operator_applications, "operator application"), plan.dwell.solver.seconds);
   text += optimum_line(plan.dwell);
   text += fmt::format("dwell     total {}, from {:.4g} s to {:.4g} s a point, step RMS {:.4g} s\n",
                       duration_text(plan.dwell.seconds.sum()), plan.dwell.seconds.minCoeff(),
@@ -53,13 +55,13 @@ std::string plan_text(const PlannedJob& plan, const WrittenPlan& written) {
   text += fmt::format("feed      {:.4g} to {:.4g} mm/min, {} of {} segments at a limit\n",
                       units::mm_per_min(plan.program.feed.min_speed), units::mm_per_min(plan.program.feed.max_speed),
                       plan.program.feed.segments_limited, plan.laid.path.size());
-  text +=
-      fmt::format("predicted {} by the solver, on a lattice of {}{}\n", in_words(plan.dwell.residual),
-                  lattice_words(plan.dwell.lattice.kernel),
-                  plan.dwell.lattices > 1 ? fmt::format(" (solved {} times, each finer)", plan.dwell.lattices) : "");
+  text += fmt::format(
+      "predicted {} by the solver, on a lattice of {}{}\n", in_words(plan.dwell.residual),
+      lattice_words(plan.dwell.lattice.kernel),
+      plan.dwell.lattices > 1 ? fmt::format(" (solved {}, each finer)", counted(plan.dwell.lattices, "time")) : "");
   text += fmt::format("program   {} by simulating program.nc as read back\n", in_words(written.exact.statistics));
   text += exact_lines(written.exact) + surface_lines(written.surface);
-  text += fmt::format("time      {} for the run: dwell {:.2f} s, {}\n", duration_text(written.total_seconds()),
+  text += fmt::format("time      {} for the run: dwell {:.2f} s, {}\n", duration_text(written.run_seconds),
                       plan.dwell.seconds.sum(), travel_words(written.travel));
   for (const std::string& warning : written.warnings) text += fmt::format("warning   {}\n", warning);
   return text;

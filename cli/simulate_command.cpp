@@ -14,8 +14,10 @@
 #include "cli/output_files.h"
 #include "cli/progress_line.h"
 #include "cli/terminal.h"
+#include "core/base/counted.h"
 #include "core/base/duration_text.h"
 #include "core/base/errors.h"
+#include "core/base/whole_file.h"
 #include "core/formats/map_formats.h"
 #include "runs/drawing/picture.h"
 #include "runs/job/option_flags.h"
@@ -57,6 +59,20 @@ std::string given_sentence(const std::string& flag, const std::string& now, cons
                      then.empty() ? "none" : then);
 }
 
+/// Whether two names are of one file.
+bool are_same_file(const std::string& a, const std::string& b) {
+  std::error_code none;
+  return a == b || std::filesystem::equivalent(a, b, none);
+}
+
+/// The sentence of a file, which may be a copy of the plan's.
+std::string given_file_sentence(const std::string& flag, const std::string& now, const std::string& then) {
+  std::error_code none;
+  const bool both = std::filesystem::is_regular_file(now, none) && std::filesystem::is_regular_file(then, none);
+  const bool copy = both && sha256_of_file(now) == sha256_of_file(then);
+  return given_sentence(flag, now, then) + (copy ? ", which holds the same" : "");
+}
+
 SimulationRequest request_of_plan(const SimulateArguments& a) {
   const RecordedPlan plan = read_recorded_plan(a.plan);
   std::set<std::string> flags;
@@ -65,13 +81,23 @@ SimulationRequest request_of_plan(const SimulateArguments& a) {
     flags.insert(record->flag);
     if (record->flag == "threads" || record->flag == "max-pixels") continue;  // change no result
     const std::string now = record->get(request.options), then = record->get(plan.options);
-    if (now != then) request.source.given.push_back(given_sentence(record->flag, now, then));
+    const bool file = record->flag == "map" || record->flag == "tif";
+    if (file && !are_same_file(now, then)) {
+      request.source.given.push_back(given_file_sentence(record->flag, now, then));
+    } else if (!file && now != then) {
+      request.source.given.push_back(given_sentence(record->flag, now, then));
+    }
   }
   request.source.other.map |= flags.contains("map") || flags.contains("map-steps");
   request.source.other.tif |= flags.contains("tif");
   if (!a.program.empty()) {
     flags.insert("program");
-    request.source.given.push_back(given_sentence("program", a.program, request.program));
+    if (!are_same_file(a.program, request.program)) {
+      request.source.given.push_back(given_file_sentence("program", a.program, request.program));
+    } else if (sha256_of_file(a.program) != plan.program_sha256) {
+      request.source.given.push_back(
+          fmt::format("program given as it is now: {}, which has changed since the plan was made", a.program));
+    }
     request.program = a.program;
   }
   check_recorded_inputs(plan, flags);
@@ -99,17 +125,26 @@ void check_outputs(const SimulateArguments& a, const JobOptions& options, const 
       read);
 }
 
+/// ", of it lifted moves 1.9 s, at the plan's maximum feed"; rapids say no time of their own.
+std::string lifted_words(const Simulation& s) {
+  const double seconds = s.program.rapid_seconds(s.max_feed);
+  if (!(seconds > 0.0)) return "";
+  return fmt::format(", of it lifted moves {:.2f} s, at {} feed", seconds,
+                     s.max_feed ? "the plan's maximum" : "the program's fastest");
+}
+
 std::string simulation_text(const Simulation& s) {
   std::string notes;
   for (const std::string& note : s.program.notes) notes += fmt::format("          {}\n", note);
   std::string origin = s.plan.empty() ? "" : fmt::format("plan      {}\n", s.plan);
   for (const std::string& difference : s.differences) origin += fmt::format("differs   {}\n", difference);
   return origin +
-         fmt::format("program   {}: {} steps, {:.6g} mm with removal, {}\n", s.program.file, s.program.steps.size(),
-                     s.program.removing_length(), duration_text(s.program.total_seconds())) +
+         fmt::format("program   {}: {}, {:.6g} mm with removal, {}{}\n", s.program.file,
+                     counted(s.program.steps.size(), "step"), s.program.removing_length(),
+                     duration_text(s.program.run_seconds(s.max_feed)), lifted_words(s)) +
          notes + map_line(s.map.grid, s.before.valid_pixels) + tool_lines(tool_sheet(s.tif)) +
-         fmt::format("before    {} ({} removed, {} pixels)\n", in_words(s.before), to_string(s.terms),
-                     s.before.valid_pixels) +
+         fmt::format("before    {} ({} removed, {})\n", in_words(s.before), to_string(s.terms),
+                     counted(s.before.valid_pixels, "pixel")) +
          fmt::format("after     {} ({} removed)\n", in_words(s.after.statistics), to_string(s.terms)) +
          exact_lines(s.after);
 }

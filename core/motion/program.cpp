@@ -20,6 +20,11 @@ double Program::total_seconds() const {
   return total;
 }
 
+double Program::rapid_seconds(std::optional<double> feed) const {
+  const double speed = feed.value_or(fastest_feed);
+  return speed > 0.0 ? rapid_length / speed : 0.0;
+}
+
 double Program::removing_length() const {
   double total = 0.0;
   for (const ProgramStep& step : steps) {

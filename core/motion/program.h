@@ -54,8 +54,15 @@ struct Program {
   /// In the order of their steps, none for steps before the first change: there the machine's own setting holds. What a
   /// program removes is computed from its steps as written, whatever the mode.
   std::vector<PathModeChange> path_modes{};
+  /// Of rapids before the last of the work, up and across, as far as the file says where they begin [mm].
+  double rapid_length = 0.0;
+  double fastest_feed = 0.0;  // of its feed moves, or what its header allows [mm/s]; 0 where neither is known
 
-  double total_seconds() const;    // all steps [s]
+  double total_seconds() const;  // all steps [s]; rapids count as none
+  /// Of rapids, which no program says: at `feed` [mm/s], or else at the fastest feed.
+  double rapid_seconds(std::optional<double> feed = {}) const;
+  /// Of the run: all steps, and the rapids. The one definition of a run's time, for plans and simulations.
+  double run_seconds(std::optional<double> feed = {}) const { return total_seconds() + rapid_seconds(feed); }
   double removing_length() const;  // [mm]
 };
 

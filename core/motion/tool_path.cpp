@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/base/counted.h"
 #include "core/base/errors.h"
 
 namespace dwell {
@@ -83,7 +84,8 @@ std::vector<Stroke> halting_strokes(const ToolPath& path) {
 void validate(const ToolPath& path) {
   if (path.points.empty()) throw InputError("tool path has no dwell points; at least one is required");
   if (path.lifted.size() != path.points.size()) {
-    throw InputError(fmt::format("tool path has {} points but {} lift flags", path.points.size(), path.lifted.size()));
+    throw InputError(
+        fmt::format("tool path has {} but {} lift flags", counted(path.points.size(), "point"), path.lifted.size()));
   }
   for (std::size_t j = 0; j < path.size(); ++j) {
     if (!std::isfinite(path.points[j].x) || !std::isfinite(path.points[j].y)) {

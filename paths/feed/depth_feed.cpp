@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/counted.h"
 #include "core/base/errors.h"
 #include "core/base/poll.h"
 #include "core/map/nearest_pixel.h"
@@ -15,8 +16,8 @@ namespace {
 void check(const ToolPath& path, const std::vector<double>& pitch, const DepthFeedJob& job) {
   validate(path);
   if (pitch.size() != path.size()) {
-    throw InputError(
-        fmt::format("depth feed: {} pitches for {} dwell points; required one each", pitch.size(), path.size()));
+    throw InputError(fmt::format("depth feed: {} pitches for {}; required one each", pitch.size(),
+                                 counted(path.size(), "dwell point")));
   }
   for (std::size_t j = 0; j < pitch.size(); ++j) {
     if (std::isfinite(pitch[j]) && pitch[j] > 0.0) continue;

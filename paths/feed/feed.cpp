@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/counted.h"
 #include "core/base/errors.h"
 
 namespace dwell {
@@ -23,8 +24,8 @@ void check(const FeedLimits& limits) {
 
 void check(const std::vector<Stroke>& strokes, const Eigen::VectorXd& dwell) {
   if (static_cast<std::size_t>(dwell.size()) != strokes.size()) {
-    throw InputError(
-        fmt::format("feed: {} dwell times for {} strokes; one a stroke required", dwell.size(), strokes.size()));
+    throw InputError(fmt::format("feed: {} for {} strokes; one a stroke required", counted(dwell.size(), "dwell time"),
+                                 strokes.size()));
   }
   for (Index j = 0; j < dwell.size(); ++j) {
     if (!(std::isfinite(dwell[j]) && dwell[j] >= 0.0)) {

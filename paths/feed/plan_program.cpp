@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/counted.h"
 #include "core/base/errors.h"
 
 namespace dwell {
@@ -59,7 +60,8 @@ double dwell_within_feed(std::size_t point, double length, double dwell, double 
 Program program_of(const ToolPath& path, const std::vector<double>& dwell_s, Motion motion, double max_feed_mm_per_s) {
   validate(path);
   if (dwell_s.size() != path.size()) {
-    throw InputError(fmt::format("tool path has {} points but {} dwell times", path.size(), dwell_s.size()));
+    throw InputError(
+        fmt::format("tool path has {} but {}", counted(path.size(), "point"), counted(dwell_s.size(), "dwell time")));
   }
   if (!(max_feed_mm_per_s > 0.0) || !std::isfinite(max_feed_mm_per_s)) {
     throw InputError(fmt::format("maximum feed = {} mm/s; required finite and > 0", max_feed_mm_per_s));
@@ -67,11 +69,13 @@ Program program_of(const ToolPath& path, const std::vector<double>& dwell_s, Mot
   const std::vector<Stroke> strokes = strokes_of(path, motion);
   Program program;
   program.steps.reserve(2 * strokes.size());
+  program.fastest_feed = max_feed_mm_per_s;
   for (std::size_t j = 0; j < strokes.size(); ++j) {
     const Stroke& stroke = strokes[j];
     const double seconds = dwell_within_feed(j + 1, stroke.length(), dwell_s[j], max_feed_mm_per_s);
     if (j > 0 && path.lifted[j]) {
       program.steps.push_back({strokes[j - 1].finish, stroke.start, 0.0, false});
+      program.rapid_length += distance(strokes[j - 1].finish, stroke.start);
     } else if (j > 0 && motion == Motion::Stop) {
       const Point from = strokes[j - 1].finish;
       add_step(program, from, stroke.start, distance(from, stroke.start) / max_feed_mm_per_s);

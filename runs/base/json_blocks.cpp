@@ -97,14 +97,17 @@ nlohmann::ordered_json dwell_block(const DwellFigures& dwell) {
   return {{"total_s", dwell.total}, {"min_s", dwell.min}, {"max_s", dwell.max}, {"step_rms_s", dwell.step_rms}};
 }
 
-ProgramFigures program_figures(const Program& program, const ExactResidual& residual, const std::string& removed) {
+ProgramFigures program_figures(const Program& program, const ExactResidual& residual, const std::string& removed,
+                               std::optional<double> max_feed) {
   return {program.file,
           program.steps.size(),
           program.removing_length(),
-          program.total_seconds(),
+          program.run_seconds(max_feed),
+          program.rapid_seconds(max_feed),
           residual.statistics,
           residual.standard_error,
           residual.ripple,
+          residual.ripple_error,
           residual.total(),
           residual.checked,
           residual.lattice_error,
@@ -117,12 +120,14 @@ nlohmann::ordered_json program_block(const ProgramFigures& program) {
           {"steps", program.steps},
           {"removing_length_mm", program.removing_length},
           {"total_s", program.seconds},
+          {"lift_s", program.rapid_seconds},
           {"removed", program.removed},
           {"residual_rms_nm", program.residual.rms},
           {"residual_pv_nm", program.residual.pv},
           {"residual_mean_nm", program.residual.mean},
           {"residual_rms_standard_error_nm", program.standard_error},
           {"ripple_within_pixels_rms_nm", program.ripple},
+          {"ripple_within_pixels_standard_error_nm", program.ripple_error},
           {"total_rms_nm", program.total},
           {"pixels_checked", program.checked},
           {"lattice_error_rms_nm", program.lattice_error},

@@ -76,17 +76,21 @@ struct ProgramFigures {
   std::string file;
   std::size_t steps = 0;
   double removing_length = 0.0;  // [mm]
-  double seconds = 0.0;          // [s]
+  double seconds = 0.0;          // of the run [s]
+  double rapid_seconds = 0.0;    // of that, of rapids [s]
   MapStatistics residual;        // by simulation, form terms removed
   double standard_error = 0.0;   // of its RMS [nm]
   double ripple = 0.0;           // within pixels, RMS [nm]
+  double ripple_error = 0.0;     // standard error of it [nm]
   double total = 0.0;            // both [nm]
   Index checked = 0;             // pixels at which the removal function itself was integrated
   double lattice_error = 0.0;    // RMS of the lattice's removal less the exact one [nm]
   std::string removed;           // which form terms
   std::vector<std::string> notes;
 };
-ProgramFigures program_figures(const Program& program, const ExactResidual& residual, const std::string& removed);
+/// `max_feed` [mm/s]: that of rapids, where it is known (Program::rapid_seconds).
+ProgramFigures program_figures(const Program& program, const ExactResidual& residual, const std::string& removed,
+                               std::optional<double> max_feed = {});
 nlohmann::ordered_json program_block(const ProgramFigures& program);
 
 /// A solve with given weights and its result: a trial of a search, or a point of a sweep.

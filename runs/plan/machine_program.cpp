@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "core/base/counted.h"
+#include "core/base/errors.h"
 #include "paths/feed/plan_program.h"
 
 namespace dwell {
@@ -15,6 +19,14 @@ MachineProgram make_machine_program(const LaidPath& laid, const DwellPlan& dwell
   if (laid.motion == Motion::Stop) program.feed.min_speed = program.feed.max_speed = limits.max_feed;
   program.table = feed_table_of(laid.path, {dwell.seconds.begin(), dwell.seconds.end()}, laid.motion,
                                 machine.max_feed_mm_per_min, progress);
+  const bool idle = std::all_of(program.table.dwell_s.begin(), program.table.dwell_s.end(),
+                                [](double seconds) { return seconds == 0.0; });
+  if (idle && program_of(program.table).steps.empty()) {
+    throw InputError(fmt::format(
+        "the plan stays at {} for no time: its program would hold no move and no halt; required a path with a move, a "
+        "`min dwell` above 0, or a smaller `time price`",
+        counted(laid.path.size(), "dwell point")));
+  }
   if (program.feed.segments_infeasible > 0) {
     program.limits.push_back(fmt::format("{} of {} segments run faster than `max feed` {} mm/min allows",
                                          program.feed.segments_infeasible, laid.path.size(),
@@ -30,7 +42,11 @@ TravelTimes travel_times(const LaidPath& laid, double lift_height_mm, const Mach
     const std::vector<double> no_dwell(laid.path.size(), 0.0);
     times.between_stops = program_of(laid.path, no_dwell, laid.motion, max_feed).total_seconds();
   }
-  times.lifted = (laid.metrics.lifted_length + lift_height_mm * lifts) / max_feed;
+  double across = 0.0;  // as the program goes: from the end of a stroke to the beginning of the next
+  for (std::size_t j = 1; j < laid.strokes.size(); ++j) {
+    if (laid.path.lifted[j] != 0) across += distance(laid.strokes[j - 1].finish, laid.strokes[j].start);
+  }
+  times.lifted = (across + lift_height_mm * lifts) / max_feed;
   times.down = lift_height_mm * (lifts + 1.0) / max_feed;
   return times;
 }

@@ -19,7 +19,8 @@ struct MachineProgram {
   std::vector<std::string> limits;  // that were reached, one sentence each
 };
 
-/// Turns dwell times into a program. Throws InputError as feed_table_of. Cost O(points).
+/// Turns dwell times into a program. Throws InputError as feed_table_of, and for a program
+/// that would hold no step. Cost O(points).
 MachineProgram make_machine_program(const LaidPath& laid, const DwellPlan& dwell, const MachineLimits& machine,
                                     const Progress& progress = {});
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string_view>
 
+#include "core/base/counted.h"
 #include "core/base/errors.h"
 #include "core/base/number_text.h"
 #include "core/base/poll.h"
@@ -209,7 +210,7 @@ class FeedTableReader {
       fields[count++] = rest.substr(0, comma);
       if (comma == std::string_view::npos) break;
       rest.remove_prefix(comma + 1);
-      if (count == kColumnCount) fail(fmt::format("\"{}\" has more than {} columns", line, kColumnCount));
+      if (count == kColumnCount) fail(fmt::format("\"{}\" has more than {}", line, counted(kColumnCount, "column")));
     }
     if (count < kColumnCount) fail(fmt::format("\"{}\" has {} of {} columns: {}", line, count, kColumnCount, kColumns));
     const std::size_t expected = table_.path.size() + 1;
@@ -228,9 +229,9 @@ class FeedTableReader {
     const std::size_t n = table_.path.size();
     if (n != *rows_ || n == 0) {
       throw InputError(
-          fmt::format("{}: {} rows, but the header says {}; required the same, at least 1 "
+          fmt::format("{}: {}, but the header says {}; required the same, at least 1 "
                       "(truncated or edited?)",
-                      file_, n, *rows_));
+                      file_, counted(n, "row"), *rows_));
     }
     double sum = 0.0;
     for (const double dwell : table_.dwell_s) sum += dwell;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -12,6 +13,7 @@
 #include "core/base/units.h"
 #include "core/base/utf8_text.h"
 #include "core/base/value_range.h"
+#include "core/formats/path_remark.h"
 #include "core/map/unit_mention.h"
 #include "runs/programs/gcode_block.h"
 #include "runs/programs/gcode_tool.h"
@@ -91,7 +93,7 @@ class GcodeInterpreter {
   void read_comment(std::string_view comment) {
     constexpr std::string_view kPrefix = "dwell:";
     while (comment.starts_with(' ')) comment.remove_prefix(1);
-    if (!comment.starts_with(kPrefix)) return check_units(comment);
+    if (!comment.starts_with(kPrefix)) return check_remark(comment);
     comment.remove_prefix(kPrefix.size());
     while (!comment.empty()) {
       const std::size_t comma = comment.find(',');
@@ -103,15 +105,21 @@ class GcodeInterpreter {
     }
   }
 
-  /// A comment that names another unit than the program is read in is not skipped.
-  void check_units(std::string_view comment) const {
+  /// A comment that names another unit than the program is read in, or other axes, is not skipped.
+  void check_remark(std::string_view comment) const {
     if (is_record(comment)) return;
-    const auto unit = find_other_unit(comment, reading_.halts == HaltUnit::Milliseconds);
-    if (!unit) return;
-    fail(
-        fmt::format("\"{}\" in the comment \"{}\" looks like another unit; accepted: X, Y, Z in mm and F in mm/min, or "
-                    "the comment without a unit",
-                    with_escaped_bytes(*unit), with_escaped_bytes(trim(comment))));
+    if (const auto unit = find_other_unit(comment, reading_.halts == HaltUnit::Milliseconds)) {
+      fail(fmt::format(
+          "\"{}\" in the comment \"{}\" looks like another unit; accepted: X, Y, Z in mm and F in mm/min, or "
+          "the comment without a unit",
+          with_escaped_bytes(*unit), with_escaped_bytes(trim(comment))));
+    }
+    if (const auto other = find_other_axes(comment)) {
+      fail(
+          fmt::format("the comment \"{}\" looks like {}; accepted: X, Y as those of the map in mm, or the comment left "
+                      "out",
+                      with_escaped_bytes(trim(comment)), *other));
+    }
   }
 
   void read_entry(std::string_view entry) {
@@ -172,8 +180,10 @@ class GcodeInterpreter {
   // The part's coordinates are those of one offset of the origin; of how far apart two are the program says nothing.
   void set_work_offset(int offset) {
     constexpr int kUsual = 540;
-    if (!work_offset_ && (x_ || y_ || z_)) work_offset_ = kUsual;
-    if (work_offset_ && *work_offset_ != offset) {
+    // Before the tool is brought anywhere but up, no place hangs on an offset.
+    const bool placed = x_ || y_ || (z_ && at_work(*z_));
+    if (!work_offset_ && placed) work_offset_ = kUsual;
+    if (placed && *work_offset_ != offset) {
       fail(
           fmt::format("G{} after moves with G{}: where the one lies in the other the program does not say; required "
                       "one of them throughout",
@@ -237,6 +247,7 @@ class GcodeInterpreter {
   }
 
   void add_step(const ProgramStep& step) {
+    if (step.seconds > 0.0) program_.rapid_length += std::exchange(rapid_length_, 0.0);
     if (step.removes) {
       if (!at_work_) at_work_ = tool_;
       const std::string difference = tool_difference(*at_work_, tool_);
@@ -282,6 +293,7 @@ class GcodeInterpreter {
   }
 
   void rapid(std::optional<double> x, std::optional<double> y, std::optional<double> z) {
+    if (x_ && y_ && z_) rapid_length_ += std::hypot(*x - *x_, *y - *y_, *z - *z_);
     if (x == x_ && y == y_) return;
     const bool arrives = !x_ && !y_ && !z_;  // from where the machine stood before the program
     const bool lifted = z_ && z && !at_work(*z_) && !at_work(*z);
@@ -315,6 +327,7 @@ class GcodeInterpreter {
       fail(fmt::format("a move of {} mm with F{} takes {:.3g} s; required at most {} s", length, *feed_, seconds,
                        ranges::kTime.most));
     }
+    program_.fastest_feed = std::max(program_.fastest_feed, length / seconds);
     add_step({start, finish, seconds, at_work(*z_) && at_work(*z)});
   }
 
@@ -353,6 +366,7 @@ class GcodeInterpreter {
   GcodeTool tool_;
   std::optional<GcodeTool> at_work_;  // the tool when it was first at work
   std::optional<double> x_, y_, z_;
+  double rapid_length_ = 0.0;  // since the last of the work [mm]
   std::optional<int> motion_;
   std::optional<int> work_offset_;
   std::optional<double> feed_;

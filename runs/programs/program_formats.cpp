@@ -12,6 +12,9 @@ bool is_feed_table(std::string_view text) { return text.starts_with("# dwell") |
 Program read_table(std::string_view text, const std::string& file, const GcodeReading&, const Progress& progress) {
   Program program = program_of(parse_feed_table(text, file, progress));
   program.file = file;
+  if (program.rapid_length > 0.0) {
+    program.notes.emplace_back("the table says no height of its lifts: the ways up and down take their time besides");
+  }
   return program;
 }
 

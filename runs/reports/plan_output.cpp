@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/base/counted.h"
 #include "core/base/errors.h"
 #include "core/base/units.h"
 #include "core/base/version.h"
@@ -65,17 +66,33 @@ void write_pictures(const PlannedJob& plan, const WrittenPlan& written, const Ou
     return after_picture(part.figure, written.exact.surface, options.figure_range, title, format, progress);
   });
   write("dwell", [&](FigureFormat format) {
-    const std::string title = fmt::format("Dwell: {} points, total {:.4g} s", path.size(), plan.dwell.seconds.sum());
+    const std::string title =
+        fmt::format("Dwell: {}, total {:.4g} s", counted(path.size(), "point"), plan.dwell.seconds.sum());
     return dwell_picture(path, plan.program.table.dwell_s, {title, "s", false, {}, {}}, format, progress);
   });
   write("path", [&](FigureFormat format) {
-    const std::string title = fmt::format("Path: {}, {} points, {:.4g} mm, {} lifts", path.kind, path.size(),
-                                          plan.laid.metrics.length, plan.laid.metrics.lifts);
+    const std::string title = fmt::format("Path: {}, {}, {:.4g} mm, {}", path.kind, counted(path.size(), "point"),
+                                          plan.laid.metrics.length, counted(plan.laid.metrics.lifts, "lift"));
     return path_picture(part.figure, path, title, format, progress);
   });
   write("path_detail", [&](FigureFormat format) {
     return path_detail_picture(part.figure, path, "Path, detail: " + path.kind, format, progress);
   });
+}
+
+/// Reads a program of the plan back from disk. It is called by its own name in all messages, and not by the temporary
+/// folder in which it lies until the plan is whole.
+Program read_back(const OutputFolder& folder, const std::string& name, const Progress& progress) {
+  try {
+    Program program = read_program(folder.path(name), {}, progress);
+    program.file = name;
+    return program;
+  } catch (const InputError& error) {
+    std::string what = error.what();
+    const std::string place = folder.path(name).string();
+    if (const std::size_t at = what.find(place); at != std::string::npos) what.replace(at, place.size(), name);
+    throw InputError(what);
+  }
 }
 
 bool differs(double a, double b, double tolerance) {
@@ -92,7 +109,8 @@ void compare_with_table(const PlannedJob& plan, const Program& program, const Pr
   const ExactResidual from_table = predict_program(plan.part(), table, plan.dwell.lattice.kernel, progress);
   const double left = written.exact.statistics.rms_about_zero(), by_table = from_table.statistics.rms_about_zero();
   if (differs(left, by_table, std::max(1e-3, 3.0 * written.exact.standard_error / left))) {
-    written.limits.push_back(fmt::format("program.nc leaves {:.6g} nm RMS but feed.csv {:.6g} nm", left, by_table));
+    written.limits.push_back(fmt::format("program.nc leaves {:.6g} nm RMS{} but feed.csv {:.6g} nm", left,
+                                         about_zero_in_words(written.exact.statistics), by_table));
   }
 }
 
@@ -100,8 +118,8 @@ void compare_with_table(const PlannedJob& plan, const Program& program, const Pr
 void compare_with_solver(const PlannedJob& plan, WrittenPlan& written) {
   const double left = written.exact.lattice_rms, expected = plan.dwell.residual.rms_about_zero();
   if (differs(left, expected, kSimulationTolerance)) {
-    written.limits.push_back(
-        fmt::format("the simulated program leaves {:.4g} nm RMS, the solver expected {:.4g} nm", left, expected));
+    written.limits.push_back(fmt::format("the simulated program leaves {:.4g} nm RMS{}, the solver expected {:.4g} nm",
+                                         left, about_zero_in_words(plan.dwell.residual), expected));
   }
   if (auto limit = more_than_before(written.exact, plan.part().before)) written.limits.push_back(std::move(*limit));
 }
@@ -114,30 +132,30 @@ WrittenPlan write_plan(const PlannedJob& plan, const OutputFolder& folder, const
   progress.check();
 
   progress.report("simulate: the program as read back from disk");
-  const Program program = read_program(folder.path("program.nc"), {}, progress);
+  const Program program = read_back(folder, "program.nc", progress);
   WrittenPlan written;
   written.limits = plan.limits();
   written.exact = predict_program(plan.part(), program, plan.dwell.lattice.kernel, progress);
   written.surface = surface_sheet(plan.part().figure, written.exact.surface, plan.part().tif.fwhm, plan.part().threads,
                                   progress.of_part("simulate"));
-  written.program_seconds = program.total_seconds();
   const DwellOptions options = dwell_options(plan.job.options);
+  const double max_feed = options.machine.feed_limits().max_feed;
+  written.run_seconds = program.run_seconds(max_feed);
   written.warnings = plan.job.options.notes;
   written.travel = travel_times(plan.laid, plan.job.options.lift_height_mm, options.machine);
+  written.travel.lifted = program.rapid_seconds(max_feed);  // as simulate reads it
   const bool moves = plan.laid.motion == Motion::Moving;
   for (const std::string& warning :
-       run_warnings({written.total_seconds(), plan.dwell.seconds.sum(), moves ? program.removing_length() : 0.0})) {
+       run_warnings({written.run_seconds, plan.dwell.seconds.sum(), moves ? program.removing_length() : 0.0})) {
     written.warnings.push_back(with_option_names(warning, flag_of));
   }
-  if (auto warning =
-          little_gained(plan, plan.part().before.rms_about_zero(), written.exact.statistics.rms_about_zero())) {
+  if (auto warning = little_gained(plan, plan.part().before, written.exact.statistics)) {
     written.warnings.push_back(std::move(*warning));
   }
-  written.program = program_figures(program, written.exact, to_string(plan.part().form));
+  written.program = program_figures(program, written.exact, to_string(plan.part().form), max_feed);
   written.program_sha256 = sha256_of_file(folder.path("program.nc"));
-  written.program.file = "program.nc";  // not the path of the temporary folder that it was read from
   compare_with_solver(plan, written);
-  compare_with_table(plan, program, program_of(read_feed_table(folder.path("feed.csv"), progress)), written, progress);
+  compare_with_table(plan, program, read_back(folder, "feed.csv", progress), written, progress);
   progress.check();
 
   progress.report("write: pictures and arrays");

@@ -97,7 +97,7 @@ std::string plan_summary_text(const PlannedJob& plan, const WrittenPlan& written
                   {"feed", feed_json(plan.program.feed, plan.laid.motion)},
                   {"program", program_json(written)},
                   {"surface", surface_block(written.surface)},
-                  {"total_s", written.total_seconds()},
+                  {"total_s", written.run_seconds},
                   {"lift_s", written.travel.lifted},
                   {"down_s", written.travel.down},
                   {"between_stops_s", written.travel.between_stops},

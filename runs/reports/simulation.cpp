@@ -5,6 +5,7 @@
 
 #include <utility>
 
+#include "core/base/counted.h"
 #include "core/base/whole_file.h"
 #include "core/map/part_distance.h"
 #include "core/removal/simulate.h"
@@ -43,6 +44,7 @@ Simulation simulate_file(const std::filesystem::path& program, const GcodeReadin
   const Job job = load_job(options, progress);
   const Part& part = *job.part;
   s.plan = source.plan;
+  if (!s.plan.empty()) s.max_feed = dwell_options(options).machine.feed_limits().max_feed;
   s.differences = source.given;
   for (std::string& difference :
        differences_from_record(read_program_record(program), program.string(), job, source.other, s.plan.empty())) {
@@ -56,7 +58,7 @@ Simulation simulate_file(const std::filesystem::path& program, const GcodeReadin
   s.tif = part.tif;
   s.volume_factor = part.kernel.volume_factor;
   check_steps(s.program, part);
-  const Progress simulating = progress.of_part(fmt::format("simulate {} steps", s.program.steps.size()));
+  const Progress simulating = progress.of_part(fmt::format("simulate {}", counted(s.program.steps.size(), "step")));
   LatticeChoice lattice = choose_lattice(part, removing_steps(s.program).strokes, simulating);
   s.after = predict_program(part, s.program, lattice.kernel, simulating,
                             every_pixel ? ExactCheck::EveryPixel : ExactCheck::Figure);
@@ -74,7 +76,7 @@ std::string simulation_json(const Simulation& s) {
   json["map"] = map_block(s.map);
   json["tif"] = tif_block(s.tif, kind_of(s.tif), s.tif.samples.history, s.volume_factor);
   json["tool"] = tool_block(tool_sheet(s.tif));
-  json["program"] = program_block(program_figures(s.program, s.after, to_string(s.terms)));
+  json["program"] = program_block(program_figures(s.program, s.after, to_string(s.terms), s.max_feed));
   if (!s.plan.empty()) json["plan"] = s.plan;
   json["differences"] = s.differences;
   json["limits"] = s.limits;

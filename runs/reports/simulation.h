@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,7 @@ struct SimulationSource {
 struct Simulation {
   std::vector<InputFile> inputs;
   Program program;
+  std::optional<double> max_feed;  // [mm/s] of rapids, where a plan says it
   FormTerms terms;
   MapFigures map;  // as it was before the run, for the summary
   RemovalFunction tif;

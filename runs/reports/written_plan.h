@@ -14,7 +14,7 @@ namespace dwell {
 struct WrittenPlan {
   ExactResidual exact;                // what the program leaves, as read back
   SurfaceSheet surface;               // slopes and bands before, and of that surface
-  double program_seconds = 0.0;       // of program.nc, as read back
+  double run_seconds = 0.0;           // of program.nc, as read back, lifted moves included
   TravelTimes travel;                 // besides the dwell; `travel.lifted` is what program.nc does not say
   std::vector<std::string> warnings;  // what a machine shop would question, a sentence each
   ProgramFigures program;             // of it, for the summary
@@ -23,8 +23,6 @@ struct WrittenPlan {
   bool table_has_same_steps = false;
   std::vector<std::string> limits;  // of the plan, and those that reading its files back has shown; a sentence each
   std::string summary;              // the text of summary.json
-
-  double total_seconds() const { return program_seconds + travel.lifted; }
 };
 
 }  // namespace dwell

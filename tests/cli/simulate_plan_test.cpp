@@ -80,6 +80,36 @@ TEST(SimulatePlan, TakesEveryOptionFromTheSummaryWhereverTheFolderLies) {
   }
 }
 
+// Of a path with lifts too, the time of the run is one and the same: in the plan, and in each simulation of its
+// program.
+TEST(SimulatePlan, SaysTheTimeOfThePlan) {
+  const PlanInputs inputs;
+  inputs.folder.file("path.csv", "x_mm,y_mm,lift\n1,1,1\n3,1,0\n5,1,0\n1,3,1\n3,3,0\n5,3.5,0\n2,6,1\n4,6,0\n");
+  for (const char* motion : {"moving", "stop"}) {
+    const Words words =
+        SmallInputs::plan({"--path", "file:path.csv", "--motion", motion, "--max-feed", "300", "--lift-height", "7"});
+    const ProgramResult made = inputs.run(words);
+    ASSERT_TRUE(made.exit_code == 0 || made.exit_code == 3) << made.err;
+    const json plan = json::parse(read_whole_file(inputs / "plan/summary.json"));
+    const double total = plan["total_s"], lift = plan["lift_s"];
+    // Two lifts of 7 mm, and (5, 1) to (1, 3), (5, 3.5) to (2, 6), at 5 mm/s.
+    const double way = motion == std::string("stop") ? std::hypot(4.0, 2.0) + std::hypot(3.0, 2.5) : 0.0;
+    if (way > 0.0) {
+      EXPECT_NEAR(lift, (2 * 7.0 + way) / 5.0, 1e-6);
+    }
+    EXPECT_GT(lift, 2 * 7.0 / 5.0);
+    EXPECT_EQ(plan["program"]["total_s"], total);
+    const json simulated = inputs.printed({"simulate", "plan"});
+    EXPECT_EQ(simulated["program"]["total_s"], total);
+    EXPECT_EQ(simulated["program"]["lift_s"], lift);
+    const json alone = inputs.printed(with(kAlone, {"--map", "map.csv", "--tif", "tif.csv"}));
+    EXPECT_NEAR(alone["program"]["total_s"].get<double>(), total, 1e-6 * total);
+    const ProgramResult text = inputs.run({"simulate", "plan"});
+    expect_has(text.out, "of it lifted moves");
+    expect_has(text.out, "at the plan's maximum feed");
+  }
+}
+
 TEST(SimulatePlan, FindsItsFilesFromAnyFolder) {
   const PlanInputs inputs;
   const json plan = json::parse(read_whole_file(inputs / "plan/summary.json"));
@@ -113,6 +143,15 @@ TEST(SimulatePlan, SaysWhatIsGivenInThePlansPlace) {
   expect_has(said.out,
              "plan      plan\ndiffers   map given instead of the plan's: second.csv; the plan's is map.csv\n");
   EXPECT_TRUE(inputs.printed({"simulate", "plan", "--remove", "piston"})["differences"].empty());
+  // The plan's own files under any name are no others; copies of them are said to be that.
+  for (const Words& own : {Words{"--program", "plan/program.nc"}, Words{"--program", "./plan/../plan/program.nc"},
+                           Words{"--map", "./map.csv"}, Words{"--tif", "./tif.csv"}})
+    EXPECT_TRUE(inputs.printed(with({"simulate", "plan"}, own))["differences"].empty()) << own[1];
+  std::filesystem::copy_file(inputs / "plan/program.nc", inputs / "copy.nc");
+  const json copied = inputs.printed({"simulate", "plan", "--program", "copy.nc"});
+  ASSERT_EQ(copied["differences"].size(), 1u);
+  EXPECT_EQ(copied["differences"][0],
+            "program given instead of the plan's: copy.nc; the plan's is plan/program.nc, which holds the same");
 }
 
 TEST(SimulatePlan, RefusesFilesThatChangedOrAreGone) {

@@ -8,6 +8,7 @@
 
 #include "core/base/number_text.h"
 #include "core/base/version.h"
+#include "paths/feed/plan_program.h"
 #include "runs/campaigns/pareto_output.h"
 #include "tests/core/base/expect_error.h"
 #include "tests/runs/plan/small_job.h"
@@ -112,6 +113,21 @@ TEST(TravelTimes, AreWhatARunTakesBesidesItsDwell) {
     EXPECT_NEAR(steps, plan.dwell.seconds.sum() + travel.between_stops, 1e-6 * steps);
     EXPECT_NEAR(travel.down, 10.0 / (job.options.max_feed_mm_per_min / 60.0), 1e-12);
     EXPECT_EQ(travel.lifted, 0.0);
+  }
+}
+
+// A stroke on the move begins before its point and ends behind it: what is lifted is from the one to the other.
+TEST(TravelTimes, OfLiftsAreThoseOfTheProgram) {
+  ToolPath path;
+  path.points = {{-4, -4}, {0, -4}, {4, -3}, {-4, 0}, {0, 0.5}, {4, 0}, {-4, 4}, {3, 4}};
+  path.lifted = {1, 0, 0, 1, 0, 0, 1, 0};
+  for (const Motion motion : {Motion::Moving, Motion::Stop}) {
+    const LaidPath laid = lay_path(path, motion);
+    const Program program = program_of(laid.path, std::vector<double>(path.points.size(), 5.0), motion, 5.0);
+    const TravelTimes travel = travel_times(laid, 10.0, {0.0, 300.0});
+    EXPECT_GT(program.rapid_length, 15.0);
+    EXPECT_NEAR(travel.lifted, program.rapid_length / 5.0 + 2 * 10.0 / 5.0, 1e-12);
+    EXPECT_NEAR(travel.down, 3 * 10.0 / 5.0, 1e-12);
   }
 }
 
