@@ -17,6 +17,19 @@ namespace {
   throw InputError(fmt::format("{} \"{}\": {}", spec.field, spec.text, why));
 }
 
+[[noreturn]] void fail_missing(const SpecText& spec, std::string_view key) {
+  fail(spec, fmt::format("{} is missing; {}:{}=NUMBER is required", key, spec.kind, key));
+}
+
+/// A number of any size, not NaN; nothing if the key is not given.
+std::optional<double> any_number(const SpecText& spec, std::string_view key) {
+  const std::optional<std::string> value = spec.word(key);
+  if (!value) return std::nullopt;
+  const std::optional<double> number = parse_number(*value);
+  if (!number || std::isnan(*number)) fail(spec, fmt::format("{} = \"{}\"; a number is required", key, *value));
+  return number;
+}
+
 void add_entry(SpecText& spec, std::string_view item) {
   const std::size_t equals = item.find('=');
   const std::string_view key = trim(item.substr(0, equals));
@@ -60,17 +73,24 @@ std::optional<std::string> SpecText::word(std::string_view key) const {
 }
 
 std::optional<double> SpecText::optional_number(std::string_view key) const {
-  const std::optional<std::string> value = word(key);
-  if (!value) return std::nullopt;
-  const std::optional<double> number = parse_number(*value);
-  if (!number || std::isnan(*number)) fail(*this, fmt::format("{} = \"{}\"; a number is required", key, *value));
-  if (std::isfinite(*number) && !ranges::kNumber.holds(*number)) reject(key, ranges::kNumber.text());
+  const std::optional<double> number = any_number(*this, key);
+  // The range of the key is narrower; who reads it knows it.
+  if (number && std::isfinite(*number) && !ranges::kNumber.holds(*number)) {
+    reject(key, ranges::kNumber.text() + " at the most, within the range of the key");
+  }
   return number;
 }
 
 double SpecText::number(std::string_view key) const {
   const std::optional<double> value = optional_number(key);
-  if (!value) fail(*this, fmt::format("{} is missing; {}:{}=NUMBER is required", key, kind, key));
+  if (!value) fail_missing(*this, key);
+  return *value;
+}
+
+double SpecText::number(std::string_view key, const ValueRange& range) const {
+  const std::optional<double> value = any_number(*this, key);
+  if (!value) fail_missing(*this, key);
+  if (!range.holds(*value)) reject(key, range.text());
   return *value;
 }
 

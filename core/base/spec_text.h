@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/base/point.h"
+#include "core/base/value_range.h"
 
 namespace dwell {
 
@@ -23,8 +24,9 @@ struct SpecText {
   std::optional<std::string> word(std::string_view key) const;
 
   /// A number, possibly infinite, never NaN, else within ranges::kNumber; a narrower range is for the caller to check.
-  double number(std::string_view key) const;                   // required
-  double number(std::string_view key, double fallback) const;  // fallback if the key is not given
+  double number(std::string_view key) const;                           // required
+  double number(std::string_view key, const ValueRange& range) const;  // required, within the range
+  double number(std::string_view key, double fallback) const;          // fallback if the key is not given
   std::optional<double> optional_number(std::string_view key) const;
 
   /// One of a few words; the first if the key is not given.

@@ -21,6 +21,10 @@ struct Bin {
 
 }  // namespace
 
+std::string power_of_frequency(const PsdLine& line) {
+  return fmt::format("f^{:.3g}", 0.0 - line.b);  // 0 and not -0
+}
+
 double PsdLine::operator()(double frequency) const { return a * std::pow(frequency, -b); }
 
 std::optional<PsdLineFit> fit_psd_line(const PsdCurve& curve, double from, double to) {

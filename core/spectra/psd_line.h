@@ -17,6 +17,9 @@ struct PsdLine {
   double operator()(double frequency) const;
 };
 
+/// "f^-2.1", "f^0.2": the power of frequency of the line, with its sign.
+std::string power_of_frequency(const PsdLine& line);
+
 /// The line that a spectrum follows between two frequencies.
 struct PsdLineFit {
   PsdLine line;

@@ -128,4 +128,17 @@ RemovalAnalysis analyse_removal(const HeightMap& rates, int threads) {
   return a;
 }
 
+RemovalAnalysis with_exact_figures(RemovalAnalysis analysis, const RemovalFunction& tif) {
+  const bool disc = tif.kind == RemovalFunction::Kind::Disc;
+  if (!disc && tif.kind != RemovalFunction::Kind::Gaussian) return analysis;
+  const double cut = 2.0 * tif.radius;  // which may be within the half peak of a Gaussian
+  analysis.peak = tif.peak;
+  analysis.volume = tif.volume;
+  analysis.fwhm = std::min(tif.fwhm, cut);
+  analysis.fwhm_x = analysis.fwhm_y = disc ? cut : analysis.fwhm;
+  analysis.centroid = {};
+  analysis.asymmetry = 0.0;
+  return analysis;
+}
+
 }  // namespace dwell

@@ -4,6 +4,7 @@
 
 #include "core/map/height_map.h"
 #include "core/spectra/transfer_function.h"
+#include "core/tif/removal_function.h"
 
 namespace dwell {
 
@@ -35,5 +36,11 @@ RemovalAnalysis analyse_removal(const HeightMap& rates, int threads = 1);
 /// The same without the transfer function and its waves. Cost O(samples), and 180 places of a spline for every half
 /// pitch of radius.
 RemovalAnalysis analyse_shape(const HeightMap& rates);
+
+/// The analysis of the samples of a removal function, with the figures that its formula gives exactly in the place of
+/// those of the samples: of a Gaussian and a spinning disc peak, volume, widths, and that they are symmetric about the
+/// axis. Others are returned as they are. The width of equal area of a disc is that of the ring above half the peak,
+/// sqrt(3) times its radius.
+RemovalAnalysis with_exact_figures(RemovalAnalysis analysis, const RemovalFunction& tif);
 
 }  // namespace dwell

@@ -27,6 +27,12 @@ struct TifFile {
   double rim = 0.0;          // mean rate at the rim of its data [nm/s]
   double rim_largest = 0.0;  // the largest there [nm/s]
   double noise = 0.0;        // robust scatter of the rates there [nm/s]
+
+  /// Of the rates as they are used, where a pedestal was mended.
+  struct Mended {
+    double peak = 0.0, rim = 0.0, rim_largest = 0.0;  // [nm/s]
+  };
+  std::optional<Mended> mended{};
 };
 
 /// The removal function (tool influence function, TIF): removal rate [nm/s] at a displacement from the tool axis

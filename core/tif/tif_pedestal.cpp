@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/counted.h"
 #include "core/base/errors.h"
 #include "core/tif/rate_rim.h"
 
@@ -21,8 +22,9 @@ std::string taper_rim(HeightMap& rates) {
     const double place = static_cast<double>(steps[i]) / static_cast<double>(width);
     rates.values[i] *= 0.5 * (1.0 - std::cos(std::numbers::pi * place));
   }
-  return fmt::format("the outer {} samples ({:.4g} mm along x, {:.4g} mm along y) taken to zero by a cosine", width,
-                     rates.grid.pitch_x * static_cast<double>(width), rates.grid.pitch_y * static_cast<double>(width));
+  return fmt::format("the outer {} ({:.4g} mm along x, {:.4g} mm along y) taken to zero by a cosine",
+                     counted(width, "sample"), rates.grid.pitch_x * static_cast<double>(width),
+                     rates.grid.pitch_y * static_cast<double>(width));
 }
 
 }  // namespace

@@ -33,13 +33,13 @@ void add_curve(ChartPanel& panel, const CurveReport& c) {
   panel.lines.push_back(std::move(line));
   if (!c.fit) return;
   const PsdLineFit& fit = *c.fit;
-  const std::string label = fmt::format("{}: {:.3g} f^-{:.3g}", c.curve.name, fit.line.a, fit.line.b);
+  const std::string label = fmt::format("{}: {:.3g} {}", c.curve.name, fit.line.a, power_of_frequency(fit.line));
   panel.lines.push_back(straight(label, colour_of_fit(c.curve.name), fit.line, fit.from, fit.to));
 }
 
 void add_limit(ChartPanel& panel, const PsdLimitCheck& check, const PsdLimit& limit) {
-  panel.lines.push_back(straight(fmt::format("limit {:.3g} f^-{:.3g}", limit.line.a, limit.line.b), kLimit, limit.line,
-                                 check.from, check.to));
+  panel.lines.push_back(straight(fmt::format("limit {:.3g} {}", limit.line.a, power_of_frequency(limit.line)), kLimit,
+                                 limit.line, check.from, check.to));
 }
 
 void add_bands(ChartPanel& panel, const std::vector<BandRms>& bands) {

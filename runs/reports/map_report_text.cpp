@@ -81,9 +81,9 @@ std::string spectrum_text(const SpectrumReport& s, double plain_rms) {
   if (s.bridged > 0) text += fmt::format("          {} lost pixels bridged\n", s.bridged);
   for (const CurveReport& c : s.curves) {
     if (c.fit) {
-      text += fmt::format("PSD {:<6}{:.4g} f^-{:.3g} {} ({:.4g} to {:.4g} /mm; scatter of a factor {:.3g})\n",
-                          short_name(c.curve), c.fit->line.a, c.fit->line.b, c.curve.unit, c.fit->from, c.fit->to,
-                          std::pow(10.0, c.fit->scatter));
+      text += fmt::format("PSD {:<6}{:.4g} {} {} ({:.4g} to {:.4g} /mm; scatter of a factor {:.3g})\n",
+                          short_name(c.curve), c.fit->line.a, power_of_frequency(c.fit->line), c.curve.unit,
+                          c.fit->from, c.fit->to, std::pow(10.0, c.fit->scatter));
     } else {
       text += fmt::format("PSD {:<6}too few frequencies are resolved to fit a line\n", short_name(c.curve));
     }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/base/counted.h"
 #include "runs/base/inputs_json.h"
 #include "runs/base/json_blocks.h"
 #include "runs/reports/tool_sheet.h"
@@ -18,10 +19,10 @@ using Json = nlohmann::ordered_json;
 std::string wave(const std::optional<double>& w) { return w ? fmt::format("{:.4g} mm", *w) : "none"; }
 
 std::string spots_text(const SpotCalibration& c) {
-  std::string text =
-      fmt::format("spots     {}, radius {:.4g} mm, noise cut {} {:.2g} % of the volume{}\n", c.spots.size(), c.radius,
-                  c.volume_cut < 0.0 ? "took negative rates and so added" : "took", 100.0 * std::abs(c.volume_cut),
-                  c.filled_pixels > 0 ? fmt::format(", {} pixels without data filled", c.filled_pixels) : "");
+  std::string text = fmt::format(
+      "spots     {}, radius {:.4g} mm, noise cut {} {:.2g} % of the volume{}\n", c.spots.size(), c.radius,
+      c.volume_cut < 0.0 ? "took negative rates and so added" : "took", 100.0 * std::abs(c.volume_cut),
+      c.filled_pixels > 0 ? fmt::format(", {} without data filled", counted(c.filled_pixels, "pixel")) : "");
   double sum = 0.0, square = 0.0;
   for (const CalibratedSpot& s : c.spots) {
     text += fmt::format(
@@ -131,20 +132,20 @@ ToolSheet sheet_of(const TifResult& r) { return {r.source, r.tif.radius, r.analy
 std::string tif_text(const TifResult& r) {
   const RemovalAnalysis& a = r.analysis;
   const Grid& g = r.rates.grid;
-  std::string text = fmt::format("tif       {}: {} rows (y) x {} columns (x), pitch {:.6g} x {:.6g} mm\n", r.source,
-                                 g.rows, g.cols, g.pitch_x, g.pitch_y);
+  std::string text = fmt::format("tif       {}: {} (y) x {} columns (x), pitch {:.6g} x {:.6g} mm\n", r.source,
+                                 counted(g.rows, "row"), g.cols, g.pitch_x, g.pitch_y);
   for (const InputFile& input : r.inputs)
     text += fmt::format("{:<9} {} (sha256 {})\n", input.role, input.file, input.sha256);
   if (r.spots) text += spots_text(*r.spots);
   if (r.trench) text += trench_text(*r.trench);
-  text += fmt::format("peak      {:.6g} nm/s, the largest sample, at ({:.4g}, {:.4g}) mm from the tool axis\n", a.peak,
-                      a.peak_at.x, a.peak_at.y);
+  text += fmt::format("peak      {:.6g} nm/s; the largest sample at {} from the tool axis\n", a.peak,
+                      place_from_axis(a.peak_at, a.fwhm));
   text += fmt::format("volume    {:.6g} nm mm^2/s, 99 % of it within {:.4g} mm\n", a.volume, a.radius);
   text += fmt::format("FWHM      {:.4g} mm along x, {:.4g} mm along y, {:.4g} mm of equal area\n", a.fwhm_x, a.fwhm_y,
                       a.fwhm);
   const ToolSheet sheet = sheet_of(r);
   if (sheet.file) text += tool_file_line("file", sheet);
-  text += fmt::format("centroid  ({:.4g}, {:.4g}) mm from the tool axis\n", a.centroid.x, a.centroid.y);
+  text += fmt::format("centroid  {} from the tool axis\n", place_from_axis(a.centroid, a.fwhm));
   text += fmt::format(
       "symmetry  asymmetry {:.3g} (RMS off the mean over all directions / RMS); main axes {:.4g} x {:.4g} mm "
       "(sigma), the longer at {:.1f} deg\n",

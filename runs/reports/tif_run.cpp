@@ -59,6 +59,17 @@ void refuse_unused(const TifJob& job) {
        "a file of rates (for --spot and --trench: --map-no-data, --map-table, --map-rows, --map-grid)");
 }
 
+/// What a calibration lacks, all at once: its own option, and the pitch of a map that says none.
+void require_all(const TifJob& job) {
+  JobOptions options = job.job;
+  options.map = job.spot.empty() ? job.trench : job.spot;
+  std::vector<std::string> missing = missing_pitches(options);
+  if (!job.spot.empty() && !job.dwell_time_s) missing.emplace_back("--dwell-time");
+  if (!job.trench.empty() && !job.feed_mm_per_min) missing.emplace_back("--feed");
+  if (missing.size() < 2) return;
+  throw InputError(fmt::format("{}: required; --help says what each is", fmt::join(missing, ", ")));
+}
+
 HeightMap read_heights(const std::string& file, const TifJob& job, const char* role, std::vector<InputFile>& inputs,
                        const Progress& progress) {
   JobOptions options = job.job;
@@ -126,6 +137,8 @@ TrenchOptions trench_options(const TifJob& job) {
 
 /// The rates of the job, before it is turned.
 RemovalFunction find_removal(const TifJob& job, TifResult& result, const Progress& progress) {
+  const bool lacks = job.spot.empty() ? !job.feed_mm_per_min : !job.dwell_time_s;
+  if (lacks) require_all(job);
   if (!job.spot.empty()) {
     const HeightMap depth = read_depth(job.spot, job, result.inputs, progress);
     result.source = "spot";
@@ -201,7 +214,7 @@ TifResult make_tif(const TifJob& job, const Progress& progress) {
   }
   result.rates.quantity = MapQuantity::Rate;
   progress.step("analysing the removal function");
-  result.analysis = analyse_removal(result.rates, thread_count(job.job.threads));
+  result.analysis = with_exact_figures(analyse_removal(result.rates, thread_count(job.job.threads)), result.tif);
   for (const FitRequest& request : requests) {
     const Progress own = progress.of_part("fit of " + request.model);
     own.step("starting");

@@ -20,6 +20,9 @@ struct ToolSheet {
   std::vector<std::string> notes;
 };
 
+/// "(x, y) mm" from the tool axis, without the digits that rounding leaves of a place on it.
+std::string place_from_axis(Point p, double fwhm);
+
 /// Cost: that of analyse_shape.
 ToolSheet tool_sheet(const RemovalFunction& tif);
 

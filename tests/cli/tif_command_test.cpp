@@ -54,6 +54,10 @@ TEST(TifCommand, LooksAtAModelAndPlansWithIt) {
   const ProgramResult planned = inputs.run(SmallInputs::plan({"--tif", model, "--json"}));
   ASSERT_EQ(planned.exit_code, 0) << planned.err;
   EXPECT_EQ(json::parse(planned.out)["tif"]["kind"], "planetary");
+  const ProgramResult disc = inputs.run({"tif", "disc:slope=1,radius=1.5"});
+  for (const char* part : {"peak      1.5 nm/s; the largest sample at (", "centroid  (0, 0) mm from the tool axis",
+                           "FWHM      3 mm along x, 3 mm along y, 2.598 mm of equal area", "asymmetry 0 "})
+    expect_has(disc.out, part);
   const ProgramResult turned =
       inputs.run(SmallInputs::plan({"--tif", "mrf:lead=2,trail=0.8,width=2,peak=9", "--tif-angle", "45", "--json"}));
   EXPECT_EQ(turned.exit_code, 0) << turned.err;

@@ -50,10 +50,13 @@ TEST(ToolQuestions, RefuseByTheNamesOfTheOptions) {
       inputs.run(plan_with({"--tif-steps", "fill:harmonic", "--tif-pedestal", "subtract", "--tif-centre", "centroid"}));
   ASSERT_EQ(answered.exit_code, 0) << answered.err;
   expect_has(answered.out, "centroid at (0, 0) mm");
-  expect_has(answered.out, "--tif-centre centroid; rate at the rim 9.");
+  expect_has(answered.out, "--tif-centre centroid; rate at the rim 0 % of the peak, at most ");
+  expect_has(answered.out, "; in the file, before its pedestal was mended, 9.");
   expect_has(answered.out, "taken off all samples");
   const json summary = json::parse(read_whole_file(inputs / "plan" / "summary.json"));
   EXPECT_NEAR(summary["tool"]["rim_share_of_peak"].get<double>(), 0.4 / 4.4, 0.002);
+  EXPECT_NEAR(summary["tool"]["rim_share_of_peak_used"].get<double>(), 0.0, 1e-12);
+  EXPECT_LT(summary["tool"]["rim_largest_share_of_peak_used"].get<double>(), 0.01);
   EXPECT_NEAR(summary["tool"]["peak_nm_per_s"].get<double>(), 4.0, 0.03);
   EXPECT_EQ(summary["tool"]["notes"].size(), 1U);
   EXPECT_EQ(summary["tif"]["history"].size(), 2U);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/counted.h"
 #include "core/base/errors.h"
 #include "core/map/robust_plane.h"
 
@@ -106,7 +107,8 @@ void refuse_rise(double rise, double fall) {
 std::vector<FoundSpot> find_spots(const HeightMap& depth) {
   const std::vector<Index> pixels = finite_pixels(depth);
   if (pixels.size() < 25) {
-    throw InputError(fmt::format("{} pixels with data; at least 25 are required to find a spot", pixels.size()));
+    throw InputError(
+        fmt::format("{} with data; at least 25 are required to find a spot", counted(pixels.size(), "pixel")));
   }
   const HeightMap smooth = smooth_depth(depth, robust_plane(depth, pixels, true));
   const double scatter = robust_plane(smooth, pixels, false).scatter;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/counted.h"
 #include "core/base/errors.h"
 #include "core/map/robust_plane.h"
 
@@ -58,10 +59,10 @@ Plane surroundings(const HeightMap& depth, Point centre, double radius, const st
   }
   if (baseline == SpotBaseline::None) return {};
   throw InputError(fmt::format(
-      "{}: {} pixels with data lie around it from {:.4g} to {:.4g} mm, in {} of 8 directions; the baseline needs {} in "
+      "{}: {} with data lie around it from {:.4g} to {:.4g} mm, in {} of 8 directions; the baseline needs {} in "
       "{} (another `radius`, or `baseline` {})",
-      place(centre), ring.size(), radius, kRing * radius, octants(depth, ring, centre), kLeastRing, needed,
-      baseline == SpotBaseline::Plane ? "constant or none" : "none"));
+      place(centre), counted(ring.size(), "pixel"), radius, kRing * radius, octants(depth, ring, centre), kLeastRing,
+      needed, baseline == SpotBaseline::Plane ? "constant or none" : "none"));
 }
 
 /// Pixels without data take the mean of their neighbours with data, ring by ring from the rim of the hole. Off the map,
@@ -98,8 +99,8 @@ void refuse_missing(const SpotPatch& patch, Point centre, double radius) {
   Index inside = 0;
   for (Index i = 0; i < g.size(); ++i) inside += distance(g.centre(i), centre) <= radius;
   if (inside < kLeastPixels) {
-    throw InputError(fmt::format("{}: {} pixels lie within the radius of {:.4g} mm; at least {} are required",
-                                 place(centre), inside, radius, kLeastPixels));
+    throw InputError(fmt::format("{}: {} lie within the radius of {:.4g} mm; at least {} are required", place(centre),
+                                 counted(inside, "pixel"), radius, kLeastPixels));
   }
   const double missing = static_cast<double>(patch.filled_inside) / static_cast<double>(inside);
   if (missing > kMostMissing) {

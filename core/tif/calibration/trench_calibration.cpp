@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/counted.h"
 #include "core/base/errors.h"
 #include "core/base/rotation.h"
 #include "core/base/units.h"
@@ -57,7 +58,8 @@ void check(const TrenchOptions& o) {
 HeightMap without_plane(const HeightMap& depth) {
   const std::vector<Index> pixels = finite_pixels(depth);
   if (pixels.size() < 100) {
-    throw InputError(fmt::format("{} pixels with data; at least 100 are required for a trench", pixels.size()));
+    throw InputError(
+        fmt::format("{} with data; at least 100 are required for a trench", counted(pixels.size(), "pixel")));
   }
   const Plane plane = robust_plane(depth, pixels, true);
   HeightMap result = depth;
@@ -209,9 +211,9 @@ Plane cut_section(const std::vector<TrackPixel>& pixels, TrenchCalibration& tren
   }
   if (ring_pixels.size() < 6) {
     throw InputError(
-        fmt::format("the surroundings of the trench have data at only {} places across beyond {:.4g} mm; at "
+        fmt::format("the surroundings of the trench have data at only {} across beyond {:.4g} mm; at "
                     "least 6 are required (a smaller `radius`)",
-                    ring_pixels.size(), trench.radius));
+                    counted(ring_pixels.size(), "place"), trench.radius));
   }
   const Plane line = robust_plane(ring, ring_pixels, true);
   trench.scatter = std::sqrt(std::max(0.0, square / static_cast<double>(count)));

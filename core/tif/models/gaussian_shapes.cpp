@@ -25,7 +25,7 @@ RemovalFunction gaussian_of(const SpecText& spec) {
   }
   const double fwhm =
       spec.has("fwhm") ? spec.number("fwhm") : spec.number("sigma") * std::sqrt(8.0 * std::numbers::ln2);
-  return gaussian_removal(spec.number("peak"), fwhm, spec.number("radius", 1.5 * fwhm));
+  return gaussian_removal(spec.number("peak", ranges::kRate), fwhm, spec.number("radius", 1.5 * fwhm));
 }
 
 }  // namespace

@@ -48,7 +48,7 @@ double scale_of(const RemovalModel& model, const SpecText& spec, const RemovalSh
     if (spec.has("preston") || spec.has("pressure") || spec.has("rpm")) {
       throw InputError(fmt::format("{} \"{}\": give either peak, or preston, pressure and rpm", spec.field, spec.text));
     }
-    return positive(spec, "peak", "nm/s") / shape.peak;
+    return spec.number("peak", ranges::kRate) / shape.peak;
   }
   const double turns = positive(spec, "rpm", "1/min") / units::kSecondsPerMinute;
   return positive(spec, "preston", "1/Pa") * positive(spec, "pressure", "Pa") * 2.0 * std::numbers::pi * turns *

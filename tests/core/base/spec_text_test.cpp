@@ -71,6 +71,13 @@ TEST(SpecText, NamesUnknownMissingAndBadValues) {
   EXPECT_EQ(message_of([&] { spec.number("s", 1.0); }),
             "tif \"g:paek=1,r=x,s=nan,t=inf\": s = \"nan\"; a number is required");
   EXPECT_EQ(spec.number("t"), HUGE_VAL);
+  const SpecText huge = parse_spec_text("g:peak=1e300,r=2", "tif");
+  EXPECT_EQ(message_of([&] { huge.number("peak", ranges::kRate); }),
+            "tif \"g:peak=1e300,r=2\": peak = \"1e300\"; required a number from 1e-09 to 1e+09 (nm/s)");
+  EXPECT_EQ(message_of([&] { huge.number("peak"); }),
+            "tif \"g:peak=1e300,r=2\": peak = \"1e300\"; required a number from -1e+16 to 1e+16 at the most, "
+            "within the range of the key");
+  EXPECT_EQ(huge.number("r", ranges::kRate), 2.0);
 }
 
 }  // namespace

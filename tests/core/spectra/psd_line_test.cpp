@@ -56,6 +56,12 @@ TEST(PsdLimit, SaysWhereAndByWhatFactorItIsExceeded) {
   EXPECT_FALSE(check_psd_limit(curve, {0.6, 1.7}, 0.9, 1.2).met());
 }
 
+TEST(PsdLine, SaysThePowerWithItsSign) {
+  EXPECT_EQ(power_of_frequency({1.0, 2.134}), "f^-2.13");
+  EXPECT_EQ(power_of_frequency({1.0, -0.235}), "f^0.235");
+  EXPECT_EQ(power_of_frequency({1.0, 0.0}), "f^0");
+}
+
 TEST(PsdLimit, TextIsRead) {
   test::expect_input_error([] { parse_psd_limit("radial:1,-2"); },
                            {"radial:1,-2", "a limit that rises", "from 0 to 20"});

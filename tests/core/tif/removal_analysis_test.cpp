@@ -84,5 +84,22 @@ TEST(ShortestWave, IsWhereTheResponseFirstFalls) {
   EXPECT_FALSE(shortest_wave({0.0, 1.0}, {1.0, 0.6}, 0.4).has_value());
 }
 
+// Of closed forms no figure is that of their samples.
+TEST(AnalyseRemoval, TakesTheFiguresOfAFormulaExactly) {
+  const RemovalFunction disc = spinning_disc_removal(1.0, 1.5);
+  const RemovalAnalysis a = with_exact_figures(analyse_shape(removal_samples(disc)), disc);
+  EXPECT_DOUBLE_EQ(a.peak, 1.5);
+  EXPECT_DOUBLE_EQ(a.fwhm, std::sqrt(3.0) * 1.5);
+  EXPECT_EQ(a.fwhm_x, 3.0);
+  EXPECT_EQ(a.fwhm_y, 3.0);
+  EXPECT_EQ(a.asymmetry, 0.0);
+  EXPECT_DOUBLE_EQ(a.volume, disc.volume);
+  const RemovalFunction cut = gaussian_removal(5.0, 4.0, 1.25);  // its radius is within the half peak
+  EXPECT_EQ(with_exact_figures(analyse_shape(removal_samples(cut)), cut).fwhm_x, 2.5);
+  const RemovalFunction sampled = removal_of_spec(parse_spec_text("super-gaussian:peak=3,fwhm=4,order=4", "tif"));
+  const RemovalAnalysis shape = analyse_shape(removal_samples(sampled));
+  EXPECT_EQ(with_exact_figures(shape, sampled).fwhm, shape.fwhm);
+}
+
 }  // namespace
 }  // namespace dwell

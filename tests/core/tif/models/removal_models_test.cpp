@@ -175,7 +175,7 @@ TEST(RemovalOfSpec, RefusesWhatIsOutOfRange) {
   expect_input_error([] { of("planetary:radius=1,eccentricity=0.8"); }, {"rpm", "missing"});
   expect_input_error([] { of("planetary:radius=1,eccentricity=0.8,peak=1,rpm=3"); }, {"either peak"});
   expect_input_error([] { of("mrf:lead=1,trail=1,width=1,peak=1,rpm=3"); }, {"rpm", "lead, trail, width, angle"});
-  expect_input_error([] { of("mrf:lead=1,trail=1,width=1,peak=-1"); }, {"peak = -1", "> 0"});
+  expect_input_error([] { of("mrf:lead=1,trail=1,width=1,peak=-1"); }, {"peak = \"-1\"", "from 1e-09 to 1e+09 (nm/s)"});
   expect_input_error([] { of("mrf:lead=1,trail=inf,width=1,peak=1"); }, {"trail = inf"});
   expect_input_error([] { of("bonnet:radius=1,cap=20,precession=15,positions=2.5,peak=1"); },
                      {"positions = 2.5", "whole"});
