@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/errors.h"
+#include "runs/job/input_files.h"
 #include "runs/job/job_file.h"
 #include "runs/map_steps/map_steps.h"
 
@@ -54,6 +55,10 @@ void JobArguments::require(const JobOptions& options, const std::vector<std::str
     if (wanted && record.get(options).empty()) missing.push_back("--" + record.flag);
   }
   missing.insert(missing.end(), others.begin(), others.end());
+  if (!missing.empty()) {
+    const std::vector<std::string> pitches = missing_pitches(options);
+    missing.insert(missing.end(), pitches.begin(), pitches.end());
+  }
   if (missing.size() < 2) return;
   throw InputError(fmt::format("{}: required; --help says what each is", fmt::join(missing, ", ")));
 }

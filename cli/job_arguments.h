@@ -24,7 +24,7 @@ class JobArguments {
   std::vector<const JobOptionRecord*> given() const;
 
   /// Throws InputError that names all of the flags whose option is not given, if these are two or more: whoever lacks
-  /// one is told better by what reads it.
+  /// one is told better by what reads it. Where one is missing, pitches that the files lack are named as well.
   /// `others` are missing besides: they are of the command alone.
   static void require(const JobOptions& options, const std::vector<std::string>& flags,
                       const std::vector<std::string>& others = {});

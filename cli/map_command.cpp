@@ -13,6 +13,7 @@
 #include "cli/progress_line.h"
 #include "cli/standard_streams.h"
 #include "cli/terminal.h"
+#include "core/base/counted.h"
 #include "core/base/errors.h"
 #include "core/base/threads.h"
 #include "core/formats/map_formats.h"
@@ -91,8 +92,8 @@ std::string told(const HeightMap& map, const MapReport& report, const std::optio
                  const InputFile& input) {
   const Grid& g = map.grid;
   std::string text = fmt::format("file      {} (sha256 {})\n", input.file, input.sha256);
-  text += fmt::format("size      {} rows (y) x {} columns (x), {:.6g} mm in x, {:.6g} mm in y\n", g.rows, g.cols,
-                      g.width(), g.height());
+  text += fmt::format("size      {} (y) x {} columns (x), {:.6g} mm in x, {:.6g} mm in y\n", counted(g.rows, "row"),
+                      g.cols, g.width(), g.height());
   text += fmt::format("pitch     {:.9g} mm in x, {:.9g} mm in y\n", g.pitch_x, g.pitch_y);
   text += fmt::format("origin    first pixel at ({:.9g}, {:.9g}) mm\n", g.origin.x, g.origin.y);
   text += fmt::format("valid     {} of {} pixels\n", report.statistics.valid_pixels, g.size());

@@ -9,6 +9,7 @@
 #include "cli/progress_line.h"
 #include "cli/result_folder.h"
 #include "cli/terminal.h"
+#include "core/base/counted.h"
 #include "core/base/duration_text.h"
 #include "runs/campaigns/pareto_output.h"
 #include "runs/reports/aim.h"
@@ -35,8 +36,8 @@ std::string front_text(const ParetoSweep& sweep) {
       std::count_if(sweep.points.begin(), sweep.points.end(), [](const auto& p) { return p.on_front; });
   long applications = 0;
   for (const ParetoPoint& p : sweep.points) applications += p.solver.operator_applications;
-  text += fmt::format("solves    {}, {} operator applications, {:.2f} s; {} on the Pareto front:\n",
-                      sweep.points.size(), applications, sweep.seconds, on_front);
+  text += fmt::format("solves    {}, {}, {:.2f} s; {} on the Pareto front:\n", sweep.points.size(),
+                      counted(applications, "operator application"), sweep.seconds, on_front);
   text += fmt::format("          residual: exact, about zero; run: dwell and {:.2f} s of moves ({})\n",
                       sweep.travel.total(), travel_words(sweep.travel));
   text += fmt::format("{:>12} {:>20} {:>18} {:>10} {:>10} {:>13} {:>12}\n", "smoothness", "time price [nm^2/s]",

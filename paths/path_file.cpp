@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/counted.h"
 #include "core/base/errors.h"
 #include "core/base/number_text.h"
 #include "core/base/poll.h"
@@ -147,8 +148,8 @@ class PathFileReader {
 
   void take_point() {
     if (fields_.size() != columns_) {
-      throw InputError(
-          fmt::format("{}: line {} has {} columns; the header has {}", name_, line_number_, fields_.size(), columns_));
+      throw InputError(fmt::format("{}: line {} has {}; the header has {}", name_, line_number_,
+                                   counted(fields_.size(), "column"), columns_));
     }
     path_.points.push_back({coordinate(*x_, "x_mm"), coordinate(*y_, "y_mm")});
     path_.lifted.push_back(lift_ && flag(*lift_) ? 1 : 0);

@@ -7,8 +7,8 @@
 namespace dwell {
 
 std::string clock_text(double seconds) {
-  constexpr double kLeast = 600.0, kMost = 1e15;
-  if (!(seconds >= kLeast && seconds < kMost)) return "";
+  constexpr double kMost = 1e15;
+  if (!(seconds >= 0.0 && seconds < kMost)) return "";
   constexpr long long kMinute = 60, kHour = 60 * kMinute, kDay = 24 * kHour;
   const long long whole = std::llround(seconds);
   const std::string days = whole >= kDay ? fmt::format("{} d ", whole / kDay) : "";
@@ -16,7 +16,8 @@ std::string clock_text(double seconds) {
 }
 
 std::string duration_text(double seconds) {
-  const std::string clock = clock_text(seconds);
+  constexpr double kLeast = 600.0;  // less is read as well in seconds
+  const std::string clock = seconds >= kLeast ? clock_text(seconds) : "";
   return fmt::format("{:.2f} s{}", seconds, clock.empty() ? "" : " (" + clock + ")");
 }
 

@@ -8,7 +8,8 @@ namespace dwell {
 /// "4147200.00 s (48 d 0:00:00)".
 std::string duration_text(double seconds);
 
-/// The brackets of the above alone, "2:07:41"; empty under ten minutes.
+/// The brackets of the above alone, "2:07:41", for times under ten minutes as well; empty where there are no hours to
+/// be counted (negative, infinite).
 std::string clock_text(double seconds);
 
 }  // namespace dwell

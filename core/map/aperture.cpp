@@ -9,6 +9,7 @@
 #include <optional>
 #include <string_view>
 
+#include "core/base/counted.h"
 #include "core/base/errors.h"
 #include "core/base/number_text.h"
 #include "core/base/poll.h"
@@ -39,7 +40,7 @@ std::vector<double> numbers(const std::string& text, std::string_view list) {
 void require_count(const std::string& text, const std::vector<double>& v, std::size_t least, std::size_t most) {
   if (v.size() >= least && v.size() <= most) return;
   const std::string required = least == most ? fmt::format("{}", least) : fmt::format("{} or {}", least, most);
-  refuse(text, fmt::format("{} numbers given, {} required", v.size(), required));
+  refuse(text, fmt::format("{} given, {} required", counted(v.size(), "number"), required));
 }
 
 Aperture rectangle(const std::string& text, const std::vector<double>& v) {
@@ -171,10 +172,10 @@ HeightMap mask_map(HeightMap map, const Aperture& area, bool keep_inside, const 
   }
   if (map.valid_pixels() == 0) {
     throw InputError(
-        fmt::format("aperture '{}' leaves no pixel with data{}; the map ({} pixels with data) has pixel "
+        fmt::format("aperture '{}' leaves no pixel with data{}; the map ({} with data) has pixel "
                     "centres at x = {} to {} mm, y = {} to {} mm",
-                    to_string(area), keep_inside ? "" : " outside it", with_data, grid.x(0), grid.x(grid.cols - 1),
-                    grid.y(0), grid.y(grid.rows - 1)));
+                    to_string(area), keep_inside ? "" : " outside it", counted(with_data, "pixel"), grid.x(0),
+                    grid.x(grid.cols - 1), grid.y(0), grid.y(grid.rows - 1)));
   }
   return map;
 }

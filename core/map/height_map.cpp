@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/counted.h"
 #include "core/base/errors.h"
 
 namespace dwell {
@@ -33,8 +34,8 @@ HeightMap::HeightMap(const Grid& g) : grid(g) {
 HeightMap::HeightMap(const Grid& g, std::vector<double> v) : grid(g), values(std::move(v)) {
   check_grid(g);
   if (static_cast<Index>(values.size()) != g.size()) {
-    throw InputError(
-        fmt::format("map has {} values; its grid of {} x {} needs {}", values.size(), g.rows, g.cols, g.size()));
+    throw InputError(fmt::format("map has {}; its grid of {} x {} needs {}", counted(values.size(), "value"), g.rows,
+                                 g.cols, g.size()));
   }
 }
 

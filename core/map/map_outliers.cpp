@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "core/base/counted.h"
 #include "core/base/errors.h"
 #include "core/numerics/median.h"
 
@@ -48,8 +49,8 @@ void check(const OutlierOptions& o) {
     throw InputError(fmt::format("outliers: {} standard deviations; a finite number > 0 is required", o.sigmas));
   }
   if (o.window < 3 || o.window > kMaxOutlierWindow || o.window % 2 == 0) {
-    throw InputError(fmt::format("outliers: window = {} pixels; an odd number from 3 to {} is required", o.window,
-                                 kMaxOutlierWindow));
+    throw InputError(fmt::format("outliers: window = {}; an odd number from 3 to {} is required",
+                                 counted(o.window, "pixel"), kMaxOutlierWindow));
   }
   if (!(std::isfinite(o.floor) && o.floor >= 0.0)) {
     throw InputError(fmt::format("outliers: floor = {} nm; a finite number >= 0 is required", o.floor));
@@ -63,7 +64,8 @@ Index take_out(HeightMap& map, const std::vector<unsigned char>& marked, const c
     if (marked[i] != 0) map.values[i] = std::numeric_limits<double>::quiet_NaN();
   }
   const Index after = map.valid_pixels();
-  if (after == 0) throw InputError(fmt::format("{}: all {} pixels with data would be removed", what, before));
+  if (after == 0)
+    throw InputError(fmt::format("{}: all {} with data would be removed", what, counted(before, "pixel")));
   return before - after;
 }
 

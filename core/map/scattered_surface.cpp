@@ -10,6 +10,7 @@
 #include <numbers>
 #include <utility>
 
+#include "core/base/counted.h"
 #include "core/base/errors.h"
 #include "core/numerics/median.h"
 
@@ -125,8 +126,8 @@ HeightMap scattered_surface(std::vector<HeightPoint> points, const Grid& grid, c
                             ScatterSummary& summary, int threads, const Progress& progress) {
   std::erase_if(points, [](const HeightPoint& point) { return std::isnan(point.height); });
   if (points.size() < kQuadratic) {
-    throw InputError(
-        fmt::format("{} points with a height; at least {} are required to fit a surface", points.size(), kQuadratic));
+    throw InputError(fmt::format("{} with a height; at least {} are required to fit a surface",
+                                 counted(points.size(), "point"), kQuadratic));
   }
   const PointBins bins(std::move(points));
   summary.spacing = bins.mean_spacing() > 0.0 ? local_spacing(bins) : 0.0;

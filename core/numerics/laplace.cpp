@@ -11,6 +11,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "core/base/counted.h"
+
 namespace dwell {
 namespace {
 
@@ -207,11 +209,12 @@ void conjugate_gradients(Multigrid& multigrid, const Vector& b, Vector& x, Lapla
     summary.residual = r.norm() / size;
     if (summary.residual <= kTolerance) return;
     if (iteration == kMaxIterations || !std::isfinite(summary.residual)) {
-      throw std::runtime_error(fmt::format("Laplace's equation on {} pixels: residual {} after {} iterations",
-                                           summary.unknowns, summary.residual, iteration));
+      throw std::runtime_error(fmt::format("Laplace's equation on {}: residual {} after {}",
+                                           counted(summary.unknowns, "pixel"), summary.residual,
+                                           counted(iteration, "iteration")));
     }
-    progress.step(fmt::format("harmonic: {} pixels, iteration {}, residual {:.1e}", summary.unknowns, iteration,
-                              summary.residual));
+    progress.step(fmt::format("harmonic: {}, iteration {}, residual {:.1e}", counted(summary.unknowns, "pixel"),
+                              iteration, summary.residual));
     multigrid.apply(r, z);
     const double rho_new = r.dot(z);
     p = iteration == 0 ? z : Vector(z + (rho_new / rho) * p);
@@ -231,7 +234,7 @@ LaplaceSummary solve_laplace(const Grid& grid, std::span<const unsigned char> un
   const Places places = places_of(grid, unknown, values);
   summary.unknowns = places.count;
   if (places.count == 0) return summary;
-  progress.step(fmt::format("harmonic: {} pixels, setting up", places.count));
+  progress.step(fmt::format("harmonic: {}, setting up", counted(places.count, "pixel")));
   const double mean = mean_held(places, values);
   const System system = five_point_system(grid, places, values, mean);
   Multigrid multigrid(system.a, places);

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <vector>
 
+#include "core/base/counted.h"
 #include "core/base/poll.h"
 
 namespace dwell {
@@ -39,8 +40,8 @@ class CirclesPlanner {
     path_.lifted.reserve(path_.points.capacity());
     for (double i = first; i <= last; ++i) append_circle((i + 0.5) * part_.pitch);
     if (broken_ > 0) {
-      path_.notes.push_back(fmt::format(
-          "{} of {} circles are broken by the edge of the part and run in pieces, lifted between", broken_, circles_));
+      path_.notes.push_back(fmt::format("{} of {} {} broken by the edge of the part and run in pieces, lifted between",
+                                        broken_, counted(circles_, "circle"), broken_ == 1 ? "is" : "are"));
     }
     return std::move(path_);
   }

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/counted.h"
 #include "core/base/errors.h"
 #include "core/base/poll.h"
 #include "paths/curves/centred_curve.h"
@@ -204,10 +205,10 @@ class FibonacciPlanner {
     if (path_.size() < 2) return;
     const PathMetrics metrics = path_metrics(path_, progress_);
     path_.notes.push_back(fmt::format(
-        "the tour through {} points is {:.4g} times (points - 1) * pitch long, lifted moves included ({} of "
+        "the tour through {} is {:.4g} times (points - 1) * pitch long, lifted moves included ({} of "
         "them, {:.4g} mm)",
-        metrics.points, metrics.point_length / (static_cast<double>(metrics.points - 1) * pitch_), metrics.lifts,
-        metrics.lifted_length));
+        counted(metrics.points, "point"), metrics.point_length / (static_cast<double>(metrics.points - 1) * pitch_),
+        metrics.lifts, metrics.lifted_length));
   }
 
   const Progress& progress_;

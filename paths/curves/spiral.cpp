@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/counted.h"
 #include "core/base/poll.h"
 
 namespace dwell {
@@ -145,7 +146,7 @@ ToolPath spiral_path(const HeightMap& map, const SpiralOptions& options, const P
     outside = false;
   }
   if (pieces > 1) {
-    path.notes.push_back(fmt::format("the spiral leaves the part {} times; it is lifted there", pieces - 1));
+    path.notes.push_back(fmt::format("the spiral leaves the part {}; it is lifted there", counted(pieces - 1, "time")));
   }
   if (options.from_edge) reverse(path);
   return path;

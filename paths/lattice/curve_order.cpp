@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "core/base/counted.h"
 #include "core/base/poll.h"
 
 namespace dwell {
@@ -96,10 +97,10 @@ class Gaps {
 
   void add_note(ToolPath& path) const {
     if (linked_ + lifted_ == 0) return;
-    path.notes.push_back(fmt::format(
-        "points outside the part break the curve in {} places; {} are linked by a straight move over the part, at "
-        "{} the tool is lifted",
-        linked_ + lifted_, linked_, lifted_));
+    path.notes.push_back(
+        fmt::format("points outside the part break the curve in {}; {} are linked by a straight move over the part, at "
+                    "{} the tool is lifted",
+                    counted(linked_ + lifted_, "place"), linked_, lifted_));
   }
 
  private:

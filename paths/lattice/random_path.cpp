@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/counted.h"
 #include "core/base/poll.h"
 #include "core/base/random_numbers.h"
 #include "paths/domain/cell_pyramid.h"
@@ -202,14 +203,14 @@ void add_notes(RandomPath& r) {
   }
   if (r.pieces > 1) {
     r.path.notes.push_back(
-        fmt::format("the lattice points fall into {} pieces; the tool is lifted between them", r.pieces));
+        fmt::format("the lattice points fall into {}; the tool is lifted between them", counted(r.pieces, "piece")));
   }
   if (r.lifts_in_pieces > 0) {
     r.path.notes.push_back(
-        fmt::format("the tool is lifted in {} more places, because no single path through all of a piece was "
+        fmt::format("the tool is lifted in {}, because no single path through all of a piece was "
                     "found (narrow or "
                     "ragged places); a smaller pitch or a larger overrun may help",
-                    r.lifts_in_pieces));
+                    counted(r.lifts_in_pieces, "more place")));
   }
 }
 

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/base/counted.h"
 #include "core/base/errors.h"
 #include "core/base/poll.h"
 #include "paths/domain/point_limit.h"
@@ -152,8 +153,8 @@ ToolPath round_corners(const ToolPath& path, double radius, const Progress& prog
   if (radius == 0.0) return path;
   const Rounding rounding = plan(path, radius, progress);
   if (!(static_cast<double>(rounding.points) <= kMaxPathPoints)) {
-    throw InputError(fmt::format("{}: with its corners rounded the path has up to {} points; at most {:.0e} accepted",
-                                 path.kind, rounding.points, kMaxPathPoints));
+    throw InputError(fmt::format("{}: with its corners rounded the path has up to {}; at most {:.0e} accepted",
+                                 path.kind, counted(rounding.points, "point"), kMaxPathPoints));
   }
   const auto& p = path.points;
   ToolPath result{path.kind, {}, {}, path.notes};

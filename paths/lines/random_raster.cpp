@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/counted.h"
 #include "core/base/errors.h"
 #include "core/base/number_text.h"
 #include "core/base/random_numbers.h"
@@ -95,7 +96,7 @@ ToolPath random_raster_path(const HeightMap& map, const RandomRasterOptions& opt
   const Index count = lines.count();
   append_lines(path, ScanLines(map, frame, steps, std::move(lines), scan.overrun, progress), {options.serpentine},
                options.turns, progress);
-  path.notes.push_back(fmt::format("{} lines at random distances from {:.6g} to {:.6g} mm, seed {}", count,
+  path.notes.push_back(fmt::format("{} at random distances from {:.6g} to {:.6g} mm, seed {}", counted(count, "line"),
                                    options.pitch * (1.0 - options.spread), farthest, options.seed));
   return options.turns.corner > 0.0 ? round_corners(path, options.turns.corner, progress) : path;
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/base/counted.h"
 #include "core/base/errors.h"
 #include "core/base/numbers.h"
 #include "core/base/poll.h"
@@ -36,7 +37,7 @@ std::vector<Station> stations(const ToolPath& path) {
 void check(const ToolPath& path, const SpacingOptions& options) {
   validate(path);
   if (path.size() > kMaxPoints) {
-    throw InputError(fmt::format("path spacing: {} points; at most {} accepted", path.size(), kMaxPoints));
+    throw InputError(fmt::format("path spacing: {}; at most {} accepted", counted(path.size(), "point"), kMaxPoints));
   }
   if (options.skip < 1) throw InputError(fmt::format("path spacing: skip = {}; required >= 1", options.skip));
   if (!(options.detour >= 1.0 && options.detour < kInfinity)) {

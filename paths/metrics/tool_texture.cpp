@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "core/base/counted.h"
 #include "core/base/errors.h"
 #include "core/base/units.h"
 #include "paths/domain/point_limit.h"
@@ -84,7 +85,8 @@ TextureTrack texture_track(const std::vector<Stroke>& strokes, const Eigen::Vect
                            double step) {
   check(tool, step);
   if (times.size() != static_cast<Index>(strokes.size())) {
-    throw InputError(fmt::format("texture: {} times for {} strokes; required one each", times.size(), strokes.size()));
+    throw InputError(
+        fmt::format("texture: {} for {} strokes; required one each", counted(times.size(), "time"), strokes.size()));
   }
   double total = 0.0;
   for (Index j = 0; j < times.size(); ++j) {

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "core/base/counted.h"
 #include "core/base/errors.h"
 #include "core/base/poll.h"
 #include "paths/domain/point_limit.h"
@@ -22,7 +23,8 @@ constexpr std::int32_t kMixed = -1;
 void check(const std::vector<Point>& points) {
   if (points.empty()) throw InputError("spanning tree: no points; at least one is required");
   if (points.size() > kMaxTreePoints) {
-    throw InputError(fmt::format("spanning tree: {} points; at most {} accepted", points.size(), kMaxTreePoints));
+    throw InputError(
+        fmt::format("spanning tree: {}; at most {} accepted", counted(points.size(), "point"), kMaxTreePoints));
   }
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!(std::isfinite(points[i].x) && std::isfinite(points[i].y))) {

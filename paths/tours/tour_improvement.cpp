@@ -7,6 +7,7 @@
 #include <cmath>
 #include <random>
 
+#include "core/base/counted.h"
 #include "core/base/errors.h"
 #include "paths/domain/point_limit.h"
 #include "paths/tours/tour_search.h"
@@ -26,7 +27,7 @@ constexpr Index kKicksPerAsk = 256;  // kicks
 void check(const std::vector<Point>& points, const std::vector<Index>& order, const TourOptions& options) {
   if (points.empty()) throw InputError("tour: no points; at least one is required");
   if (points.size() > kMaxTourPoints) {
-    throw InputError(fmt::format("tour: {} points; at most {} accepted", points.size(), kMaxTourPoints));
+    throw InputError(fmt::format("tour: {}; at most {} accepted", counted(points.size(), "point"), kMaxTourPoints));
   }
   Point low = points.front(), high = points.front();
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -42,8 +43,8 @@ void check(const std::vector<Point>& points, const std::vector<Index>& order, co
                                  low.y, high.x, high.y));
   }
   if (order.size() != points.size()) {
-    throw InputError(
-        fmt::format("tour: the order has {} entries for {} points; required one each", order.size(), points.size()));
+    throw InputError(fmt::format("tour: the order has {} entries for {}; required one each", order.size(),
+                                 counted(points.size(), "point")));
   }
   std::vector<char> seen(points.size(), 0);
   for (const Index i : order) {

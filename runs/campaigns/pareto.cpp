@@ -10,6 +10,7 @@
 #include <numeric>
 #include <utility>
 
+#include "core/base/counted.h"
 #include "core/base/errors.h"
 #include "core/base/number_text.h"
 #include "core/base/value_range.h"
@@ -126,8 +127,8 @@ std::vector<double> parse_weight_list(const std::string& text, const std::string
   if (values.empty() || values.size() > kMostWeights) {
     throw InputError(
         fmt::format("{}: '{}'; required FROM:TO:COUNT (numbers > 0, COUNT from 2 to {}; equal ratios) or a "
-                    "list of at most {} numbers >= 0 like 0,0.01,0.1",
-                    option, text, kMostWeights, kMostWeights));
+                    "list of at most {} >= 0 like 0,0.01,0.1",
+                    option, text, kMostWeights, counted(kMostWeights, "number")));
   }
   std::sort(values.begin(), values.end());
   values.erase(std::unique(values.begin(), values.end()), values.end());

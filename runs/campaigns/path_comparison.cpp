@@ -86,7 +86,7 @@ void plan_one(Job job, double pitch, ComparedPath& path, const OutputFolder& fol
   path.dwell_max = plan.dwell.seconds.maxCoeff();
   path.step_rms = plan.dwell.step_rms;
   path.lift_time = written.travel.lifted;
-  path.total_time = written.total_seconds();
+  path.total_time = written.run_seconds;
   path.solver = plan.dwell.solver;
   path.program = written.program;
 }
@@ -132,6 +132,7 @@ PathComparison compare_paths(const JobOptions& options, const std::string& list,
   if (pitch && !ranges::kPitch.holds(*pitch)) {
     throw InputError(fmt::format("--pitch: {}; required {}", *pitch, ranges::kPitch.text()));
   }
+  check_weights(dwell_options(options));
   parse_path_list(list, pitch.value_or(1.0));  // refuses a wrong list before any work is done
   PathComparison comparison;
   comparison.job = time_limit(options.max_solve_s).run(progress, [&](const Progress& limited) {

@@ -260,13 +260,13 @@ std::string path_comparison_text(const PathComparison& comparison) {
     for (const std::string& note : p.notes) below += fmt::format("{}: {}\n", p.listed.name, note);
   }
   text += fmt::format(
-      "* on the Pareto front of residual, mid-band RMS ({}) and total time; ! the solve did not converge.\n"
+      "* on the Pareto front of residual{}, mid-band RMS ({}) and total time; ! the solve did not converge.\n"
       "  Mid RMS: of those wavelengths alone, under a window, which weighs the middle of the part more than its edge: "
       "it "
       "may be above the residual's RMS over all pixels.\n"
       "  Ripple: peak to valley over the mean removal, at constant feed. Anisotropy of the path's directions: 1 = all "
       "parallel.\n",
-      band_text(comparison));
+      *about_zero_in_words(part.before) != '\0' ? " (RMS about the mean)" : "", band_text(comparison));
   return text + below;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/counted.h"
 #include "core/base/errors.h"
 #include "core/numerics/median.h"
 #include "runs/drawing/plot_field.h"
@@ -192,7 +193,7 @@ PlotField field_of_dwell(const ToolPath& path, const std::vector<double>& dwell,
   validate(path);
   if (dwell.size() != path.size()) {
     throw InputError(
-        fmt::format("{} dwell times for a path of {} points; one each required", dwell.size(), path.size()));
+        fmt::format("{} for a path of {} points; one each required", counted(dwell.size(), "dwell time"), path.size()));
   }
   const Extent box = bounding_box(path);
   const double scale = dwell_scale(box, path.size(), edges);

@@ -160,7 +160,12 @@ RemovalFunction removal_of_rates(const JobOptions& options, std::vector<InputFil
               as_read.peak,
               rim.mean,
               rim.largest,
-              rim.scatter};
+              rim.scatter,
+              std::nullopt};
+  if (options.tif_pedestal && *options.tif_pedestal != TifPedestal::Accept) {
+    const RateRim used = rate_rim(mended);
+    tif.file->mended = TifFile::Mended{tif.peak, used.mean, used.largest};
+  }
   tif.notes = notes_of(question_tool({rates, tif, !options.tif_centre && !made_here, options.tif_pedestal}));
   if (rates.unit_assumed) tif.notes.emplace_back("no unit in the file: taken as nm/s; `tif unit` states it");
   for (std::string& note : tif.notes) note = with_option_names(note, flag_of);
@@ -180,6 +185,8 @@ void refuse_reading_options(const JobOptions& o) {
     if (given)
       throw InputError(fmt::format("--{} {}: for a file of rates, not for the formula {}", option, value, o.tif));
   };
+  refuse(o.tif_pixel_mm.has_value(), "tif-pixel", o.tif_pixel_mm ? pitch_option_text(*o.tif_pixel_mm) : "");
+  refuse(!o.tif_unit.empty(), "tif-unit", o.tif_unit);
   refuse(o.tif_centre.has_value(), "tif-centre", to_string(o.tif_centre));
   refuse(o.tif_no_data.has_value(), "tif-no-data", o.tif_no_data ? to_string(*o.tif_no_data) : "");
   refuse(o.tif_table.has_value(), "tif-table", o.tif_table ? to_string(*o.tif_table) : "");
@@ -213,6 +220,8 @@ RemovalFunction load_removal_function(const JobOptions& options, std::vector<Inp
   try {
     tif = oriented(options.tif_dwell_time_s ? removal_of_spots(options) : removal_of_rates(options, of_steps, progress),
                    orientation);
+  } catch (const MissingPitch&) {
+    throw;
   } catch (const InputError& error) {
     const std::string what = error.what();
     throw InputError(what.find(options.tif) == std::string::npos ? fmt::format("{}: {}", options.tif, what) : what);
@@ -220,6 +229,36 @@ RemovalFunction load_removal_function(const JobOptions& options, std::vector<Inp
   inputs.push_back({"tif", options.tif, sha256_of_file(file)});
   inputs.insert(inputs.end(), of_steps.begin(), of_steps.end());
   return tif;
+}
+
+namespace {
+
+/// Whether only a pitch is missing for the file to be read. What else is wrong about it is said when it is read.
+bool lacks_pitch(const std::string& file, const MapReadOptions& read) {
+  if (file.empty() || read.pitch) return false;
+  try {
+    read_map(file, read);
+  } catch (const MissingPitch&) {
+    return true;
+  } catch (const std::exception&) {
+    return false;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::vector<std::string> missing_pitches(const JobOptions& options) {
+  std::vector<std::string> flags;
+  try {
+    if (lacks_pitch(options.map, map_reading(options))) flags.emplace_back("--map-pixel");
+    if (options.tif.empty() || is_removal_model(split_kind(options.tif).first)) return flags;
+    const MapQuantity quantity = options.tif_dwell_time_s ? MapQuantity::Height : MapQuantity::Rate;
+    if (lacks_pitch(options.tif, tif_reading(options, quantity))) flags.emplace_back("--tif-pixel");
+  } catch (const InputError&) {
+    // A unit that is none, for instance: said when the file is read.
+  }
+  return flags;
 }
 
 }  // namespace dwell

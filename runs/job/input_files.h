@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "core/base/progress.h"
@@ -13,6 +14,10 @@ namespace dwell {
 /// Reads the map of a job, prepares it by the job's steps (runs/map_steps/map_steps.h) and appends all files read to
 /// `inputs`. Throws InputError, Interrupted.
 HeightMap load_map(const JobOptions& options, std::vector<InputFile>& inputs, const Progress& progress = {});
+
+/// The flags of the pitches that a job lacks since neither its files nor its options say them. Reads map and removal
+/// function for it: for messages that name all that is missing at once.
+std::vector<std::string> missing_pitches(const JobOptions& options);
 
 /// Reads or makes the removal function of a job; all files read are appended to `inputs`. A file of rates is prepared
 /// by the job's steps, and questioned (core/tif/tool_questions.h): what is doubtful is refused unless an option answers

@@ -6,6 +6,7 @@
 
 #include "core/base/errors.h"
 #include "core/base/whole_file.h"
+#include "core/formats/map_io.h"
 #include "core/map/aperture.h"
 #include "runs/job/input_files.h"
 #include "runs/plan/pitch_choice.h"
@@ -17,6 +18,19 @@ const PathSpec& required_path(const JobOptions& options) {
   if (!options.path.given())
     throw InputError("--path: required; for instance raster:pitch=1, nearest:cell=2 or file:path.csv");
   return options.path;
+}
+
+/// Where both files lack a pitch, both are named at once.
+HeightMap load_map_of(const JobOptions& options, std::vector<InputFile>& inputs, const Progress& progress) {
+  try {
+    return load_map(options, inputs, progress);
+  } catch (const MissingPitch&) {
+    const std::vector<std::string> missing = missing_pitches(options);
+    if (missing.size() < 2) throw;
+    throw InputError(
+        fmt::format("{}: required [mm] > 0; there is no pixel pitch in the map {}, nor in the removal function {}",
+                    fmt::join(missing, ", "), options.map, options.tif));
+  }
 }
 
 }  // namespace
@@ -36,7 +50,7 @@ DwellOptions dwell_options(const JobOptions& o) {
 Job load_job(const JobOptions& options, const Progress& progress) {
   Job job;
   job.options = options;
-  HeightMap map = load_map(options, job.inputs, progress);
+  HeightMap map = load_map_of(options, job.inputs, progress);
   job.map_pixels = map.valid_pixels();
   map = within(std::move(map), options.aperture, progress);
   progress.check();

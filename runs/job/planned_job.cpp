@@ -33,7 +33,7 @@ PlannedJob plan_loaded(Job job, JobPath path, double used, const Progress& progr
 }  // namespace
 
 PlannedJob plan_job(const JobOptions& options, const Progress& progress) {
-  weights_are_searched(dwell_options(options));  // refuses what cannot be searched before any work is done
+  check_weights(dwell_options(options));
   const TimeLimit limit = time_limit(options.max_solve_s);
   Job job = limit.run(progress, [&](const Progress& limited) { return load_job(options, limited); });
   JobPath path = lay_job_path(job, limit.used(), progress);

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/counted.h"
 #include "core/base/errors.h"
 #include "core/base/number_text.h"
 #include "core/base/value_range.h"
@@ -68,12 +69,12 @@ std::string describe_registration(const MapRegistration& r, const RegistrationOp
   return fmt::format(
       "looked {:.4g} mm and {:.4g} degrees each way; moved by {:.6g} +- {:.2g} mm in x and {:.6g} +- {:.2g} mm in y, "
       "turned by {:.6g} +- {:.2g} degrees, scaled by "
-      "{:.8g} +- {:.2g}; difference {:.5g} nm RMS (robust {:.5g}) before, {:.5g} nm (robust {:.5g}) after, {} pixels; "
+      "{:.8g} +- {:.2g}; difference {:.5g} nm RMS (robust {:.5g}) before, {:.5g} nm (robust {:.5g}) after, {}; "
       "lone "
       "spikes left out of the fit: {} of the map moved, {} of the other",
       options.range.shift, options.range.degrees, r.x.value, r.x.error, r.y.value, r.y.error, r.degrees.value,
       r.degrees.error, r.scale.value, r.scale.error, r.before.rms, r.before.scatter, r.after.rms, r.after.scatter,
-      r.points, r.spikes_moving, r.spikes_fixed);
+      counted(r.points, "pixel"), r.spikes_moving, r.spikes_fixed);
 }
 
 std::vector<Point> points_of(const MapStep& step, const std::string& name) {
@@ -87,7 +88,7 @@ std::vector<Point> points_of(const MapStep& step, const std::string& name) {
     numbers.push_back(*value);
   }
   if (numbers.size() % 2 != 0) {
-    step.refuse(fmt::format("{} has {} numbers; X/Y/X/Y/... in mm required", name, numbers.size()));
+    step.refuse(fmt::format("{} has {}; X/Y/X/Y/... in mm required", name, counted(numbers.size(), "number")));
   }
   std::vector<Point> points;
   for (std::size_t i = 0; i < numbers.size(); i += 2) points.push_back({numbers[i], numbers[i + 1]});
@@ -115,7 +116,7 @@ std::string subtract_map(HeightMap& map, const MapStep& step, MapStepContext& co
     step.refuse(why + ", or give 'resample' or 'register'");
   }
   map = difference(map, other);
-  return what + fmt::format("{} pixels have data in both", map.valid_pixels());
+  return what + fmt::format("{} with data in both", counted(map.valid_pixels(), "pixel"));
 }
 
 std::string average_maps(HeightMap& map, const MapStep& step, MapStepContext& context) {
@@ -132,7 +133,8 @@ std::string average_maps(HeightMap& map, const MapStep& step, MapStepContext& co
     maps.push_back(std::move(other));
   }
   map = mean_map(maps, least);
-  return fmt::format("{} maps, {} pixels have data in at least {}", count, map.valid_pixels(), least);
+  return fmt::format("{}, {} with data in at least {}", counted(count, "map"), counted(map.valid_pixels(), "pixel"),
+                     least);
 }
 
 std::string register_on_map(HeightMap& map, const MapStep& step, MapStepContext& context) {
@@ -146,7 +148,7 @@ std::string register_on_map(HeightMap& map, const MapStep& step, MapStepContext&
 std::string move_by_fiducials(HeightMap& map, const MapStep& step, MapStepContext& context) {
   const std::vector<Point> from = points_of(step, "from"), to = points_of(step, "to");
   if (from.size() != to.size()) {
-    step.refuse(fmt::format("{} points in from, {} in to; equally many required", from.size(), to.size()));
+    step.refuse(fmt::format("{} in from, {} in to; equally many required", counted(from.size(), "point"), to.size()));
   }
   std::vector<PointPair> pairs;
   for (std::size_t i = 0; i < from.size(); ++i) pairs.push_back({from[i], to[i]});

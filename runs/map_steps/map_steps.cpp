@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/base/counted.h"
 #include "core/base/errors.h"
 #include "core/base/grid_limit.h"
 #include "core/base/number_text.h"
@@ -42,7 +43,7 @@ std::string run_mask(HeightMap& map, const MapStep& step, bool keep, const Progr
   const Index before = map.valid_pixels();
   const Aperture area = parse_aperture(step.area);
   map = keep ? within(std::move(map), area, progress) : outside(std::move(map), area, progress);
-  return fmt::format("{} pixels removed, {} left", before - map.valid_pixels(), map.valid_pixels());
+  return fmt::format("{} removed, {} left", counted(before - map.valid_pixels(), "pixel"), map.valid_pixels());
 }
 
 std::string run_keep(HeightMap& map, const MapStep& step, MapStepContext& context) {
@@ -86,19 +87,19 @@ std::string run_fill(HeightMap& map, const MapStep& step, MapStepContext& contex
   const double largest = step.optional_number("largest").value_or(0.0);
   if (step.has("largest") && !(largest > 0.0)) step.refuse(fmt::format("largest = {} mm^2; > 0 required", largest));
   const FillSummary summary = fill_holes(map, {step.has("all"), largest}, context.progress);
-  return fmt::format("{} holes of {} pixels filled{}", summary.holes, summary.pixels,
+  return fmt::format("{} of {} filled{}", counted(summary.holes, "hole"), counted(summary.pixels, "pixel"),
                      summary.left > 0 ? fmt::format(", {} larger ones left", summary.left) : "");
 }
 
 std::string run_outliers(HeightMap& map, const MapStep& step, MapStepContext& context) {
   const OutlierOptions options{step.number("sigmas"), step.whole("window", 3, kMaxOutlierWindow), step.number("floor")};
   const Index removed = remove_outliers(map, options, context.threads, context.progress);
-  return fmt::format("{} pixels removed", removed);
+  return fmt::format("{} removed", counted(removed, "pixel"));
 }
 
 std::string run_limit(HeightMap& map, const MapStep& step, MapStepContext&) {
   const Index removed = remove_beyond(map, {step.number("height"), step.number("slope")});
-  return fmt::format("{} pixels removed", removed);
+  return fmt::format("{} removed", counted(removed, "pixel"));
 }
 
 std::string run_decimate(HeightMap& map, const MapStep& step, MapStepContext& context) {
@@ -126,11 +127,12 @@ std::string run_extend(HeightMap& map, const MapStep& step, MapStepContext& cont
   options.limit = context.limit();
   ExtendSummary summary;
   map = extend_map(map, options, summary, context.threads, context.progress);
-  std::string text = fmt::format("{} pixels added", summary.pixels);
+  std::string text = fmt::format("{} added", counted(summary.pixels, "pixel"));
   if (options.how != Extension::Gerchberg) return text;
   const bool settled = summary.change <= options.tolerance;
-  return text + fmt::format(", waves longer than {} mm, {} iterations, {} at a change of {:.1e}", options.shortest,
-                            summary.iterations, settled ? "settled" : "NOT settled", summary.change);
+  return text + fmt::format(", waves longer than {} mm, {}, {} at a change of {:.1e}", options.shortest,
+                            counted(summary.iterations, "iteration"), settled ? "settled" : "NOT settled",
+                            summary.change);
 }
 
 Argument about() {

@@ -19,4 +19,13 @@ bool weights_are_searched(const DwellOptions& options) {
   return searched(smoothness) || searched(price);
 }
 
+void check_weights(const DwellOptions& options) {
+  weights_are_searched(options);
+  if (options.time_price.kind == GoalKind::Auto || options.time_worth == TimeWorth{}) return;
+  throw InputError("time worth", to_string(options.time_worth), "`time price` auto",
+                   fmt::format("`time worth` {} rules the price where that is auto; `time price` is {}: leave one of "
+                               "them out",
+                               to_string(options.time_worth), to_string(options.time_price)));
+}
+
 }  // namespace dwell

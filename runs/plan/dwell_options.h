@@ -32,4 +32,8 @@ inline TimeLimit time_limit(double max_seconds, double used = 0.0) {
 /// weights shall be the largest that hold a residual: many pairs of weights do, and none of them is the largest.
 bool weights_are_searched(const DwellOptions& options);
 
+/// Throws InputError for weights that contradict each other, before any work is done: as weights_are_searched, and for
+/// a worth of time beside a price that it does not rule.
+void check_weights(const DwellOptions& options);
+
 }  // namespace dwell

@@ -133,9 +133,9 @@ DwellPlan find_dwell(const Part& part, const LaidPath& laid, const DwellOptions&
   if (too_coarse(plan)) {
     plan.limits.push_back(
         fmt::format("the removal function is too sharp for the lattice of the removal operator ({}): its error "
-                    "of {:.3g} nm RMS is more than {:.0f} % of the {:.4g} nm that are left",
+                    "of {:.3g} nm RMS is more than {:.0f} % of the {:.4g} nm{} that are left",
                     lattice_words(plan.lattice.kernel), plan.exact.lattice_error, 100.0 * kWorstLatticeError,
-                    plan.exact.statistics.rms_about_zero()));
+                    plan.exact.statistics.rms_about_zero(), about_zero_in_words(plan.exact.statistics)));
   }
   return plan;
 }

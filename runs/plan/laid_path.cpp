@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/base/counted.h"
 #include "paths/feed/plan_program.h"
 
 namespace dwell {
@@ -34,7 +35,7 @@ LaidPath lay_path(const Part& part, const PathSpec& spec, Motion motion, double 
   ToolPath path = plan_path(spec, {part.figure, part.tif, max_feed, true, progress});
   progress.check();
   LaidPath laid = lay_path(std::move(path), motion);
-  progress.step(fmt::format("path: {} dwell points, {:.4g} mm", laid.path.size(), laid.metrics.length));
+  progress.step(fmt::format("path: {}, {:.4g} mm", counted(laid.path.size(), "dwell point"), laid.metrics.length));
   return laid;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/base/counted.h"
 #include "paths/lines/raster.h"
 #include "paths/metrics/track_overlap.h"
 #include "paths/metrics/track_profile.h"
@@ -23,8 +24,8 @@ struct TriedRaster {
   double residual() const { return dwell.exact.statistics.rms_about_zero(); }
   double step() const { return options.step.value_or(options.pitch); }
   std::string in_words() const {
-    return fmt::format("pitch {:.4g} mm, step {:.4g} mm: RMS {:.4g} nm with {} dwell points", options.pitch, step(),
-                       residual(), laid.path.size());
+    return fmt::format("pitch {:.4g} mm, step {:.4g} mm: RMS {:.4g} nm with {}", options.pitch, step(), residual(),
+                       counted(laid.path.size(), "dwell point"));
   }
 };
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/counted.h"
 #include "core/base/time_limit.h"
 #include "runs/plan/weight_verdict.h"
 #include "solvers/weights/weight_search.h"
@@ -76,8 +77,8 @@ WeightedDwell choose_weights(PlanProblem& problem, const DwellOptions& options, 
   search.front = result.front;
   search.criterion = search_criterion(how);
   if (out_of_time) {
-    search.limits.push_back(fmt::format("the search of the weights ended after {} solves; `max solve` is {} s",
-                                        found.size(), options.max_seconds));
+    search.limits.push_back(fmt::format("the search of the weights ended after {}; `max solve` is {} s",
+                                        counted(found.size(), "solve"), options.max_seconds));
   }
   judge_search(how, result.end, search);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/counted.h"
 #include "solvers/weights/weight_option.h"
 
 namespace dwell {
@@ -88,15 +89,15 @@ void judge_both(const NamedGoal& a, const NamedGoal& b, SearchEnd end, WeightTri
   if (end == SearchEnd::Unfinished) {
     search.outcome = "unfinished";
     search.limits.push_back(
-        fmt::format("{} and {} are not met together by {} solves; whether some weights meet both is open; {}", a.text(),
-                    b.text(), search.trials.size(), nearest_to_both(a, b, search)));
+        fmt::format("{} and {} are not met together by {}; whether some weights meet both is open; {}", a.text(),
+                    b.text(), counted(search.trials.size(), "solve"), nearest_to_both(a, b, search)));
     return;
   }
   search.outcome = both ? "conflict" : "missed";
   if (both) {
     search.limits.push_back(fmt::format(
-        "{} and {} are in conflict: each can be met, but no weights meet both ({} solves, {}, {}); {}", a.text(),
-        b.text(), search.trials.size(), a.tried(search), b.tried(search), nearest_to_both(a, b, search)));
+        "{} and {} are in conflict: each can be met, but no weights meet both ({}, {}, {}); {}", a.text(), b.text(),
+        counted(search.trials.size(), "solve"), a.tried(search), b.tried(search), nearest_to_both(a, b, search)));
     return;
   }
   for (const NamedGoal* g : {&a, &b}) {

@@ -12,6 +12,7 @@ namespace dwell {
 struct CorrectionAim {
   double fraction = 1.0;
   double would_remain_rms = 0.0;  // on the part if the aim were met exactly [nm], about the mean
+  const char* about = "";         // says so in words where that is another than about zero
 };
 
 CorrectionAim correction_aim(const Job& job);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/counted.h"
 #include "core/base/duration_text.h"
 #include "runs/base/json_blocks.h"
 #include "runs/job/job.h"
@@ -46,11 +47,19 @@ std::string in_words(const PricedTradeOff& plan) {
   return fmt::format("{:.4g} nm in {}", plan.trade_off.residual_rms, duration_text(plan.trade_off.total));
 }
 
-/// The least that is left on the path, as far as is known: the plan itself may leave less than the model.
-double least_left(const DwellPlan& plan) {
-  const TimePrice& worth = *plan.worth;
-  return std::min({worth.best.trade_off.residual_rms, worth.half.trade_off.residual_rms,
-                   worth.twice.trade_off.residual_rms, plan.residual.rms_about_zero()});
+/// The least that is left on the path, as far as is known: the plan itself may leave less than the model. Of a fraction
+/// of the error the models tell what is left of that, and the plan what remains on the part.
+double least_left(const PlannedJob& plan) {
+  const TimePrice& worth = *plan.dwell.worth;
+  const double modelled = std::min(
+      {worth.best.trade_off.residual_rms, worth.half.trade_off.residual_rms, worth.twice.trade_off.residual_rms});
+  return plan.job.options.fraction < 1.0 ? modelled : std::min(modelled, plan.dwell.residual.rms_about_zero());
+}
+
+/// Of what the estimates are, behind "RMS".
+std::string of_what(const PlannedJob& plan) {
+  return std::string(about_zero_in_words(plan.dwell.residual)) +
+         (plan.job.options.fraction < 1.0 ? " of the fraction that is to be removed" : "");
 }
 
 /// What a user wants to know who has to choose a price.
@@ -60,14 +69,13 @@ std::string price_lines(const PlannedJob& plan) {
     return fmt::format("{}time price: no dwell above the least removes anything; this run is the least dwell\n",
                        kIndent);
   }
-  const char* of_what = plan.job.options.fraction < 1.0 ? " of the fraction that is to be removed" : "";
   std::string text = fmt::format("{}time price: {}\n", kIndent, rule_in_words(plan.job.options.time_worth, worth.rule));
   text += fmt::format("{}            half of it: about {}; twice: about {} (RMS{}, dwell; estimated on a model)\n",
-                      kIndent, in_words(worth.half), in_words(worth.twice), of_what);
+                      kIndent, in_words(worth.half), in_words(worth.twice), of_what(plan));
   text += fmt::format(
       "{}            the least that this tool leaves on this path is about {:.4g} nm RMS{} (estimated "
       "on a model)\n",
-      kIndent, least_left(plan.dwell), of_what);
+      kIndent, least_left(plan), of_what(plan));
   return text;
 }
 
@@ -76,12 +84,12 @@ std::string price_lines(const PlannedJob& plan) {
 std::string weight_lines(const PlannedJob& plan) {
   const JobOptions& options = plan.job.options;
   const DwellPlan& dwell = plan.dwell;
-  std::string text = fmt::format("weights   smoothness {:.4g} ({}), time price {:.4g} nm^2/s ({}){}\n",
-                                 dwell.weights.smoothness, source_of(options.smoothness, dwell),
-                                 dwell.weights.time_price, source_of(options.time_price_nm2_per_s, dwell),
-                                 dwell.search ? fmt::format(", chosen from {} solves", dwell.search->trials.size())
-                                 : weights_are_searched(dwell_options(options)) ? "; there was no time for the search"
-                                                                                : "");
+  std::string text = fmt::format(
+      "weights   smoothness {:.4g} ({}), time price {:.4g} nm^2/s ({}){}\n", dwell.weights.smoothness,
+      source_of(options.smoothness, dwell), dwell.weights.time_price, source_of(options.time_price_nm2_per_s, dwell),
+      dwell.search ? fmt::format(", chosen from {}", counted(dwell.search->trials.size(), "solve"))
+      : weights_are_searched(dwell_options(options)) ? "; there was no time for the search"
+                                                     : "");
   if (options.smoothness.kind == GoalKind::Auto) text += smoothness_line(plan);
   if (dwell.worth) text += price_lines(plan);
   if (dwell.weights.time_price == 0.0 && !dwell.worth) {
@@ -100,14 +108,16 @@ std::string optimum_line(const DwellPlan& plan) {
                      gap > kRough ? " (a bound: --certify 1% goes on until it is that near)" : "");
 }
 
-std::optional<std::string> little_gained(const PlannedJob& plan, double before, double after) {
-  if (!(before > 0.0) || after > before || after < (1.0 - kLittleGain) * before) return std::nullopt;
-  const std::string reach =
-      plan.dwell.worth
-          ? fmt::format("; about {:.4g} nm is the least that this tool leaves on this path", least_left(plan.dwell))
-          : "";
-  return fmt::format("this run gains {:.2g} % of the RMS, from {:.4g} to {:.4g} nm{}", 100.0 * (1.0 - after / before),
-                     before, after, reach);
+std::optional<std::string> little_gained(const PlannedJob& plan, const MapStatistics& before,
+                                         const MapStatistics& after) {
+  const double was = before.rms_about_zero(), left = after.rms_about_zero();
+  if (!(was > 0.0) || left > was || left < (1.0 - kLittleGain) * was) return std::nullopt;
+  const std::string reach = plan.dwell.worth
+                                ? fmt::format("; about {:.4g} nm RMS{} is the least that this tool leaves on this path",
+                                              least_left(plan), of_what(plan))
+                                : "";
+  return fmt::format("this run gains {:.2g} % of the RMS{}, from {:.4g} to {:.4g} nm{}", 100.0 * (1.0 - left / was),
+                     about_zero_in_words(before), was, left, reach);
 }
 
 Json weights_block(const PlannedJob& plan) {

@@ -15,9 +15,10 @@ std::string weight_lines(const PlannedJob& plan);
 /// How near the plan is to the optimum, a line.
 std::string optimum_line(const DwellPlan& plan);
 
-/// A sentence where the RMS falls by less than a tenth, from `before` to `after` [nm]: a run that removes next to
+/// A sentence where the RMS about zero falls by less than a tenth, from `before` to `after`: a run that removes next to
 /// nothing is never stated without one.
-std::optional<std::string> little_gained(const PlannedJob& plan, double before, double after);
+std::optional<std::string> little_gained(const PlannedJob& plan, const MapStatistics& before,
+                                         const MapStatistics& after);
 
 /// The same as JSON (docs/json.md, `weights`).
 nlohmann::ordered_json weights_block(const PlannedJob& plan);

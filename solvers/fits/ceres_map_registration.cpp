@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/counted.h"
 #include "core/base/errors.h"
 #include "core/base/grid_limit.h"
 #include "core/form/map_statistics.h"
@@ -254,8 +255,8 @@ std::vector<Index> enough_pixels(const Pair& pair, const Parameters& q) {
   std::vector<Index> pixels = common_pixels(pair, q);
   if (pixels.size() >= 10 * kParameters) return pixels;
   throw InputError(
-      fmt::format("registration: {} pixels with data in both maps; at least {} required: do the maps overlap, in mm?",
-                  pixels.size(), 10 * kParameters));
+      fmt::format("registration: {} with data in both maps; at least {} required: do the maps overlap, in mm?",
+                  counted(pixels.size(), "pixel"), 10 * kParameters));
 }
 
 }  // namespace
@@ -280,7 +281,7 @@ MapRegistration register_maps(const HeightMap& moving, const HeightMap& fixed, c
   RegistrationFit fit(pair, options, threads);
   constexpr int kPasses = 10;
   for (int pass = 0; pass < kPasses; ++pass) {
-    progress.step(fmt::format("registration: {} pixels, pass {}, RMS {:.4g} nm", pixels.size(), pass + 1,
+    progress.step(fmt::format("registration: {}, pass {}, RMS {:.4g} nm", counted(pixels.size(), "pixel"), pass + 1,
                               rms(residuals(pair, q, pixels))));
     const Parameters before = q;
     result.iterations += fit.run(q, pixels, progress);

@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/base/counted.h"
 #include "core/base/errors.h"
 #include "core/numerics/dense_solve.h"
 #include "core/numerics/median.h"
@@ -81,8 +82,8 @@ class ModelFit {
     name_parameters();
     hold(options);
     if (samples_.size() <= values_.size()) {
-      throw InputError(fmt::format("fit of {}: {} samples for {} parameters; more are required", model.name,
-                                   samples_.size(), values_.size()));
+      throw InputError(fmt::format("fit of {}: {} for {} parameters; more are required", model.name,
+                                   counted(samples_.size(), "sample"), values_.size()));
     }
     starts_ = removal_fit_starts(rates, model);
   }

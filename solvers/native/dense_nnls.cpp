@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/counted.h"
 #include "core/base/errors.h"
 #include "core/numerics/dense_solve.h"
 #include "solvers/problem/stopping_rules.h"
@@ -69,7 +70,8 @@ class ActiveSet {
       if (minimal && j < 0) {
         // The tolerance that is met here, point by point, is finer than the rules'.
         rules_.stop(SolverStatus::Converged,
-                    fmt::format("converged after {} iterations, {} points free", summary.iterations, free_.size()));
+                    fmt::format("converged after {}, {} free", counted(summary.iterations, "iteration"),
+                                counted(free_.size(), "point")));
         return;
       }
       if (!rules_.allow(d_.value(t_))) return;
@@ -200,9 +202,9 @@ class ActiveSet {
 
 void DenseNnls::do_solve(const DwellProblem& problem, Vector& t, SolverSummary& summary) {
   if (problem.points() > kMaxPoints || problem.points() * problem.pixels() > kMaxEntries) {
-    throw InputError(fmt::format(
-        "solver dense-nnls: {} points x {} pixels; at most {} points and {} matrix entries (use projected-cg)",
-        problem.points(), problem.pixels(), kMaxPoints, kMaxEntries));
+    throw InputError(
+        fmt::format("solver dense-nnls: {} points x {} pixels; at most {} and {} matrix entries (use projected-cg)",
+                    problem.points(), problem.pixels(), counted(kMaxPoints, "point"), kMaxEntries));
   }
   StoppingRules rules(problem, options_, summary);
   DwellObjective objective(problem);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/counted.h"
 #include "solvers/problem/full_hessian.h"
 #include "solvers/problem/stopping_rules.h"
 
@@ -16,9 +17,8 @@ void end_at_rest(const DwellProblem& problem, FullHessian& hessian, const Quadra
   if (product.allFinite()) {
     rules.stop_at_rest(point.value, projected_gradient_norm(problem.lower, problem.upper, point));
   } else {
-    rules.stop(
-        SolverStatus::Failed,
-        fmt::format("failed: the operator gave a value that is not finite after {} iterations", summary.iterations));
+    rules.stop(SolverStatus::Failed, fmt::format("failed: the operator gave a value that is not finite after {}",
+                                                 counted(summary.iterations, "iteration")));
   }
 }
 

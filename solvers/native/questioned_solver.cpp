@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/counted.h"
 #include "solvers/native/projected_lbfgs.h"
 
 namespace dwell {
@@ -32,9 +33,10 @@ void QuestionedSolver::do_solve(const DwellProblem& problem, Vector& t, SolverSu
   if (gain <= 0.0 || gain < std::max(options_.objective_tolerance, kRounding) * size) return;
   summary.status = SolverStatus::Stalled;
   summary.message = fmt::format(
-      "stalled after {} iterations: its objective {:.6g} no longer fell, yet {} iterations of "
+      "stalled after {}: its objective {:.6g} no longer fell, yet {} of "
       "projected-lbfgs from there lower it by {:.2g} of itself",
-      summary.iterations, summary.objective, further.iterations, gain / size);
+      counted(summary.iterations, "iteration"), summary.objective, counted(further.iterations, "iteration"),
+      gain / size);
 }
 
 }  // namespace dwell

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/counted.h"
+
 namespace dwell {
 
 AdapterRun::AdapterRun(const DwellProblem& problem, const SolverOptions& options, const Vector& start,
@@ -69,7 +71,7 @@ void AdapterRun::finish(const std::string& reason, Vector& t) {
     evaluate(point, gradient);
     if (!stopped() || summary_.status == SolverStatus::Settled) {
       rules_.stop(SolverStatus::Stalled,
-                  fmt::format("stalled after {} iterations: {}; |pg| {:.2g}", summary_.iterations, reason,
+                  fmt::format("stalled after {}: {}; |pg| {:.2g}", counted(summary_.iterations, "iteration"), reason,
                               gradient_norm_ / rules_.gradient_scale()));
     }
   }

@@ -9,6 +9,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/base/counted.h"
 #include "core/base/errors.h"
 #include "solvers/peers/adapter_run.h"
 
@@ -264,9 +265,9 @@ std::string minimise(AdapterRun& run, const DwellProblem& problem, const SolverO
 void CeresSolver::do_solve(const DwellProblem& problem, Vector& t, SolverSummary& summary) {
   if (problem.points() > kMaxPoints) {
     throw InputError(
-        fmt::format("solver = 'ceres' with {} dwell points; accepted: at most {}, as it needs the whole "
+        fmt::format("solver = 'ceres' with {}; accepted: at most {}, as it needs the whole "
                     "matrix",
-                    problem.points(), kMaxPoints));
+                    counted(problem.points(), "dwell point"), kMaxPoints));
   }
   AdapterRun run(problem, options_, t, summary);
   run.settle_by_evaluations(false);

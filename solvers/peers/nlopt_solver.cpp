@@ -6,6 +6,7 @@
 #include <memory>
 #include <stdexcept>
 
+#include "core/base/counted.h"
 #include "core/base/errors.h"
 #include "solvers/peers/adapter_run.h"
 
@@ -56,8 +57,8 @@ struct Destroy {
 void NloptSolver::do_solve(const DwellProblem& problem, Vector& t, SolverSummary& summary) {
   const Index n = problem.points();
   if (options_.kind == SolverKind::NloptSlsqp && n > kMaxSlsqpPoints) {
-    throw InputError(
-        fmt::format("solver = 'nlopt-slsqp' with {} dwell points; accepted: at most {}", n, kMaxSlsqpPoints));
+    throw InputError(fmt::format("solver = 'nlopt-slsqp' with {}; accepted: at most {}", counted(n, "dwell point"),
+                                 kMaxSlsqpPoints));
   }
   AdapterRun run(problem, options_, t, summary);
   std::string reason = "no dwell points";

@@ -149,7 +149,7 @@ TEST(MapCommand, TakesOutMarksAndIndicesAsAsked) {
   const ProgramResult result = inputs.run(
       {"map", "bad.csv", "--map-table", "mm", "--map-no-data", "-9999", "--map-unit", "um", "--write", "a.csv"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
-  expect_has(result.out, "made      no data: 1 pixels of -9999, as asked\n");
+  expect_has(result.out, "made      no data: 1 pixel of -9999, as asked\n");
   const HeightMap map = read_map(inputs / "a.csv");
   EXPECT_EQ(map.grid, (Grid{3, 3, 1.0, 1.0, {}}));
   EXPECT_TRUE(std::isnan(map.at(0, 1)));

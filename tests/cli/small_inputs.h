@@ -57,7 +57,10 @@ struct SmallInputs {
         {"--tif-pixel", "0.5"}, {"--threads", "1"},     {"--path", "raster:pitch=1,overrun=2"},
         {"--time-price", "0"},  {"--out", "plan"}};
     std::vector<std::string> words{"plan"};
+    const auto tif = std::find(more.begin(), more.end(), "--tif");
+    const bool formula = tif != more.end() && tif + 1 != more.end() && (tif + 1)->find(':') != std::string::npos;
     for (const auto& [flag, value] : usual) {
+      if (formula && flag == "--tif-pixel") continue;  // of a file
       if (std::find(more.begin(), more.end(), flag) == more.end()) words.insert(words.end(), {flag, value});
     }
     words.insert(words.end(), more.begin(), more.end());

@@ -137,7 +137,10 @@ const std::vector<Wrong>& cases() {
        {"path.csv: dwell point 2 = (5, -1e+15) mm is 1e+15 mm from the map"}},
       {"endless_dwell", none, {"--min-dwell", "1e300"}, {"--min-dwell", "'1e300'", "from 0 to 1e+07 (s)"}},
       {"endless_feed", none, {"--max-feed", "1e-9"}, {"--max-feed", "'1e-9'", "from 0.01 to 1e+07 (mm/min)"}},
-      {"endless_rate", none, {"--tif", "gaussian:peak=1e300,fwhm=2"}, {"peak = \"1e300\"", "from -1e+16 to 1e+16"}},
+      {"endless_rate",
+       none,
+       {"--tif", "gaussian:peak=1e300,fwhm=2"},
+       {"peak = \"1e300\"", "required a number from 1e-09 to 1e+09 (nm/s)"}},
       {"large_rate", none, {"--tif", "gaussian:peak=1e10,fwhm=2"}, {"peak = 10000000000 nm/s", "from 1e-09 to 1e+09"}},
       {"out_in_an_earlier_result",
        [](const SmallInputs& inputs) {
@@ -243,11 +246,38 @@ TEST(WrongProgram, IsRefusedBySimulate) {
 
 TEST(WrongWords, AreAnsweredWithTheOptionAndAllThatIsMissing) {
   const test::SmallInputs inputs;
+  inputs.folder.file("point.csv", "x_mm,y_mm\n5,5\n");
   const struct {
     std::vector<std::string> words;
     const char* said;
   } kCases[] = {
-      {{"plan", "--map", "map.csv"}, "--tif, --path, --out: required"},
+      {{"plan", "--map", "map.csv"}, "--tif, --path, --out, --map-pixel: required"},
+      {{"plan", "--map", "map.csv", "--tif", "tif.csv", "--path", "raster:pitch=1"},
+       "--out, --map-pixel, --tif-pixel: required"},
+      {{"plan", "--map", "map.csv", "--tif", "tif.csv", "--path", "raster:pitch=1", "--out", "o"},
+       "--map-pixel, --tif-pixel: required [mm] > 0; there is no pixel pitch in the map map.csv, nor in the removal "
+       "function tif.csv"},
+      {{"plan", "--map", "map.csv", "--map-pixel", "0.5", "--tif", "tif.csv", "--path", "raster:pitch=1", "--out", "o"},
+       "tif tif.csv: the file says no pixel pitch; give --tif-pixel"},
+      {{"plan", "--map", "map.csv", "--map-pixel", "0.5", "--tif", "gaussian:peak=1,fwhm=2,radius=3", "--tif-pixel",
+        "0.5", "--path", "raster:pitch=1", "--out", "o"},
+       "--tif-pixel 0.5: for a file of rates, not for the formula gaussian"},
+      {{"tif", "gaussian:peak=1,fwhm=2,radius=3", "--tif-unit", "um/s"},
+       "--tif-unit um/s: for a file of rates, not for the formula gaussian"},
+      {{"plan", "--map", "map.csv", "--map-pixel", "0.5", "--tif", "gaussian:peak=1,fwhm=2,radius=3", "--path",
+        "raster:pitch=1", "--out", "o", "--time-price", "0.1", "--time-worth", "0.5"},
+       "--time-worth 0.5,0.1 rules the price where that is auto; --time-price is 0.1: leave one of them out"},
+      {{"paths", "--map", "map.csv", "--map-pixel", "0.5", "--tif", "gaussian:peak=1,fwhm=2,radius=3", "--paths",
+        "raster", "--out", "o", "--time-price", "0.1", "--time-worth", "0.5"},
+       "--time-worth 0.5,0.1 rules the price where that is auto"},
+      {{"plan", "--map", "map.csv", "--map-pixel", "0.5", "--tif", "gaussian:peak=1,fwhm=2,radius=3", "--path",
+        "file:point.csv", "--out", "o", "--min-dwell", "0", "--time-price", "1e12", "--smoothness", "0"},
+       "dwell: the plan stays at 1 dwell point for no time: its program would hold no move and no halt"},
+      {{"simulate", "--program", "x.nc", "--map", "map.csv"}, "--tif, --map-pixel: required"},
+      {{"tif", "--spot", "map.csv"}, "--map-pixel, --dwell-time: required"},
+      {{"tif", "--trench", "map.csv"}, "--map-pixel, --feed: required"},
+      {{"tif", "--spot", "map.csv", "--map-pixel", "0.5"}, "--dwell-time: required"},
+      {{"tif", "--spot", "map.csv", "--dwell-time", "5"}, "the file says no pixel pitch; give --map-pixel"},
       {{"paths", "--paths", "raster"}, "--map, --tif, --out: required"},
       {{"paths"}, "--map, --tif, --out, --paths: required"},
       {{"paths", "--pitch", "abc"}, "--pitch: 'abc'; required a number from 1e-06 to 10000 (mm)"},

@@ -68,7 +68,7 @@ TEST_F(PathFile, RefusesAMissingHeader) {
 
 TEST_F(PathFile, RefusesBadLines) {
   EXPECT_EQ(message("x_mm,y_mm\n"), "no dwell point follows the header; at least one is required");
-  EXPECT_EQ(message("x_mm,y_mm\n1,2\n3\n"), "line 3 has 1 columns; the header has 2");
+  EXPECT_EQ(message("x_mm,y_mm\n1,2\n3\n"), "line 3 has 1 column; the header has 2");
   EXPECT_EQ(message("x_mm,y_mm\n1,2,3\n"), "line 2 has 3 columns; the header has 2");
   EXPECT_EQ(message("x_mm,y_mm\n1,two\n"), "line 2: y_mm = \"two\"; required: a finite number");
   EXPECT_EQ(message("x_mm,y_mm\nnan,2\n"), "line 2: x_mm = \"nan\"; required: a finite number");

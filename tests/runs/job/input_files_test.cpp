@@ -227,7 +227,7 @@ TEST(LoadRemovalFunction, QuestionsAFileAndTakesTheAnswers) {
   ASSERT_EQ(tif.notes.size(), 1U);
   EXPECT_NE(tif.notes[0].find("taken off"), std::string::npos);
   ASSERT_EQ(tif.samples.history.size(), 2U);
-  EXPECT_NE(tif.samples.history[0].find("fill:how=harmonic (1 holes of 1 pixels filled)"), std::string::npos);
+  EXPECT_NE(tif.samples.history[0].find("fill:how=harmonic (1 hole of 1 pixel filled)"), std::string::npos);
   EXPECT_NE(tif.samples.history[1].find("pedestal subtract"), std::string::npos);
   options.tif_angle_deg = 30.0;
   const RemovalFunction turned = load_removal_function(options, inputs);

@@ -36,7 +36,7 @@ TEST(MapSteps, AppendOneLineEachThatSaysArgumentsAndWhatWasDone) {
   ASSERT_EQ(map.history.size(), 5u);
   EXPECT_EQ(map.history[0], "measured");
   EXPECT_EQ(map.history[1], "crop:rect:-1,2.4,9,9 (8 x 13 pixels, 97 with data)");
-  EXPECT_EQ(map.history[2], "fill:how=harmonic (1 holes of 4 pixels filled)");
+  EXPECT_EQ(map.history[2], "fill:how=harmonic (1 hole of 4 pixels filled)");
   EXPECT_EQ(map.history[3].substr(0, 46), "outliers:sigmas=4,window=5,floor=0 (0 pixels r");
   EXPECT_EQ(map.grid.rows, 13);
 }

@@ -52,7 +52,7 @@ TEST(MakePlan, PreparesItsMapAndSaysHow) {
   const auto summary = nlohmann::json::parse(write_plan(plan, folder, {}).summary);
   EXPECT_EQ(summary["map"]["history"], plan.part().map.history);
   EXPECT_EQ(summary["options"]["map_steps"], job.options.map_steps);
-  EXPECT_NE(plan.part().map.history[1].find("fill:how=harmonic,all (1 holes"), std::string::npos)
+  EXPECT_NE(plan.part().map.history[1].find("fill:how=harmonic,all (1 hole"), std::string::npos)
       << plan.part().map.history[1];
 }
 
