@@ -141,7 +141,7 @@ const std::vector<Wrong>& cases() {
        none,
        {"--tif", "gaussian:peak=1e300,fwhm=2"},
        {"peak = \"1e300\"", "required a number from 1e-09 to 1e+09 (nm/s)"}},
-      {"large_rate", none, {"--tif", "gaussian:peak=1e10,fwhm=2"}, {"peak = 10000000000 nm/s", "from 1e-09 to 1e+09"}},
+      {"large_rate", none, {"--tif", "gaussian:peak=1e10,fwhm=2"}, {"peak = \"1e10\"", "from 1e-09 to 1e+09"}},
       {"out_in_an_earlier_result",
        [](const SmallInputs& inputs) {
          std::filesystem::create_directory(inputs / "p");
