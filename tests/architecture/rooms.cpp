@@ -24,6 +24,7 @@ const std::map<std::string, RoomRanks>& room_ranks() {
         {"formats", 3},
         {"form", 3},
         {"spectra", 3},
+        {"anatomy", 4},
         {"tif", 4},
         {"tif/models", 5},
         {"tif/calibration", 5},
