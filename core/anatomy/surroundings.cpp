@@ -119,11 +119,14 @@ std::optional<Deviation> Surroundings::deviation(Index row, Index col) const {
     means[static_cast<std::size_t>(count++)] = 0.5 * (one + other);
     return count < kPairs;
   };
-  const auto all = static_cast<Index>(ways_.size());
-  const bool beside_edge = for_pairs(row, col, 0, std::min(tries(kPairs), all_round_), take);
-  if (beside_edge) count = 0, for_pairs(row, col, all_round_, all, take);
-  if (count < kFewestPairs) count = 0, for_pairs(row, col, 0, all_round_, take);
-  if (count < kFewestPairs) return std::nullopt;
+  const Index some = std::min(tries(kPairs), all_round_);
+  const bool beside_edge = for_pairs(row, col, 0, some, take);
+  if (beside_edge) count = 0, for_pairs(row, col, all_round_, static_cast<Index>(ways_.size()), take);
+  if (count < kFewestPairs) {
+    // Beside a slanted edge, but not in a corner, where what pairs there are reach across an edge.
+    count = 0, for_pairs(row, col, 0, some, take);
+    if (count < std::max(kFewestPairs, some / 4)) return std::nullopt;
+  }
   Deviation d;
   d.middle = median_of(means, count);
   for (Index k = 0; k < count; ++k) {
