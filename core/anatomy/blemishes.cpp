@@ -110,7 +110,6 @@ class Search {
     std::unordered_map<Index, Deviation> seeds;
     for (const Spot& s : seeds_) seeds.emplace(s.pixel, s.deviation);
     std::vector<Blemish> found;
-    std::vector<double> squares;
     for (const Spot& seed : seeds_) {
       if (taken_.contains(seed.pixel)) continue;
       progress_.check();
@@ -122,6 +121,7 @@ class Search {
       }
       if (narrow(cluster)) found.push_back(blemish_of(std::move(cluster)));
     }
+    if (options_.of_fit) drop_halos(found);
     const auto square = [&](const Blemish& b) {
       double sum = 0.0;
       for (const Index i : b.pixels)
@@ -131,6 +131,16 @@ class Search {
     std::stable_sort(found.begin(), found.end(),
                      [&](const Blemish& a, const Blemish& b) { return square(a) > square(b); });
     return found;
+  }
+
+  void drop_halos(std::vector<Blemish>& found) const {
+    const std::vector<Blemish> all = found;
+    std::erase_if(found, [&](const Blemish& b) {
+      return std::any_of(all.begin(), all.end(), [&](const Blemish& other) {
+        return other.height * b.height < 0.0 && std::abs(other.height) >= kHigherThanItsHalo * std::abs(b.height) &&
+               distance(other.place, b.place) < options_.width;
+      });
+    });
   }
 
   /// All pixels that touch, on the seed's side of the surroundings: those beyond all sigmas, and with `skirt` those

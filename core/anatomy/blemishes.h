@@ -20,7 +20,13 @@ struct Blemish {
 struct BlemishOptions {
   double width = 0.0;   // blemishes are narrower than this: the tool's FWHM [mm]; > 0
   double sigmas = 8.0;  // how far a pixel of one is from its surroundings, in their robust standard deviations; > 0
+  bool of_fit = false;  // the map is what a fit has left (kHigherThanItsHalo)
 };
+
+/// Of what a fit leaves, a cluster is no blemish if it lies on the other side of its surroundings than a blemish this
+/// many times as high whose middle is less than `width` away: a fit that cannot remove the one makes the other around
+/// it.
+inline constexpr double kHigherThanItsHalo = 2.0;
 
 /// Of the sigmas, what a pixel needs to belong to a blemish if it touches one that is beyond all of them, and lies on
 /// the same side of the surroundings.

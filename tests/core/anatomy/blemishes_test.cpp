@@ -289,6 +289,20 @@ TEST(Blemishes, ComeInTheOrderOfTheirSquares) {
   EXPECT_LT(found[0].height, -300.0);
 }
 
+TEST(Blemishes, OfAFitAreNotWhatItMakesAroundThem) {
+  RandomNumbers random(15);
+  HeightMap map(kGrid);
+  for (double& v : map.values) v = random.normal();
+  add_pit(map, {{0.0, 8.0}, 0.3, -400.0});
+  add_pit(map, {{1.2, 8.6}, 0.3, 40.0});     // beside it, on the other side
+  add_pit(map, {{14.0, 18.0}, 0.3, 40.0});   // far from it
+  add_pit(map, {{-0.5, 10.0}, 0.3, -40.0});  // beside it, on the same side
+  EXPECT_EQ(find_blemishes(map, {kWidth}).size(), 4u);
+  const auto found = find_blemishes(map, {.width = kWidth, .of_fit = true});
+  ASSERT_EQ(found.size(), 3u);
+  for (const Blemish& b : found) EXPECT_GT(distance(b.place, {1.2, 8.6}), 1.0);
+}
+
 TEST(Blemishes, RefuseOptionsOutOfRange) {
   const HeightMap map(kGrid);
   for (const double wrong : {0.0, -1.0, kNoData, std::numeric_limits<double>::infinity()}) {
