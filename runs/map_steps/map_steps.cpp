@@ -16,6 +16,7 @@
 #include "core/map/map_outliers.h"
 #include "core/map/map_turn.h"
 #include "core/map/map_warp.h"
+#include "runs/map_steps/blemish_step.h"
 #include "runs/map_steps/map_pair_steps.h"
 
 namespace dwell {
@@ -211,6 +212,14 @@ std::vector<MapStepRecord> height_steps() {
         {"window", Kind::Number, "N", "side of the window in pixels, odd, 3 to 101", "5"},
         {"floor", Kind::Number, "NM", "least standard deviation assumed in nm", "0"}},
        run_outliers},
+      {"blemishes",
+       "",
+       "remove dust, scratches and pits: clusters of pixels that are narrower than a width and far from their "
+       "surroundings",
+       "blemishes:width=4",
+       {{"width", Kind::Number, "MM", "blemishes are narrower than this, in mm", "", true},
+        {"sigmas", Kind::Number, "K", "how far, in robust standard deviations (1.4826 MAD) of the surroundings", "8"}},
+       run_blemishes},
       {"limit",
        "",
        "remove pixels beyond a height or slope",

@@ -52,6 +52,24 @@ TEST(MapSteps, EveryExampleParsesAndItsHistoryTextParsesToTheSame) {
   }
 }
 
+TEST(MapSteps, RemoveBlemishesOfAScale) {
+  HeightMap map(Grid{70, 90, 0.2, 0.3, {1.0, 2.0}});
+  for (Index i = 0; i < map.grid.size(); ++i) {
+    const Point p = map.grid.centre(i);
+    map.values[static_cast<std::size_t>(i)] = 30.0 * std::sin(0.3 * p.x) + 2.0 * p.y + std::sin(40.0 * p.x * p.y);
+  }
+  map.at(30, 40) -= 80.0, map.at(30, 41) -= 90.0, map.at(31, 41) -= 70.0;
+  const HeightMap cleaned = prepared(map, "blemishes:width=4");
+  EXPECT_TRUE(in_last(cleaned, "blemishes:width=4,sigmas=8 (1 blemishes of 3 pixels removed: "))
+      << cleaned.history.back();
+  EXPECT_TRUE(in_last(cleaned, " nm at (9.133, 11.1) mm)")) << cleaned.history.back();
+  EXPECT_EQ(cleaned.valid_pixels(), map.valid_pixels() - 3);
+  EXPECT_TRUE(std::isnan(cleaned.at(31, 41)));
+  EXPECT_TRUE(in_last(prepared(map, "blemishes:4,sigmas=100"), "(0 blemishes of 0 pixels removed)"));
+  expect_input_error([&] { prepared(map, "blemishes"); }, {"blemishes", "width"});
+  expect_input_error([&] { prepared(map, "blemishes:width=-1"); }, {"step 'blemishes:width=-1", "width", "> 0"});
+}
+
 // Every step that can make a larger map than it is given asks the one limit before it takes the memory.
 TEST(MapSteps, KeepWithinTheLimitOfPixels) {
   const auto within = [](double most, const std::string& step) {
