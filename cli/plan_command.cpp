@@ -14,8 +14,10 @@
 #include "core/base/units.h"
 #include "runs/job/job_file.h"
 #include "runs/reports/aim.h"
+#include "runs/reports/anatomy_lines.h"
 #include "runs/reports/exact_lines.h"
 #include "runs/reports/map_line.h"
+#include "runs/reports/plan_costs.h"
 #include "runs/reports/plan_files.h"
 #include "runs/reports/plan_output.h"
 #include "runs/reports/tool_sheet.h"
@@ -56,11 +58,13 @@ std::string plan_text(const PlannedJob& plan, const WrittenPlan& written) {
                       units::mm_per_min(plan.program.feed.min_speed), units::mm_per_min(plan.program.feed.max_speed),
                       plan.program.feed.segments_limited, plan.laid.path.size());
   text += fmt::format(
-      "predicted {} by the solver, on a lattice of {}{}\n", in_words(plan.dwell.residual),
+      "predicted {} by the solver, on a lattice of {}{}\n", rms_in_words(plan.dwell.residual),
       lattice_words(plan.dwell.lattice.kernel),
       plan.dwell.lattices > 1 ? fmt::format(" (solved {}, each finer)", counted(plan.dwell.lattices, "time")) : "");
   text += fmt::format("program   {} by simulating program.nc as read back\n", in_words(written.exact.statistics));
-  text += exact_lines(written.exact) + surface_lines(written.surface);
+  text += exact_lines(written.exact);
+  text += anatomy_lines(written.anatomy, written.exact.statistics) + left_out_line(plan.dwell) + cost_line(plan);
+  text += fmt::format("help      {}\n", written.advice) + surface_lines(written.surface);
   text += fmt::format("time      {} for the run: dwell {:.2f} s, {}\n", duration_text(written.run_seconds),
                       plan.dwell.seconds.sum(), travel_words(written.travel));
   for (const std::string& warning : written.warnings) text += fmt::format("warning   {}\n", warning);

@@ -22,6 +22,7 @@
 #include "runs/drawing/picture.h"
 #include "runs/job/option_flags.h"
 #include "runs/programs/program_formats.h"
+#include "runs/reports/anatomy_lines.h"
 #include "runs/reports/exact_lines.h"
 #include "runs/reports/map_line.h"
 #include "runs/reports/recorded_plan.h"
@@ -146,7 +147,7 @@ std::string simulation_text(const Simulation& s) {
          fmt::format("before    {} ({} removed, {})\n", in_words(s.before), to_string(s.terms),
                      counted(s.before.valid_pixels, "pixel")) +
          fmt::format("after     {} ({} removed)\n", in_words(s.after.statistics), to_string(s.terms)) +
-         exact_lines(s.after);
+         exact_lines(s.after) + anatomy_lines(s.anatomy, s.after.statistics) + fmt::format("help      {}\n", s.advice);
 }
 
 /// Where another map is read with the plan's options of its own map, what is refused about them says whose they are.

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/base/errors.h"
+#include "core/form/robust_pv.h"
 #include "core/spectra/psd.h"
 
 namespace dwell {
@@ -77,7 +78,7 @@ ResidualAnatomy residual_anatomy(const HeightMap& residual, double fwhm, const F
   a.pixels = residual.valid_pixels();
   if (a.pixels == 0) throw InputError("map has no finite pixel; what is left has no anatomy");
   a.searched = search == BlemishSearch::On;
-  if (a.searched) a.blemishes = find_blemishes(residual, {fwhm}, threads, progress);
+  if (a.searched) a.blemishes = find_blemishes(residual, {.width = fwhm, .of_fit = true}, threads, progress);
   progress.step("zone at the edge");
   a.edge = edge_zone(residual, fwhm, threads);
 
@@ -109,8 +110,12 @@ ResidualAnatomy residual_anatomy(const HeightMap& residual, double fwhm, const F
   divide_interior(interior_of(residual, a), fwhm, interior * each, threads, a.mean_square);
   progress.check();
   if (a.blemish_pixels < a.pixels) {
-    a.without = a.blemishes.empty() ? map_statistics(residual, {}, threads)
-                                    : map_statistics(without_blemishes(residual, a.blemishes), form, threads);
+    if (a.blemishes.empty()) {
+      a.without = map_statistics(residual, {}, threads);
+    } else {
+      const HeightMap rest = without_form(without_blemishes(residual, a.blemishes), form, threads);
+      a.without = with_robust_pv(map_statistics(rest, {}, threads), rest, threads);
+    }
   }
   return a;
 }

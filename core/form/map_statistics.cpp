@@ -71,8 +71,11 @@ std::string mean_in_words(const MapStatistics& s) {
 }
 
 std::string in_words(const MapStatistics& s) {
-  return fmt::format("RMS {:.4g} nm, PV {:.4g} nm{}", s.rms, s.pv, mean_in_words(s));
+  return fmt::format("RMS {:.4g} nm, PV {:.4g} nm{}{}", s.rms, s.pv,
+                     s.pvr ? fmt::format(", PVr {:.4g} nm", *s.pvr) : "", mean_in_words(s));
 }
+
+std::string rms_in_words(const MapStatistics& s) { return fmt::format("RMS {:.4g} nm{}", s.rms, mean_in_words(s)); }
 
 MapStatistics map_statistics(const HeightMap& map, const FormTerms& terms, int threads) {
   if (terms.any()) return map_statistics(without_form(map, terms, threads), {}, threads);

@@ -20,4 +20,10 @@ std::optional<RobustPv> robust_pv(const HeightMap& map, int threads) {
   return result;
 }
 
+MapStatistics with_robust_pv(MapStatistics statistics, const HeightMap& map, int threads) {
+  statistics.pvr.reset();
+  if (const auto robust = robust_pv(map, threads)) statistics.pvr = robust->pvr;
+  return statistics;
+}
+
 }  // namespace dwell

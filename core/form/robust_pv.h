@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "core/form/map_statistics.h"
 #include "core/map/height_map.h"
 
 namespace dwell {
@@ -18,5 +19,8 @@ struct RobustPv {
 /// smallest circle about the middle of the bounding box that holds the part. Nothing if there are fewer finite pixels
 /// than terms: the fit would then pass through every one of them. Throws InputError if no pixel is finite.
 std::optional<RobustPv> robust_pv(const HeightMap& map, int threads = 1);
+
+/// The statistics of the map, with its PVr.
+MapStatistics with_robust_pv(MapStatistics statistics, const HeightMap& map, int threads = 1);
 
 }  // namespace dwell

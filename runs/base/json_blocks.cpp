@@ -55,6 +55,7 @@ nlohmann::ordered_json map_block(const MapFigures& map) {
                 {"aperture_pixels", map.statistics.valid_pixels},
                 {"removed", map.removed},
                 {"pv_nm", map.statistics.pv},
+                {"pvr_nm", finite_or_null(map.statistics.pvr)},
                 {"rms_nm", map.statistics.rms},
                 {"mean_nm", map.statistics.mean}});
   return block;
@@ -70,7 +71,11 @@ nlohmann::ordered_json tif_block(const RemovalFunction& tif, const std::string& 
 }
 
 nlohmann::ordered_json residual_block(const std::string& removed, const MapStatistics& left) {
-  return {{"removed", removed}, {"rms_nm", left.rms}, {"pv_nm", left.pv}, {"mean_nm", left.mean}};
+  return {{"removed", removed},
+          {"rms_nm", left.rms},
+          {"pv_nm", left.pv},
+          {"pvr_nm", finite_or_null(left.pvr)},
+          {"mean_nm", left.mean}};
 }
 
 nlohmann::ordered_json path_block(const std::string& kind, const PathMetrics& metrics,
@@ -124,6 +129,7 @@ nlohmann::ordered_json program_block(const ProgramFigures& program) {
           {"removed", program.removed},
           {"residual_rms_nm", program.residual.rms},
           {"residual_pv_nm", program.residual.pv},
+          {"residual_pvr_nm", finite_or_null(program.residual.pvr)},
           {"residual_mean_nm", program.residual.mean},
           {"residual_rms_standard_error_nm", program.standard_error},
           {"ripple_within_pixels_rms_nm", program.ripple},

@@ -55,7 +55,7 @@ nlohmann::ordered_json map_block(const MapFigures& map);
 nlohmann::ordered_json tif_block(const RemovalFunction& tif, const std::string& kind,
                                  const std::vector<std::string>& history, std::optional<double> volume_factor = {});
 
-/// A surface that something leaves: "removed", "rms_nm", "pv_nm", "mean_nm".
+/// A surface that something leaves: "removed", "rms_nm", "pv_nm", "pvr_nm", "mean_nm".
 nlohmann::ordered_json residual_block(const std::string& removed, const MapStatistics& left);
 
 nlohmann::ordered_json path_block(const std::string& kind, const PathMetrics& metrics,

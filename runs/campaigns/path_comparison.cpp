@@ -79,6 +79,7 @@ void plan_one(Job job, double pitch, ComparedPath& path, const OutputFolder& fol
   path.limits = written.limits;
   path.residual_rms = written.exact.statistics.rms;
   path.residual_pv = written.exact.statistics.pv;
+  path.residual_pvr = written.exact.statistics.pvr;
   path.spectrum = radial_spectrum(written.exact.surface, plan.part().threads);
   path.residual_ripple = waves_of(written.exact.surface, plan.part().threads);
   path.dwell_total = plan.dwell.seconds.sum();

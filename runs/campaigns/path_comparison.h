@@ -28,6 +28,7 @@ struct ComparedPath {
   std::vector<std::string> notes, limits;         // of the planner; of the plan (WrittenPlan::limits)
   double residual_rms = 0.0;                      // of the program as read back, simulated [nm]
   double residual_pv = 0.0;                       // [nm]
+  std::optional<double> residual_pvr;             // [nm]
   std::optional<RippleSpectrum> residual_ripple;  // of the residual; none where the map shows nothing of the band
   /// The ripple at constant feed on a fine patch where the part is widest, whatever the map's pixels; its map is left
   /// empty. None where there is no room for the patch; `no_ripple` says why.

@@ -167,6 +167,7 @@ std::vector<Cell> cells_of(const ComparedPath& p) {
   return {{"front", p.on_front ? "yes" : "no"},
           {"residual_rms_nm", number(p.residual_rms)},
           {"residual_pv_nm", number(p.residual_pv)},
+          {"residual_pvr_nm", p.residual_pvr ? number(*p.residual_pvr) : ""},
           {"mid_rms_nm", waves ? number(waves->rms) : ""},
           {"residual_anisotropy", waves ? number(waves->anisotropy) : ""},
           {"total_s", number(p.total_time)},

@@ -271,6 +271,11 @@ std::vector<JobOptionRecord> make_table() {
       {"solver", "solver", "NAME", "auto, or another of " + solver_words(), false, false,
        [](Options& o, const std::string& t) { o.solver = parse_solver_kind(t); },
        [](const Options& o) { return to_string(o.solver); }},
+      {"blemishes", "blemishes", "HOW",
+       "dust, scratches and pits, found in what the plan leaves: report (where they are, and what is left without "
+       "them), leave-out (of the fit as well, which is solved once more) or keep (not looked for)",
+       false, false, [](Options& o, const std::string& t) { o.blemishes = parse_blemish_handling(t); },
+       [](const Options& o) { return to_string(o.blemishes); }},
       {"max-solve", "max_solve_s", "S", "time limit in s, of reading, path, set-up and solve together", false, true,
        [](Options& o, const std::string& t) { o.max_solve_s = number(t, ranges::kTime); },
        [](const Options& o) { return shown(o.max_solve_s); }},

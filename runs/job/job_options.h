@@ -17,6 +17,7 @@
 #include "core/tif/tif_pedestal.h"
 #include "paths/path_catalogue.h"
 #include "runs/drawing/figure_format.h"
+#include "runs/plan/blemish_handling.h"
 #include "runs/programs/gcode_dialect.h"
 #include "solvers/problem/dwell_solver.h"
 #include "solvers/weights/time_worth.h"
@@ -65,6 +66,7 @@ struct JobOptions {
   TimeWorth time_worth;
   double certify = 0.0;  // share by which the objective may be above the optimum, to be proven; 0 = not asked for
   SolverKind solver = SolverKind::Auto;
+  BlemishHandling blemishes = BlemishHandling::Report;
   double max_solve_s = 3600.0;
   int threads = 0;
   GcodeDialect gcode = GcodeDialect::G94;

@@ -5,6 +5,7 @@
 #include "core/base/errors.h"
 #include "core/base/time_limit.h"
 #include "runs/job/option_flags.h"
+#include "runs/plan/leave_out.h"
 
 namespace dwell {
 
@@ -26,6 +27,10 @@ PlannedJob plan_loaded(Job job, JobPath path, double used, const Progress& progr
   if (auto file = path_input(planned.job.options)) planned.job.inputs.push_back(std::move(*file));
   planned.laid = std::move(path.laid);
   planned.dwell = path.dwell ? std::move(*path.dwell) : find_dwell(planned.part(), planned.laid, options, progress);
+  if (planned.job.options.blemishes == BlemishHandling::LeaveOut) {
+    options.used_seconds = used + planned.dwell.solver.seconds;
+    planned.dwell = leave_out_blemishes(planned.part(), planned.laid, std::move(planned.dwell), options, progress);
+  }
   planned.program = make_machine_program(planned.laid, planned.dwell, options.machine, progress);
   return planned;
 }

@@ -100,7 +100,7 @@ DwellPlan find_dwell_on(const LatticeChoice& lattice, const Part& part, const La
 }  // namespace
 
 DwellPlan find_dwell(const Part& part, const LaidPath& laid, const DwellOptions& options, const Progress& progress,
-                     ExactCheck check) {
+                     ExactCheck check, Vector start) {
   constexpr int kMostLattices = 3;
   const TimeLimit limit = time_limit(options.max_seconds, options.used_seconds);
   LatticeChoice lattice = limit.run(progress, [&](const Progress& limited) {
@@ -111,7 +111,7 @@ DwellPlan find_dwell(const Part& part, const LaidPath& laid, const DwellOptions&
   const auto too_coarse = [&part](const DwellPlan& plan) { return lattice_too_coarse(plan.exact, part.before); };
   DwellOptions rest = options;
   rest.used_seconds = limit.used();
-  DwellPlan plan = find_dwell_on(lattice, part, laid, rest, {}, check, progress);
+  DwellPlan plan = find_dwell_on(lattice, part, laid, rest, std::move(start), check, progress);
   for (int lattices = 2; lattices <= kMostLattices && too_coarse(plan) && !plan.lattice.finest; ++lattices) {
     rest.used_seconds = limit.used();
     if (!(limit.left() > 0.0)) break;

@@ -9,6 +9,7 @@
 #include "runs/plan/dwell_options.h"
 #include "runs/plan/laid_path.h"
 #include "runs/plan/lattice_choice.h"
+#include "runs/plan/left_out.h"
 #include "runs/plan/part.h"
 #include "runs/plan/weight_trials.h"
 #include "solvers/problem/certificate.h"
@@ -32,6 +33,7 @@ struct DwellPlan {
   int lattices = 1;                 // that were solved on, each finer than the one before
   MapStatistics residual;           // as the solver predicts on its lattice, form terms removed
   ExactResidual exact;              // from the removal function itself, by the check that was asked for
+  std::optional<LeftOut> left_out;  // of the fit, where blemishes are to be
   std::vector<std::string> limits;  // that were reached, one sentence each
 };
 
@@ -41,8 +43,9 @@ struct DwellPlan {
 /// are over before the first solve, InputError for options that contradict each other (weights_are_searched),
 /// Interrupted, std::runtime_error if the solver fails. Cost: the solver's operator applications dominate
 /// (docs/math.md). `check`: how well the exact residual is to be known; for the choice of the lattice the least does,
-/// and what a plan states is predicted from its program (program_prediction.h).
+/// and what a plan states is predicted from its program (program_prediction.h). `start`: dwell times to begin with,
+/// which `auto` takes no notice of (PlanProblem::solve says why); empty = the least.
 DwellPlan find_dwell(const Part& part, const LaidPath& laid, const DwellOptions& options, const Progress& progress = {},
-                     ExactCheck check = ExactCheck::Lattice);
+                     ExactCheck check = ExactCheck::Lattice, Vector start = {});
 
 }  // namespace dwell

@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "core/base/errors.h"
 #include "core/base/pitch.h"
 #include "core/base/threads.h"
+#include "core/form/robust_pv.h"
 
 namespace dwell {
 
@@ -19,7 +21,8 @@ Part make_part(HeightMap map, RemovalFunction tif, const FormTerms& form, int th
   part.form = form;
   part.figure = without_form(part.map, form, part.threads);
   progress.check();
-  part.before = map_statistics(part.figure, {}, part.threads);
+  part.before = with_robust_pv(map_statistics(part.figure, {}, part.threads), part.figure, part.threads);
+  progress.check();
   const Grid& grid = part.map.grid;
   progress.step(fmt::format("map: {} x {} pixels of {}, {} in the aperture, RMS {:.4g} nm", grid.rows, grid.cols,
                             pitch_text(grid), part.before.valid_pixels, part.before.rms));
@@ -29,6 +32,13 @@ Part make_part(HeightMap map, RemovalFunction tif, const FormTerms& form, int th
   progress.check();
   part.exact = tabulate_pixel_mean(part.tif, grid);
   progress.check();
+  return part;
+}
+
+Part without_pixels(Part part, const std::vector<Index>& pixels) {
+  for (const Index i : pixels) part.map.values[static_cast<std::size_t>(i)] = std::numeric_limits<double>::quiet_NaN();
+  part.figure = without_form(part.map, part.form, part.threads);
+  part.before = map_statistics(part.figure, {}, part.threads);
   return part;
 }
 

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/base/progress.h"
 #include "core/form/form_terms.h"
@@ -31,6 +32,10 @@ struct Part {
 /// passes over the map.
 Part make_part(HeightMap map, RemovalFunction tif, const FormTerms& form, int threads = 0,
                const Progress& progress = {});
+
+/// The part without data at these pixels (linear indices): as if they had not been measured. Throws InputError if no
+/// finite pixel is left. Cost: copies, and a few passes over the map.
+Part without_pixels(Part part, const std::vector<Index>& pixels);
 
 /// Throws InputError if half of the peak of the tool spans more than three times the longer side of the map, which no
 /// tool for the part does: a wrong pitch or unit of length. A tool that only reaches over the part is the path's

@@ -83,6 +83,7 @@ MapReport map_report(const HeightMap& map, const MapReportOptions& options, cons
   report.statistics = map_statistics(report.figure, {}, options.threads);
   progress.step("robust PV: 36 Zernike terms");
   report.robust = robust_pv(report.figure, options.threads);
+  if (report.robust) report.statistics.pvr = report.robust->pvr;
   progress.step("slopes");
   report.slope = slope_statistics(report.figure, options.threads);
   report.form = options.form;
@@ -90,7 +91,7 @@ MapReport map_report(const HeightMap& map, const MapReportOptions& options, cons
     progress.step(fmt::format("fitting {}", to_string(*options.form)));
     HeightMap residual = map;
     report.form_fit = remove_polynomials(residual, *options.form, options.threads);
-    report.form_residual = map_statistics(residual, {}, options.threads);
+    report.form_residual = with_robust_pv(map_statistics(residual, {}, options.threads), residual, options.threads);
   }
   if (options.spectrum) report.spectrum = spectrum_report(report.figure, options, progress);
   return report;

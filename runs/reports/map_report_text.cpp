@@ -27,8 +27,10 @@ std::string form_text(const MapReport& report) {
                           std::abs(term.contribution));
     }
   }
-  return text + fmt::format("          condition {:.3g}; leaves PV {:.6g} nm, RMS {:.6g} nm\n", fit.condition,
-                            report.form_residual.pv, report.form_residual.rms);
+  return text + fmt::format("          condition {:.3g}; leaves PV {:.6g} nm{}, RMS {:.6g} nm\n", fit.condition,
+                            report.form_residual.pv,
+                            report.form_residual.pvr ? fmt::format(", PVr {:.6g} nm", *report.form_residual.pvr) : "",
+                            report.form_residual.rms);
 }
 
 std::string short_name(const PsdCurve& curve) { return curve.name == "radial" ? "rad" : curve.name; }

@@ -9,7 +9,7 @@ ResultFiles make_plan_files() {
   ResultFiles files{"plan",
                     "summary.json",
                     {"residual.npy", "residual.npy.json", "dwell.npy", "search.csv"},
-                    {"before", "after", "dwell", "path", "path_detail"},
+                    {"before", "after", "residual", "dwell", "path", "path_detail"},
                     nullptr};
   for (const ProgramFormat& format : program_formats()) files.others.emplace_back(format.file);
   return files;

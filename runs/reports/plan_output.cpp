@@ -11,19 +11,23 @@
 #include "core/base/units.h"
 #include "core/base/version.h"
 #include "core/base/whole_file.h"
+#include "core/form/robust_pv.h"
 #include "core/formats/map_io.h"
 #include "core/formats/npy.h"
 #include "runs/drawing/path_picture.h"
 #include "runs/drawing/picture.h"
+#include "runs/drawing/residual_picture.h"
 #include "runs/job/option_flags.h"
 #include "runs/plan/program_prediction.h"
 #include "runs/programs/program_formats.h"
 #include "runs/programs/program_reader.h"
 #include "runs/reports/exact_lines.h"
 #include "runs/reports/figure_output.h"
+#include "runs/reports/plan_costs.h"
 #include "runs/reports/plan_summary.h"
 #include "runs/reports/plan_warnings.h"
 #include "runs/reports/program_record.h"
+#include "runs/reports/residual_advice.h"
 #include "runs/reports/weight_lines.h"
 
 namespace dwell {
@@ -64,6 +68,10 @@ void write_pictures(const PlannedJob& plan, const WrittenPlan& written, const Ou
     const std::string title =
         fmt::format("After (simulated program): {} ({} removed)", in_words(written.exact.statistics), removed);
     return after_picture(part.figure, written.exact.surface, options.figure_range, title, format, progress);
+  });
+  write("residual", [&](FigureFormat format) {
+    const std::string title = fmt::format("What is left: {} ({} removed)", in_words(written.exact.statistics), removed);
+    return residual_picture(written.exact.surface, written.anatomy, title, format, progress);
   });
   write("dwell", [&](FigureFormat format) {
     const std::string title =
@@ -136,6 +144,12 @@ WrittenPlan write_plan(const PlannedJob& plan, const OutputFolder& folder, const
   WrittenPlan written;
   written.limits = plan.limits();
   written.exact = predict_program(plan.part(), program, plan.dwell.lattice.kernel, progress);
+  written.exact.statistics = with_robust_pv(written.exact.statistics, written.exact.surface, plan.part().threads);
+  written.anatomy =
+      residual_anatomy(written.exact.surface, plan.part().tif.fwhm, plan.part().form, plan.part().threads,
+                       plan.job.options.blemishes == BlemishHandling::Keep ? BlemishSearch::Off : BlemishSearch::On,
+                       progress.of_part("what is left"));
+  written.advice = residual_advice(written.anatomy, advice_facts(plan));
   written.surface = surface_sheet(plan.part().figure, written.exact.surface, plan.part().tif.fwhm, plan.part().threads,
                                   progress.of_part("simulate"));
   const DwellOptions options = dwell_options(plan.job.options);

@@ -14,6 +14,7 @@
 #include "runs/reports/aim.h"
 #include "runs/reports/options_json.h"
 #include "runs/reports/plan_blocks.h"
+#include "runs/reports/plan_costs.h"
 #include "runs/reports/tool_sheet.h"
 #include "runs/reports/weight_lines.h"
 
@@ -96,6 +97,7 @@ std::string plan_summary_text(const PlannedJob& plan, const WrittenPlan& written
                   {"residual", residual_block(to_string(plan.part().form), plan.dwell.residual)},
                   {"feed", feed_json(plan.program.feed, plan.laid.motion)},
                   {"program", program_json(written)},
+                  {"anatomy", plan_anatomy_block(plan, written)},
                   {"surface", surface_block(written.surface)},
                   {"total_s", written.run_seconds},
                   {"lift_s", written.travel.lifted},

@@ -7,13 +7,16 @@
 
 #include "core/base/counted.h"
 #include "core/base/whole_file.h"
+#include "core/form/robust_pv.h"
 #include "core/map/part_distance.h"
 #include "core/removal/simulate.h"
 #include "runs/base/inputs_json.h"
 #include "runs/job/job.h"
 #include "runs/plan/program_prediction.h"
 #include "runs/programs/program_reader.h"
+#include "runs/reports/anatomy_lines.h"
 #include "runs/reports/exact_lines.h"
+#include "runs/reports/residual_advice.h"
 #include "runs/reports/tool_sheet.h"
 
 namespace dwell {
@@ -67,6 +70,10 @@ Simulation simulate_file(const std::filesystem::path& program, const GcodeReadin
     s.after = predict_program(part, s.program, lattice.kernel, simulating);
   }
   s.lattice = lattice.kernel.division;
+  s.after.statistics = with_robust_pv(s.after.statistics, s.after.surface, part.threads);
+  s.anatomy = residual_anatomy(s.after.surface, part.tif.fwhm, part.form, part.threads, BlemishSearch::On,
+                               progress.of_part("what is left"));
+  s.advice = residual_advice(s.anatomy, {});
   if (auto limit = more_than_before(s.after, s.before)) s.limits.push_back(std::move(*limit));
   return s;
 }
@@ -77,6 +84,7 @@ std::string simulation_json(const Simulation& s) {
   json["tif"] = tif_block(s.tif, kind_of(s.tif), s.tif.samples.history, s.volume_factor);
   json["tool"] = tool_block(tool_sheet(s.tif));
   json["program"] = program_block(program_figures(s.program, s.after, to_string(s.terms), s.max_feed));
+  json["anatomy"] = anatomy_block(s.anatomy, s.advice);
   if (!s.plan.empty()) json["plan"] = s.plan;
   json["differences"] = s.differences;
   json["limits"] = s.limits;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/anatomy/residual_anatomy.h"
 #include "core/base/progress.h"
 #include "core/form/map_statistics.h"
 #include "core/motion/program.h"
@@ -37,6 +38,8 @@ struct Simulation {
   PixelDivision lattice;       // on which the removal was a spline where it was not integrated exactly
   MapStatistics before;
   ExactResidual after;
+  ResidualAnatomy anatomy;               // of what it leaves
+  std::string advice;                    // what would help most, a sentence
   std::string plan;                      // as SimulationSource
   std::vector<std::string> differences;  // from the plan that the program was made by, a sentence each
   std::vector<std::string> limits;       // that were reached, a sentence each

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "core/anatomy/residual_anatomy.h"
 #include "core/removal/exact_residual.h"
 #include "runs/base/json_blocks.h"
 #include "runs/plan/machine_program.h"
@@ -13,6 +14,8 @@ namespace dwell {
 /// What was written, and the surface that the program on disk leaves.
 struct WrittenPlan {
   ExactResidual exact;                // what the program leaves, as read back
+  ResidualAnatomy anatomy;            // of that surface
+  std::string advice;                 // what would help most, a sentence
   SurfaceSheet surface;               // slopes and bands before, and of that surface
   double run_seconds = 0.0;           // of program.nc, as read back, lifted moves included
   TravelTimes travel;                 // besides the dwell; `travel.lifted` is what program.nc does not say

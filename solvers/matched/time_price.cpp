@@ -55,6 +55,7 @@ class Search {
     found_.half = estimate(0.5 * price);
     const PricedTradeOff best = estimate(kNoWorth * highest_);
     if (best.trade_off.residual_rms < found_.best.trade_off.residual_rms) found_.best = best;
+    estimate_unsmoothed();
     set_price(price);
     found_.price = price;
     return found_;
@@ -206,6 +207,28 @@ class Search {
       price_model(std::min(ruled.price, highest_));
       minimise_model();
     }
+  }
+
+  /// What the best plan would be without smoothness, by a model of its own, about the plan that was found.
+  void estimate_unsmoothed() {
+    const auto parts = p_.parts;
+    const double alpha = p_.alpha;
+    if (!(smoothness_term(p_, t_) > 0.0)) return;
+    p_.alpha = 0.0;
+    for (DwellPart& part : p_.parts) part.alpha.reset();
+    set_price(kNoWorth * highest_);
+    value_ = objective_.value(r_, t_);
+    const Vector s = s_;  // in the variables of the model, which smoothness does not change
+    make_model();
+    if (s.size() != s_.size()) throw std::logic_error("the variables of a dwell model depend on its smoothness");
+    s_ = s;
+    return_to_full();
+    minimise_model();
+    double step = 0.0;
+    const LeftAndTotal plan = on_model(step);
+    found_.unsmoothed = {price_, {std::sqrt(2.0 * plan.half_mean_square), plan.total, step}};
+    p_.parts = parts;
+    p_.alpha = alpha;
   }
 
   PricedTradeOff estimate(double price) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "solvers/weights/weight_goal.h"
@@ -50,9 +51,10 @@ struct TimePrice {
   PriceRule rule = PriceRule::Share;
   TradeOff least;       // of the least dwell, exact
   PricedTradeOff best;  // with next to no price: the least residual that the tool reaches, long as the run may be
-  PricedTradeOff half, twice;  // of the price
-  int models = 0;              // that were solved
-  long applications = 0;       // of the full operator
+  PricedTradeOff half, twice;                // of the price
+  std::optional<PricedTradeOff> unsmoothed;  // as best, without smoothness; nothing where the problem has none
+  int models = 0;                            // that were solved
+  long applications = 0;                     // of the full operator
 };
 
 /// Reads "0.3" or "0.3,0.1": share and average, each from 1e-6 to 1e3. Throws InputError naming the text and what is

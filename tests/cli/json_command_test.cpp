@@ -57,7 +57,16 @@ struct CommandInputs : SmallInputs {
       wide.values[static_cast<std::size_t>(i)] = 20.0 * std::sin(0.3 * p.x + 0.1) * std::cos(0.7 * p.y) + 30.0;
     }
     write_map(*this / "wide.csv", wide);
+    HeightMap specked(Grid{60, 72, 0.5, 0.5, {}});
+    for (Index i = 0; i < specked.grid.size(); ++i) {
+      const Point p = specked.grid.centre(i);
+      specked.values[static_cast<std::size_t>(i)] =
+          20.0 * std::sin(0.2 * p.x) * std::cos(0.15 * p.y) + std::sin(17.0 * p.x * p.y + static_cast<double>(i % 7));
+    }
+    specked.at(30, 40) += 200.0, specked.at(30, 41) += 200.0;
+    write_map(*this / "specked.csv", specked);
     EXPECT_EQ(run(SmallInputs::plan()).exit_code, 0);
+    EXPECT_EQ(run(SmallInputs::plan({"--map", "specked.csv", "--out", "specked"})).exit_code, 0);
   }
 };
 
@@ -66,7 +75,8 @@ std::map<std::string, std::vector<Words>> runs_of_commands() {
   return {
       {"plan",
        {SmallInputs::plan({"--out", "a", "--time-price", "auto"}),
-        SmallInputs::plan({"--out", "a", "--smoothness", "step<=0.05", "--tif-pedestal", "taper"})}},
+         SmallInputs::plan({"--out", "a", "--smoothness", "step<=0.05", "--tif-pedestal", "taper"}),
+         SmallInputs::plan({"--map", "specked.csv", "--out", "a", "--blemishes", "leave-out"})}},
       {"paths",
        {{"paths", "--map", "wide.csv", "--tif", "gaussian:peak=10,fwhm=3,radius=4", "--threads", "1", "--paths",
          "raster:pitch=2;nearest:critical=1e9", "--out", "b"},
@@ -77,7 +87,8 @@ std::map<std::string, std::vector<Words>> runs_of_commands() {
       {"pareto",
        {as("pareto", {"--time-price", "--out"},
            {"--smoothnesses", "0.1,1", "--time-prices", "0", "--out", "c", "--tif-pedestal", "taper"})}},
-      {"simulate", {kSimulate, with(kSimulate, {"--exact", "--tif-pedestal", "subtract"}), {"simulate", "plan"}}},
+      {"simulate",
+       {kSimulate, with(kSimulate, {"--exact", "--tif-pedestal", "subtract"}), {"simulate", "plan"}, {"simulate", "specked"}}},
       {"map",
        {kMap,
         with(kMap, {"--form", "zernike-noll:1-6", "--remove", "legendre:1", "--limit", "1e-9,2", "--profile", "y=3"}),

@@ -112,7 +112,7 @@ TEST(PathComparison, GoesOnWhereAPathCannotBePlanned) {
   for (std::string line; std::getline(lines, line);) {
     const std::string bare = line.substr(0, line.find('"'));
     if (bare != line) continue;  // a comma in quotes is none
-    EXPECT_EQ(std::count(line.begin(), line.end(), ','), 29) << line;
+    EXPECT_EQ(std::count(line.begin(), line.end(), ','), 30) << line;
   }
   EXPECT_NE(path_comparison_text(comparison).find("nearest: no plan"), std::string::npos);
   expect_input_error([&] { compare_paths(job.options, "nearest:critical=1e9", {}, folder, {}); },

@@ -59,6 +59,7 @@ JobOptions unusual() {
   o.solver = SolverKind::DenseNnls;
   o.time_worth = {0.25, 0.125};
   o.certify = 0.0125;
+  o.blemishes = BlemishHandling::LeaveOut;
   o.max_solve_s = 12.5;
   o.threads = 2;
   o.gcode = GcodeDialect::G93PerMinute;
