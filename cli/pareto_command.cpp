@@ -11,6 +11,7 @@
 #include "cli/terminal.h"
 #include "core/base/counted.h"
 #include "core/base/duration_text.h"
+#include "core/base/errors.h"
 #include "runs/campaigns/pareto_output.h"
 #include "runs/reports/aim.h"
 #include "runs/reports/map_line.h"
@@ -54,6 +55,11 @@ std::string front_text(const ParetoSweep& sweep) {
 
 int run_pareto(const ParetoArguments& arguments) {
   const JobOptions options = arguments.job->options();
+  if (options.blemishes == BlemishHandling::LeaveOut) {
+    throw InputError(
+        "blemishes = leave-out of the job file: dwell pareto has all pixels in the fit; accepted: report or keep, or "
+        "--map-steps 'blemishes:width=MM', which takes them off the map");
+  }
   ParetoRanges ranges;
   if (!arguments.smoothnesses.empty())
     ranges.smoothnesses = parse_weight_list(arguments.smoothnesses, "--smoothnesses");
@@ -74,7 +80,8 @@ int run_pareto(const ParetoArguments& arguments) {
 std::vector<std::string> swept_flags() {
   std::vector<std::string> flags = every_flag();
   std::erase_if(flags, [](const std::string& f) {
-    return f == "smoothness" || f == "time-price" || f == "time-worth" || f == "certify" || f == "gcode";
+    return f == "smoothness" || f == "time-price" || f == "time-worth" || f == "certify" || f == "blemishes" ||
+           f == "gcode";
   });
   return flags;
 }

@@ -17,9 +17,10 @@ struct Remedy {
 Remedy mask(const ResidualAnatomy& a, double whole) {
   const double share = a.mean_square.blemishes / whole;
   return {share,
-          fmt::format("mask the blemishes (--blemishes leave-out): they hold {:.3g} % of the mean square on {:.2g} "
-                      "% of the area",
-                      100.0 * share, 100.0 * static_cast<double>(a.blemish_pixels) / static_cast<double>(a.pixels))};
+          fmt::format(
+              "mask the blemishes (dwell plan --blemishes leave-out): they hold {:.3g} % of the mean square on {:.2g} "
+              "% of the area",
+              100.0 * share, 100.0 * static_cast<double>(a.blemish_pixels) / static_cast<double>(a.pixels))};
 }
 
 /// What the zone at the edge has beyond an interior of the same area.

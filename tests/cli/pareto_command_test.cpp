@@ -24,6 +24,15 @@ std::vector<std::string> pareto(const std::vector<std::string>& more = {}) {
   return words;
 }
 
+TEST(ParetoCommand, RefusesAJobThatLeavesBlemishesOut) {
+  const SmallInputs inputs;
+  inputs.folder.file("job.toml", "schema = 2\nblemishes = 'leave-out'\n");
+  const ProgramResult result = inputs.run(pareto({"--job", "job.toml", "--out", "sweep"}));
+  EXPECT_EQ(result.exit_code, 2);
+  for (const char* part : {"blemishes = leave-out", "report or keep", "blemishes:width=MM"})
+    expect_has(result.err, part);
+}
+
 TEST(ParetoCommand, WritesTableAndPictureAndPrintsTheFront) {
   const SmallInputs inputs;
   const ProgramResult result =
