@@ -14,7 +14,8 @@ namespace dwell {
 ///   converged       |projected gradient| <= gradient_tolerance * |A' W P z|
 ///   settled         half as much work again, at least settle_iterations, lowers the objective by less than
 ///                   objective_tolerance of itself
-///   undetermined    without smoothness, price and reference: after a tenth of the most iterations, in half as much work
+///   undetermined    without smoothness, price and reference: after a tenth of the most iterations, in half as much
+///   work
 ///                   again the dwell grows by over a tenth, and the objective falls by less than a tenth of that, both
 ///                   as logarithms
 ///   limits          iterations and coarse work, seconds
