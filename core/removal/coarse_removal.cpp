@@ -55,8 +55,8 @@ void CoarseRemoval::do_apply_adjoint(const Vector& residual, Vector& t) {
 Vector coarse_removal_once(const Grid& map, const std::vector<Index>& pixels, const RemovalKernel& kernel,
                            const std::vector<Stroke>& strokes, const Vector& t, int threads) {
   SplineSampling sampling(map, kernel.coarse, threads);
-  const Vector coefficients =
-      removal_once(sampling.lattice(), every_node(sampling.lattice()), coarse_kernel(kernel), strokes, t, threads);
+  const Vector coefficients = scattered_removal_once(sampling.lattice(), every_node(sampling.lattice()),
+                                                     coarse_kernel(kernel), strokes, t, threads);
   Vector removal;
   sampling.sample(coefficients, pixels, removal);
   return removal;

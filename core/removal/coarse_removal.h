@@ -33,7 +33,7 @@ class CoarseRemoval final : public RemovalOperator {
 /// The kernel of the spline coefficients on the lattice of every kernel.coarse-th pixel.
 RemovalKernel coarse_kernel(const RemovalKernel& kernel);
 
-/// What one apply of a CoarseRemoval gives for the times t [s]; see removal_once.
+/// What one apply of a CoarseRemoval gives for the times t [s]; see scattered_removal_once.
 Vector coarse_removal_once(const Grid& map, const std::vector<Index>& pixels, const RemovalKernel& kernel,
                            const std::vector<Stroke>& strokes, const Vector& t, int threads);
 

@@ -12,7 +12,6 @@
 #include "core/base/memory.h"
 #include "core/motion/stroke_quadrature.h"
 #include "core/numerics/bspline.h"
-#include "core/removal/coarse_removal.h"
 
 namespace dwell {
 namespace {
@@ -263,12 +262,11 @@ void ScatteredRemoval::do_apply_adjoint(const Vector& residual, Vector& t) {
   }
 }
 
-Vector removal_once(const Grid& map, const std::vector<Index>& pixels, const RemovalKernel& kernel,
-                    const std::vector<Stroke>& strokes, const Vector& t, int threads) {
+Vector scattered_removal_once(const Grid& map, const std::vector<Index>& pixels, const RemovalKernel& kernel,
+                              const std::vector<Stroke>& strokes, const Vector& t, int threads) {
   if (t.size() != static_cast<Index>(strokes.size())) {
-    throw std::invalid_argument("removal_once: one time a stroke is required");
+    throw std::invalid_argument("scattered_removal_once: one time a stroke is required");
   }
-  if (kernel.coarse != CoarseFactor{}) return coarse_removal_once(map, pixels, kernel, strokes, t, threads);
   PaddedConvolution convolution(map, pixels, kernel.surface.coefficients(), kernel.half_rows, kernel.half_cols,
                                 threads);
   check_size(convolution);

@@ -43,11 +43,11 @@ class ScatteredRemoval final : public RemovalOperator {
   int threads_;
 };
 
-/// What one apply of a ScatteredRemoval of these strokes, or of a CoarseRemoval where the kernel asks for one, gives
-/// for the times t [s], summed in the same order, without keeping its weights: for callers that apply only once. At the
-/// pixels, in their order [nm]. Throws std::invalid_argument unless there is one time a stroke. Cost: spreading the
-/// strokes, and one and a half padded transform pairs. Memory: the padded arrays.
-Vector removal_once(const Grid& map, const std::vector<Index>& pixels, const RemovalKernel& kernel,
-                    const std::vector<Stroke>& strokes, const Vector& t, int threads);
+/// What one apply of a ScatteredRemoval of these strokes gives for the times t [s], summed in the same order, without
+/// keeping its weights: for callers that apply only once. At the pixels, in their order [nm]. Throws
+/// std::invalid_argument unless there is one time a stroke. Cost: spreading the strokes, and one and a half padded
+/// transform pairs. Memory: the padded arrays.
+Vector scattered_removal_once(const Grid& map, const std::vector<Index>& pixels, const RemovalKernel& kernel,
+                              const std::vector<Stroke>& strokes, const Vector& t, int threads);
 
 }  // namespace dwell

@@ -1,7 +1,7 @@
 #include "core/removal/simulate.h"
 
 #include "core/removal/inner_lattice.h"
-#include "core/removal/scattered_removal.h"
+#include "core/removal/removal_once.h"
 
 namespace dwell {
 namespace {

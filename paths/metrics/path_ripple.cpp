@@ -10,7 +10,7 @@
 
 #include "core/base/errors.h"
 #include "core/base/poll.h"
-#include "core/removal/scattered_removal.h"
+#include "core/removal/removal_once.h"
 #include "core/tif/removal_kernel.h"
 
 namespace dwell {

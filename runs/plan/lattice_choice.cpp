@@ -9,7 +9,7 @@
 #include "core/base/random_numbers.h"
 #include "core/removal/inner_lattice.h"
 #include "core/removal/matched_kernel.h"
-#include "core/removal/scattered_removal.h"
+#include "core/removal/removal_once.h"
 
 namespace dwell {
 namespace {

@@ -26,7 +26,7 @@ from png_file import read_png
 from sdf_file import read_sdf
 
 STEP = "subtract:file=flat_\u00fc*.csv"  # a name that not every format can hold
-HISTORY = "subtract:file=flat_\u00fc*.csv,how=strict (75 pixels have data in both)"
+HISTORY = "subtract:file=flat_\u00fc*.csv,how=strict (75 pixels with data in both)"
 
 
 def module(name):

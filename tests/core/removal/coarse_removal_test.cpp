@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/removal/removal_geometry.h"
+#include "core/removal/removal_once.h"
 #include "core/tif/removal_function.h"
 
 namespace dwell {

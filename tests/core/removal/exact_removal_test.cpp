@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "core/removal/scattered_removal.h"
+#include "core/removal/removal_once.h"
 #include "core/removal/stroke_average.h"
 #include "tests/core/removal/direct_removal.h"
 #include "tests/core/removal/disc_oracle.h"

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "core/removal/lattice_removal.h"
+#include "core/removal/removal_once.h"
 #include "core/removal/scattered_removal.h"
 #include "core/removal/sparse_removal.h"
 #include "core/removal/stacked_removal.h"

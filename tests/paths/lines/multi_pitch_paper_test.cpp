@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "core/form/map_statistics.h"
-#include "core/removal/scattered_removal.h"
+#include "core/removal/removal_once.h"
 #include "core/tif/models/removal_models.h"
 #include "paths/feed/depth_feed.h"
 #include "paths/lines/multi_pitch.h"

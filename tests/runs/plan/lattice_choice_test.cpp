@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "core/removal/scattered_removal.h"
+#include "core/removal/removal_once.h"
 #include "core/removal/simulate.h"
 #include "runs/plan/dwell_plan.h"
 #include "runs/plan/machine_program.h"
