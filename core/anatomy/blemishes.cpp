@@ -188,6 +188,7 @@ class Search {
 
   static std::vector<Index> pixels_of(const std::vector<Spot>& cluster) {
     std::vector<Index> pixels;
+    pixels.reserve(cluster.size());
     for (const Spot& s : cluster) pixels.push_back(s.pixel);
     std::sort(pixels.begin(), pixels.end());
     return pixels;

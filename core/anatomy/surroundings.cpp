@@ -95,7 +95,7 @@ template <class Take>
 bool Surroundings::for_pairs(Index row, Index col, Index from, Index to, const Take& take) const {
   const Grid& g = map_.grid;
   const double* const here = map_.values.data() + g.index(row, col);
-  const bool within = row >= most_rows_ && col >= most_cols_ && row + most_rows_ < g.rows && col + most_cols_ < g.cols;
+  const bool within = to <= all_round_ && is_within(row, col);  // the ways beyond reach farther
   for (Index k = from; k < to; ++k) {
     if (!within) {
       const Way& way = ways_[static_cast<std::size_t>(k)];
@@ -169,8 +169,7 @@ void Surroundings::glance_at_row(Index row, std::span<double> heights, std::span
       sigmas[i] = d ? d->sigma : std::numeric_limits<double>::quiet_NaN();
     }
   };
-  const bool inside =
-      row >= glance_rows_ && row + glance_rows_ < g.rows && static_cast<Index>(ways_.size()) >= kGlancePairs;
+  const bool inside = row >= glance_rows_ && row + glance_rows_ < g.rows && all_round_ >= kGlancePairs;
   const Index begin = inside ? std::min(glance_cols_, g.cols) : g.cols;
   const Index end = std::max(begin, g.cols - glance_cols_);
   one_by_one(0, begin);

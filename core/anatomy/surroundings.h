@@ -69,7 +69,7 @@ class Surroundings {
   Index all_round_ = 0;  // ways that are; those along the row and the column follow
   std::vector<Way> ways_;
   std::vector<Index> steps_;                 // of the ways, in the map's values
-  Index most_rows_ = 0, most_cols_ = 0;      // of all ways
+  Index most_rows_ = 0, most_cols_ = 0;      // of all ways round the pixel
   Index glance_rows_ = 0, glance_cols_ = 0;  // of those of a glance
 };
 

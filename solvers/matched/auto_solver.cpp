@@ -236,15 +236,14 @@ class Run {
           exact ? gained > kLeadsOn * promised
                 : gained > kLeadsOnItsOwn * promised && gradient_norm(point_) < kOwnGradient * left_by_model;
       const double little = tolerance_ * std::abs(before);
-      if (gained < little && (leads || promised < little) && points_products_ >= kLeastBeforeSettling) {
+      const bool watched = points_products_ >= kLeastBeforeSettling;
+      if (watched && gained < little && (leads || promised < little)) {
         settle_unless_uncertain(gained, factor);
-      } else if (points_products_ >= kLeastBeforeSettling &&
-                 rules_.undetermined(before, point_.value, total, point_.x.sum())) {
+      } else if ((watched && rules_.undetermined(before, point_.value, total, point_.x.sum())) ||
+                 (!leads && (exact || !fine))) {
         break;
-      } else if (!leads && !exact && fine) {
-        exact = true;
       } else if (!leads) {
-        break;
+        exact = true;
       }
     }
     return exact;
