@@ -17,6 +17,13 @@ namespace {
 constexpr double kMostNodes = 1.0e8;  // of an inner lattice with what the tool reaches beyond it: 2.4 GB of transforms
 constexpr Index kFinest = 16;         // parts of the longer side of a pixel
 
+// Pixels so many that a coarser lattice is worth looking for, and how much it must save.
+constexpr Index kManyPixels = Index{1} << 20;
+constexpr Index kLeastSaving = 6;
+// Pitches over the removal function's equivalent sigma that are tried, and the largest error with which one is taken.
+constexpr double kCoarsePitches[] = {0.25, 0.17};
+constexpr double kCoarseError = 3e-3;
+
 /// Divides pixels into about square cells, `parts` along their longer side.
 PixelDivision division_of(const Grid& map, Index parts) {
   const double pitch = std::max(map.pitch_x, map.pitch_y) / static_cast<double>(parts);
@@ -35,13 +42,6 @@ bool fits(const Part& part, PixelDivision division) {
 }
 
 Index parts_of(PixelDivision division) { return std::max(division.x, division.y); }
-
-/// Pixels so many that a coarser lattice is worth looking for, and how much it must save.
-constexpr Index kManyPixels = Index{1} << 20;
-constexpr Index kLeastSaving = 6;
-// Pitches over the removal function's equivalent sigma that are tried, and the largest error with which one is taken.
-constexpr double kCoarsePitches[] = {0.25, 0.17};
-constexpr double kCoarseError = 3e-3;
 
 bool worth_it(const Part& part, CoarseFactor factor) {
   return part.map.grid.size() >= kManyPixels && factor.x * factor.y >= kLeastSaving;
@@ -89,10 +89,6 @@ std::vector<double> random_dwell(const std::vector<Stroke>& strokes) {
   }
   return seconds;
 }
-
-}  // namespace
-
-namespace {
 
 /// Random dwell on the strokes, what it truly removes at some pixels, and what lattices make of it.
 class LatticeTrial {

@@ -24,9 +24,9 @@ std::string lattice_words(const RemovalKernel& kernel);
 inline constexpr double kLatticeError = 0.002;
 
 /// The coarsest lattice, from the map's own pixels on, on which the error is at most kLatticeError; or the finest.
-/// Where pixels are many and the removal function is much wider than one, a lattice of every so many pixels if it holds
-/// the removal function to 1e-3 on random dwell. Cost: for each lattice tried, one removal_once; and a RemovalProbe at
-/// 96 pixels.
+/// Where pixels are many and the removal function is much wider than one, a lattice of every so many pixels, if the
+/// removal of random dwell by it, the mean left out, is within 3e-3 of the exact. Cost: for each lattice tried, one
+/// removal_once; and a RemovalProbe at 96 pixels.
 LatticeChoice choose_lattice(const Part& part, const std::vector<Stroke>& strokes, const Progress& progress);
 
 /// The next finer one of about half the pitch. error is not set. Nothing finer: the same, with `finest`.

@@ -69,7 +69,6 @@ Simulation simulate_file(const std::filesystem::path& program, const GcodeReadin
     lattice = finer_lattice(part, lattice);
     s.after = predict_program(part, s.program, lattice.kernel, simulating);
   }
-  s.lattice = lattice.kernel.division;
   s.after.statistics = with_robust_pv(s.after.statistics, s.after.surface, part.threads);
   s.anatomy = residual_anatomy(s.after.surface, part.tif.fwhm, part.form, part.threads, BlemishSearch::On,
                                progress.of_part("what is left"));

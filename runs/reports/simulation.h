@@ -35,7 +35,6 @@ struct Simulation {
   MapFigures map;  // as it was before the run, for the summary
   RemovalFunction tif;
   double volume_factor = 1.0;  // of its kernel
-  PixelDivision lattice;       // on which the removal was a spline where it was not integrated exactly
   MapStatistics before;
   ExactResidual after;
   ResidualAnatomy anatomy;               // of what it leaves
