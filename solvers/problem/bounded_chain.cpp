@@ -1,6 +1,7 @@
 #include "solvers/problem/bounded_chain.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <utility>
@@ -8,9 +9,32 @@
 namespace dwell {
 namespace {
 
-constexpr int kMostRounds = 1000;  // all but the first few look at few variables
+constexpr double kMostSweeps = 50.0;  // seen: 2 to 8
+constexpr Index kAggregate = 8;       // variables of a coarse one
+constexpr Index kCoarseFrom = 256;
 // A free stretch that nothing holds has a singular T: its last pivot is kept above this share of the diagonal.
 constexpr double kLeastPivot = 1e-14;
+
+/// T is the sum of what ties each variable to 0 and of springs between neighbours. A coarse variable stands for
+/// kAggregate of them: the ties add up, and the springs between two middles stand in series.
+std::unique_ptr<BoundedChain> coarser(const Vector& diagonal, const Vector& off, const Vector& room) {
+  const Index n = diagonal.size(), cells = (n + kAggregate - 1) / kAggregate;
+  Vector d = Vector::Zero(cells), o = Vector::Zero(cells), most;
+  if (room.size() != 0) most = Vector::Constant(cells, std::numeric_limits<double>::infinity());
+  double give = 0.0;  // of the springs since the last middle
+  for (Index j = 0; j < n; ++j) {
+    const Index cell = j / kAggregate, begin = cell * kAggregate, end = std::min(begin + kAggregate, n);
+    d[cell] += diagonal[j] + off[j] + (j + 1 < n ? off[j + 1] : 0.0);
+    if (room.size() != 0) most[cell] = std::min(most[cell], room[j]);
+    if (j > 0) give += 1.0 / std::abs(off[j]);  // infinite where nothing ties j to j - 1
+    if (j != (begin + end) / 2) continue;
+    if (cell > 0) o[cell] = -1.0 / give;
+    give = 0.0;
+  }
+  for (Index cell = 0; cell < cells; ++cell)
+    d[cell] = std::max(0.0, d[cell] - o[cell] - (cell + 1 < cells ? o[cell + 1] : 0.0));
+  return std::make_unique<BoundedChain>(std::move(d), std::move(o), std::move(most));
+}
 
 }  // namespace
 
@@ -24,6 +48,7 @@ BoundedChain::BoundedChain(Vector diagonal, Vector off, Vector room)
     throw std::invalid_argument("BoundedChain: diagonal and room must be >= 0, off <= 0");
   at_.resize(static_cast<std::size_t>(size()));
   pivot_.resize(size());
+  if (size() >= kCoarseFrom) coarse_ = coarser(diagonal_, off_, room_);
 }
 
 double BoundedChain::room(Index j) const {
@@ -31,19 +56,36 @@ double BoundedChain::room(Index j) const {
 }
 
 void BoundedChain::minimise(const Vector& c, Vector& s) {
-  if (s.size() != size()) s.setZero(size());
+  s.setZero(size());
+  if (coarse_) start_coarse(c, s);
+  start_from(s);
+  sweeps_ = 0.0;
+  for (std::vector<Range> ranges{{0, size()}}; !ranges.empty() && sweeps_ < kMostSweeps;) {
+    Index solved = 0;
+    for (const Range& range : ranges) {
+      solve_free(c, range, s);
+      solved += range.end - range.begin;
+    }
+    sweeps_ += static_cast<double>(solved) / static_cast<double>(size());
+    ranges = ranges_about(update_bounds(c, ranges, s));
+  }
+  s = s.cwiseMax(0.0);
+  if (room_.size() != 0) s = s.cwiseMin(room_);
+}
+
+void BoundedChain::start_coarse(const Vector& c, Vector& s) {
+  Vector sums = Vector::Zero(coarse_->size()), coarse;
+  for (Index j = 0; j < size(); ++j) sums[j / kAggregate] += c[j];
+  coarse_->minimise(sums, coarse);
+  for (Index j = 0; j < size(); ++j) s[j] = coarse[j / kAggregate];
+}
+
+void BoundedChain::start_from(const Vector& s) {
   for (Index j = 0; j < size(); ++j) {
     // A variable that nothing ties down stands where its cost pushes it: solving for it would divide by 0.
     const bool loose = !(diagonal_[j] > 0.0);
     at(j) = s[j] <= 0.0 || loose ? At::Zero : s[j] >= room(j) ? At::Room : At::Free;
   }
-  std::vector<Range> ranges{{0, size()}};
-  for (int round = 0; round < kMostRounds && !ranges.empty(); ++round) {
-    for (const Range& range : ranges) solve_free(c, range, s);
-    ranges = ranges_about(update_bounds(c, ranges, s));
-  }
-  s = s.cwiseMax(0.0);
-  if (room_.size() != 0) s = s.cwiseMin(room_);
 }
 
 /// Elimination without pivoting, as T is positive definite on the free stretches; what is at a bound enters as given.

@@ -57,16 +57,15 @@ SurplusPenalty surplus_penalty(const DwellProblem& p) {
 class ScaledDual {
  public:
   ScaledDual(const DwellProblem& problem, const Vector& t, double objective, const Vector& gradient)
-      : p_(problem), penalty_(surplus_penalty(problem)), surplus_(t - problem.lower), objective_(objective) {
+      : p_(problem), penalty_(surplus_penalty(problem)), objective_(objective) {
     worth_ = gradient;
     price_.setZero(t.size());
     add_penalty_gradient(p_, t, price_);
     worth_ -= price_;  // a
     square_ = 2.0 * (objective - dwell::penalty(p_, t));
-    linear_ = square_ - worth_.dot(surplus_);
+    linear_ = square_ - worth_.dot(t - problem.lower);
     constant_ = p_.gamma * p_.lower.sum() + penalty_.constant;
     best_ = p_.gamma * p_.lower.sum();  // no term is below 0
-    s_ = surplus_;
   }
 
   /// Concave: where the slope at a theta is known, no theta beyond can give more than the tangent.
@@ -157,7 +156,7 @@ class ScaledDual {
 
   const DwellProblem& p_;
   SurplusPenalty penalty_;
-  Vector surplus_, worth_, price_, multipliers_, s_;
+  Vector worth_, price_, multipliers_, s_;
   double objective_, square_ = 0.0, linear_ = 0.0, constant_ = 0.0, best_ = 0.0;
 };
 
