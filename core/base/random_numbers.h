@@ -43,12 +43,6 @@ class RandomNumbers {
     }
   }
 
-  /// One step of the same from the front: one of values[k], values[k + 1], ... comes to place k.
-  template <class T>
-  void draw(std::vector<T>& values, std::size_t k) {
-    std::swap(values[k], values[k + below(static_cast<std::uint32_t>(values.size() - k))]);
-  }
-
  private:
   std::mt19937_64 engine_;
 };

@@ -29,6 +29,8 @@ class FormPolynomials {
 
   Index rank() const { return static_cast<Index>(orthonormal_.size()); }
 
+  /// q_k at a pixel of the list (its linear index), one value for each.
+  Eigen::VectorXd at(Index pixel) const;
   /// Columns w q_k: pixels.size() x rank.
   Eigen::MatrixXd columns() const;
 
@@ -42,18 +44,25 @@ class FormPolynomials {
     double x, y;
   };
   using Sums = std::array<double, kTerms>;
+  /// Sums over the pixels of w^2 times the products of two terms; without astigmatism only of the first four.
+  using Gram = std::array<Sums, kTerms>;
 
   template <class Visit>
   void visit_block(Index block, const Visit& visit) const;
-  template <class Add>
-  Sums sum(const Add& add) const;
+  template <std::size_t N, class Add>
+  std::array<double, N> sum(const Add& add) const;
   template <class Visit>
   void for_each(const Visit& visit) const;
   Index blocks() const;
   double weight(std::size_t number) const { return weights_.empty() ? 1.0 : weights_[number]; }
+  double size() const;
   void centre_and_scale();
   template <std::size_t Terms>
-  void add_term(std::size_t term, double size);
+  Gram gram() const;
+  template <std::size_t Terms>
+  void add_term(std::size_t term, double size, const Gram& gram);
+  template <std::size_t Terms>
+  double orthogonalise(Polynomial& candidate) const;
   template <std::size_t Terms>
   void write_columns(Eigen::MatrixXd& q) const;
   template <std::size_t Terms>

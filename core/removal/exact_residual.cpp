@@ -5,13 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <numeric>
+#include <optional>
+#include <utility>
 #include <vector>
 
-#include "core/base/random_numbers.h"
-#include "core/form/form.h"
+#include "core/base/random_draw.h"
+#include "core/form/form_polynomials.h"
 
 namespace dwell {
 namespace {
@@ -27,51 +28,57 @@ Index largest_of(Index pixels, ExactCheck check) {
   return check == ExactCheck::Lattice ? kFewestLargest : std::clamp(pixels / 2000, kFewestLargest, kMostLargest);
 }
 
-/// The pixels in the order in which they are looked at: the largest residuals, then the others at random.
+/// The pixels in the order in which they are looked at: the largest residuals, then the others, at random unless all
+/// are looked at in the end.
 class LookOrder {
  public:
-  LookOrder(const Vector& residual, Index largest) : largest_(std::min(largest, residual.size())) {
-    const auto count = static_cast<std::size_t>(residual.size());
-    const double mean = count > 0 ? residual.mean() : 0.0;
-    places_.resize(count);
-    std::iota(places_.begin(), places_.end(), Index{0});
-    const auto end = places_.begin() + largest_;
-    if (end == places_.end()) return;
-    std::vector<double> sizes(count);
-    for (std::size_t i = 0; i < count; ++i) sizes[i] = std::abs(residual[static_cast<Index>(i)] - mean);
-    std::vector<double> in_order = sizes;
-    std::nth_element(in_order.begin(), in_order.begin() + largest_, in_order.end(), std::greater<>());
-    const double least = in_order[static_cast<std::size_t>(largest_)];
-    // Those above come first, then as many equal ones as there is room for, so that the order is the same everywhere.
-    const auto equal =
-        std::stable_partition(places_.begin(), places_.end(), [&](Index i) { return at(sizes, i) > least; });
-    std::stable_partition(equal, places_.end(), [&](Index i) { return at(sizes, i) == least; });
+  /// residual(i), i = 0 ... count - 1.
+  template <class Residual>
+  LookOrder(Index count, const Residual& residual, Index largest) {
+    // The smallest of those kept is on top, of equal ones the last in the list.
+    std::vector<std::pair<double, Index>> kept;
+    const auto after = [](const auto& a, const auto& b) {
+      return a.first > b.first || (a.first == b.first && a.second < b.second);
+    };
+    largest_ = std::min(largest, count);
+    for (Index i = 0; i < count && largest_ > 0; ++i) {
+      const std::pair<double, Index> pixel{std::abs(residual(i)), i};
+      if (static_cast<Index>(kept.size()) == largest_) {
+        if (!after(pixel, kept.front())) continue;
+        std::pop_heap(kept.begin(), kept.end(), after);
+        kept.pop_back();
+      }
+      kept.push_back(pixel);
+      std::push_heap(kept.begin(), kept.end(), after);
+    }
+    for (const auto& pixel : kept) places_.push_back(pixel.second);
+    std::sort(places_.begin(), places_.end());
+    // others_[j]: how many of the others come before the j-th of these.
+    for (Index j = 0; j < largest_; ++j) others_.push_back((*this)[j] - j);
+    draw_ = RandomDraw(count - largest_, 1);
+    count_ = count;
   }
 
   Index largest() const { return largest_; }
-  /// The k-th place in the list of pixels; to be asked for in order.
-  Index next(Index k) {
-    if (k >= largest_) random_.draw(places_, static_cast<std::size_t>(k));
-    return (*this)[k];
-  }
   Index operator[](Index k) const { return places_[static_cast<std::size_t>(k)]; }
+  /// Makes [k] known for all k below `end`.
+  void extend_to(Index end) {
+    const bool all = end == count_ && static_cast<Index>(places_.size()) == largest_;
+    places_.reserve(static_cast<std::size_t>(end));
+    for (auto k = static_cast<Index>(places_.size()); k < end; ++k)
+      places_.push_back(other(all ? k - largest_ : draw_.next()));
+  }
 
  private:
-  static double at(const std::vector<double>& values, Index i) { return values[static_cast<std::size_t>(i)]; }
+  /// The place of the rank-th that is none of the largest.
+  Index other(Index rank) const {
+    return rank + (std::upper_bound(others_.begin(), others_.end(), rank) - others_.begin());
+  }
 
-  std::vector<Index> places_;
-  Index largest_;
-  RandomNumbers random_{1};
+  std::vector<Index> places_, others_;
+  Index largest_ = 0, count_ = 0;
+  RandomDraw draw_{0, 1};
 };
-
-/// The values of a map at these pixels, the form terms of the basis removed.
-Vector without_form(const HeightMap& map, const std::vector<Index>& pixels, const Eigen::MatrixXd& basis) {
-  Vector values(static_cast<Index>(pixels.size()));
-  for (std::size_t i = 0; i < pixels.size(); ++i)
-    values[static_cast<Index>(i)] = map.values[static_cast<std::size_t>(pixels[i])];
-  remove_form(basis, values);
-  return values;
-}
 
 /// What is known of the pixels looked at so far.
 class ResidualCheck {
@@ -84,16 +91,26 @@ class ResidualCheck {
         threads_(threads),
         check_(check),
         pixels_(finite_pixels(map)),
-        basis_(form_basis(map.grid, pixels_, form, {}, threads)),
-        residual_(without_form(left, pixels_, basis_)),
-        order_(residual_, largest_of(residual_.size(), check)) {}
+        form_(map.grid, pixels_, form, {}, threads),
+        residual_(map.grid) {
+    for (const Index pixel : pixels_)
+      residual_.values[static_cast<std::size_t>(pixel)] = left.values[static_cast<std::size_t>(pixel)];
+    form_.remove_from(residual_.values);
+    for (Index i = 0; i < pixels(); ++i) {
+      sum_ += residual(i);
+      squares_ += residual(i) * residual(i);
+    }
+    const double mean = sum_ / static_cast<double>(std::max<Index>(1, pixels()));
+    order_.emplace(
+        pixels(), [&](Index i) { return residual(i) - mean; }, largest_of(pixels(), check));
+  }
 
   ExactResidual run(const Progress& progress) {
     look_at(first_look(), progress);
     ExactResidual result = estimate();
     const auto enough = [&] { return result.all || result.standard_error <= kEnough * result.statistics.rms; };
     while (check_ != ExactCheck::Lattice && !enough()) {
-      look_at(order_.largest() + 2 * (looked() - order_.largest()), progress);
+      look_at(order_->largest() + 2 * (looked() - order_->largest()), progress);
       result = estimate();
     }
     result.surface = surface();
@@ -102,21 +119,27 @@ class ResidualCheck {
   }
 
  private:
+  Index pixels() const { return static_cast<Index>(pixels_.size()); }
+  /// Of the k-th of the pixels, by the lattice, form terms removed [nm].
+  double residual(Index k) const {
+    return residual_.values[static_cast<std::size_t>(pixels_[static_cast<std::size_t>(k)])];
+  }
   Index looked() const { return static_cast<Index>(difference_.size()); }
 
   /// How many pixels are looked at before the first estimate.
   Index first_look() const {
     const bool lattice = check_ == ExactCheck::Lattice;
-    const double points = static_cast<double>(residual_.size()) * probe_.points_under_tool();
-    if (check_ == ExactCheck::EveryPixel || points <= (lattice ? kCheapForLattice : kCheap)) return residual_.size();
-    return order_.largest() + (lattice ? kForLattice : kFirstBatch);
+    const double points = static_cast<double>(pixels()) * probe_.points_under_tool();
+    if (check_ == ExactCheck::EveryPixel || points <= (lattice ? kCheapForLattice : kCheap)) return pixels();
+    return order_->largest() + (lattice ? kForLattice : kFirstBatch);
   }
 
   /// Looks at pixels in order until there are so many, or all.
   void look_at(Index count, const Progress& progress) {
+    const Index end = std::min(count, pixels());
+    order_->extend_to(end);
     std::vector<Index> next;
-    for (Index k = looked(); k < std::min(count, residual_.size()); ++k)
-      next.push_back(pixels_[static_cast<std::size_t>(order_.next(k))]);
+    for (Index k = looked(); k < end; ++k) next.push_back(pixel_at(k));
     const Vector removal = mean_removal(probe_, map_.grid, next, threads_, progress);
     for (std::size_t k = 0; k < next.size(); ++k) {
       const auto i = static_cast<std::size_t>(next[k]);
@@ -126,60 +149,61 @@ class ResidualCheck {
 
   /// How many pixels one of those looked at stands for.
   double weight(Index k) const {
-    if (k < order_.largest()) return 1.0;
-    return static_cast<double>(residual_.size() - order_.largest()) / static_cast<double>(looked() - order_.largest());
+    if (k < order_->largest()) return 1.0;
+    return static_cast<double>(pixels() - order_->largest()) / static_cast<double>(looked() - order_->largest());
   }
 
-  Index pixel_at(Index k) const { return pixels_[static_cast<std::size_t>(order_[k])]; }
+  Index pixel_at(Index k) const { return pixels_[static_cast<std::size_t>((*order_)[k])]; }
 
   /// The differences without the form terms that they hold, by weighted least squares over the pixels looked at.
   Vector differences_without_form() const {
     Vector d = Vector::Map(difference_.data(), looked());
-    const Index terms = basis_.cols();
+    const Index terms = form_.rank();
     if (terms == 0) return d;
     Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(terms, terms);
     Vector moments = Vector::Zero(terms);
     for (Index k = 0; k < looked(); ++k) {
-      gram += weight(k) * basis_.row(order_[k]).transpose() * basis_.row(order_[k]);
-      moments += weight(k) * d[k] * basis_.row(order_[k]).transpose();
+      const Vector q = form_.at(pixel_at(k));
+      gram += weight(k) * q * q.transpose();
+      moments += weight(k) * d[k] * q;
     }
     const Vector coefficients = gram.ldlt().solve(moments);
-    for (Index k = 0; k < looked(); ++k) d[k] -= basis_.row(order_[k]).dot(coefficients);
+    for (Index k = 0; k < looked(); ++k) d[k] -= form_.at(pixel_at(k)).dot(coefficients);
     return d;
   }
 
   ExactResidual estimate() const {
     const Vector d = differences_without_form();
-    const auto count = static_cast<double>(residual_.size());
-    double squares = residual_.squaredNorm(), sum = residual_.sum(), errors = 0.0;
+    const auto count = static_cast<double>(pixels());
+    double squares = squares_, sum = sum_, errors = 0.0;
     double mean = 0.0, scatter = 0.0, low = std::numeric_limits<double>::infinity(), high = -low;
     for (Index k = 0; k < looked(); ++k) {
-      const double before = residual_[order_[k]], after = before + d[k];
+      const double before = residual((*order_)[k]), after = before + d[k];
       const double change = after * after - before * before;
       squares += weight(k) * change;
       sum += weight(k) * d[k];
       errors += weight(k) * d[k] * d[k];
       low = std::min(low, after);
       high = std::max(high, after);
-      if (k < order_.largest()) continue;
-      const double n = static_cast<double>(k - order_.largest() + 1), step = change - mean;  // Welford
+      if (k < order_->largest()) continue;
+      const double n = static_cast<double>(k - order_->largest() + 1), step = change - mean;  // Welford
       mean += step / n;
       scatter += step * (change - mean);
     }
     ExactResidual result;
     result.checked = looked();
-    result.all = looked() == residual_.size();
+    result.all = looked() == pixels();
     const double about_zero = std::sqrt(std::max(0.0, squares / count));
-    result.statistics.valid_pixels = residual_.size();
+    result.statistics.valid_pixels = pixels();
     result.statistics.mean = sum / count;
     result.statistics.rms =
         std::sqrt(std::max(0.0, about_zero * about_zero - result.statistics.mean * result.statistics.mean));
     result.statistics.pv = high - low;
-    result.lattice_rms = std::sqrt(residual_.squaredNorm() / count);
+    result.lattice_rms = std::sqrt(squares_ / count);
     result.lattice_error = std::sqrt(errors / count);
     if (!result.all) {
-      const double others = count - static_cast<double>(order_.largest()),
-                   n = static_cast<double>(looked() - order_.largest());
+      const double others = count - static_cast<double>(order_->largest()),
+                   n = static_cast<double>(looked() - order_->largest());
       const double deviation = std::sqrt(scatter / (n - 1.0) / n * (1.0 - n / others)) * others / count;
       result.standard_error = about_zero > 0.0 ? 0.5 * deviation / about_zero : deviation;
     }
@@ -188,9 +212,7 @@ class ResidualCheck {
 
   HeightMap surface() const {
     const Vector d = differences_without_form();
-    HeightMap map(map_.grid);
-    for (Index i = 0; i < residual_.size(); ++i)
-      map.values[static_cast<std::size_t>(pixels_[static_cast<std::size_t>(i)])] = residual_[i];
+    HeightMap map = residual_;
     for (Index k = 0; k < looked(); ++k) map.values[static_cast<std::size_t>(pixel_at(k))] += d[k];
     return map;
   }
@@ -203,14 +225,14 @@ class ResidualCheck {
     const double cheap = kCheapRipple / (kPointsOfAPixel * std::max(1.0, probe_.points_under_tool()));
     const Index most =
         std::min(std::max(kFirst, static_cast<Index>(std::min(cheap, 1e5))), static_cast<Index>(pixels_.size()));
-    std::vector<Index> places = pixels_;
-    RandomNumbers random{2};
+    RandomDraw draw(pixels(), 2);
+    std::vector<Index> places;
     std::vector<double> squares;
     for (Index next = kFirst; static_cast<Index>(squares.size()) < most; next *= 2) {
       progress.check();
       const auto first = static_cast<Index>(squares.size()), last = std::min(next, most);
       squares.resize(static_cast<std::size_t>(last));
-      for (Index k = first; k < last; ++k) random.draw(places, static_cast<std::size_t>(k));
+      for (Index k = first; k < last; ++k) places.push_back(pixels_[static_cast<std::size_t>(draw.next())]);
 #pragma omp parallel for num_threads(threads_) schedule(dynamic, 1)
       for (Index k = first; k < last; ++k) {
         const auto i = static_cast<std::size_t>(k);
@@ -270,9 +292,10 @@ class ResidualCheck {
   int threads_;
   ExactCheck check_;
   std::vector<Index> pixels_;
-  Eigen::MatrixXd basis_;
-  Vector residual_;  // by the lattice, form terms removed
-  LookOrder order_;
+  FormPolynomials form_;
+  HeightMap residual_;                // by the lattice, form terms removed
+  double sum_ = 0.0, squares_ = 0.0;  // of the residual
+  std::optional<LookOrder> order_;
   std::vector<double> difference_;  // exact less lattice, of the pixels looked at
 };
 

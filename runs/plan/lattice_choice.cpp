@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/base/random_draw.h"
 #include "core/base/random_numbers.h"
 #include "core/removal/inner_lattice.h"
 #include "core/removal/matched_kernel.h"
@@ -68,11 +69,12 @@ LatticeChoice coarse_lattice(const Part& part, CoarseFactor factor) {
 /// Pixels at random, the same every time.
 std::vector<Index> some_pixels(const HeightMap& map) {
   constexpr std::size_t kPixels = 96;
-  std::vector<Index> pixels = finite_pixels(map);
-  RandomNumbers random(2);
-  const std::size_t count = std::min(kPixels, pixels.size());
-  for (std::size_t k = 0; k < count; ++k) random.draw(pixels, k);
-  pixels.resize(count);
+  RandomDraw draw(map.grid.size(), 2);
+  std::vector<Index> pixels;
+  while (pixels.size() < kPixels && draw.left() > 0) {
+    const Index pixel = draw.next();
+    if (std::isfinite(map.values[static_cast<std::size_t>(pixel)])) pixels.push_back(pixel);
+  }
   std::sort(pixels.begin(), pixels.end());
   return pixels;
 }
