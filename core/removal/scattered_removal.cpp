@@ -121,6 +121,17 @@ void check_size(PaddedConvolution& convolution) {
   }
 }
 
+// Blocks of strokes, each of which may scatter into a field of its own.
+constexpr Index kBlocks = 16;
+
+Index block_begin(Index block, Index strokes) { return block * strokes / kBlocks; }
+
+/// Whether fields for all blocks are small beside the weights, which then need not be held by node as well.
+bool scatters_in_blocks(PaddedConvolution& convolution, double weights) {
+  constexpr double kSmall = 0.25;
+  return static_cast<double>(convolution.field().size()) * static_cast<double>(kBlocks) < kSmall * weights;
+}
+
 /// A run of neighbouring strokes, spread by one thread.
 struct SpreadRun {
   SpreadRun(const Grid& map, const PaddedConvolution& convolution) : spreader(map, convolution) {}
@@ -183,7 +194,9 @@ ScatteredRemoval::ScatteredRemoval(const Grid& map, const std::vector<Index>& pi
       convolution_(map, pixels, kernel.surface.coefficients(), kernel.half_rows, kernel.half_cols, threads),
       threads_(threads) {
   check_size(convolution_);
-  reserve_weights(entries_a_stroke(map, convolution_, strokes) * static_cast<double>(strokes.size()));
+  const double weights = entries_a_stroke(map, convolution_, strokes) * static_cast<double>(strokes.size());
+  const bool blocks = scatters_in_blocks(convolution_, weights);
+  reserve_weights(weights, blocks ? 1.0 : 2.0);
   by_stroke_.begin.reserve(strokes.size() + 1);
   by_stroke_.begin.push_back(0);
   spread_all(map, convolution_, strokes, threads, [this](std::span<const NodeWeight> entries) {
@@ -193,13 +206,17 @@ ScatteredRemoval::ScatteredRemoval(const Grid& map, const std::vector<Index>& pi
     }
     by_stroke_.begin.push_back(static_cast<Index>(by_stroke_.index.size()));
   });
-  transpose_weights();
+  if (blocks) {
+    block_fields_.resize(static_cast<std::size_t>(kBlocks) * convolution_.field().size());
+  } else {
+    transpose_weights();
+  }
 }
 
-void ScatteredRemoval::reserve_weights(double expected) {
-  // In both orders. A little less is asked for than is expected, so that nothing is refused that would just fit.
-  constexpr double kBytes = 2.0 * (sizeof(std::int32_t) + sizeof(double)), kCertain = 0.95, kRoom = 1.02;
-  require_memory(kCertain * kBytes * expected, fmt::format("the removal operator of {} dwell points", cols()));
+void ScatteredRemoval::reserve_weights(double expected, double orders) {
+  // A little less is asked for than is expected, so that nothing is refused that would just fit.
+  constexpr double kBytes = sizeof(std::int32_t) + sizeof(double), kCertain = 0.95, kRoom = 1.02;
+  require_memory(kCertain * kBytes * orders * expected, fmt::format("the removal operator of {} dwell points", cols()));
   // A vector that grows by itself holds up to three times its values for a while.
   by_stroke_.index.reserve(static_cast<std::size_t>(kRoom * expected));
   by_stroke_.weight.reserve(static_cast<std::size_t>(kRoom * expected));
@@ -231,6 +248,11 @@ void ScatteredRemoval::transpose_weights() {
 
 void ScatteredRemoval::do_apply(const Vector& t, Vector& removal) {
   convolution_.clear_field();
+  block_fields_.empty() ? gather_by_node(t) : scatter_in_blocks(t);
+  convolution_.convolve(removal.data());
+}
+
+void ScatteredRemoval::gather_by_node(const Vector& t) {
   double* field = convolution_.field().data();
   const auto touched = static_cast<Index>(touched_.size());
   const double* dwell = t.data();
@@ -243,7 +265,31 @@ void ScatteredRemoval::do_apply(const Vector& t, Vector& removal) {
     }
     field[touched_[static_cast<std::size_t>(r)]] = sum;
   }
-  convolution_.convolve(removal.data());
+}
+
+void ScatteredRemoval::scatter_in_blocks(const Vector& t) {
+  const std::span<double> field = convolution_.field();
+  const auto nodes = static_cast<Index>(field.size());
+#pragma omp parallel num_threads(threads_)
+  {
+#pragma omp for schedule(static, 1)
+    for (Index b = 0; b < kBlocks; ++b) {
+      double* own = block_fields_.data() + b * nodes;
+      std::fill(own, own + nodes, 0.0);
+      const Index end = block_begin(b + 1, cols());
+      for (Index j = block_begin(b, cols()); j < end; ++j) {
+        const Index last = by_stroke_.begin[static_cast<std::size_t>(j) + 1];
+        for (Index k = by_stroke_.begin[static_cast<std::size_t>(j)]; k < last; ++k)
+          own[by_stroke_.index[static_cast<std::size_t>(k)]] += by_stroke_.weight[static_cast<std::size_t>(k)] * t[j];
+      }
+    }
+#pragma omp for schedule(static)
+    for (Index node = 0; node < nodes; ++node) {
+      double sum = 0.0;
+      for (Index b = 0; b < kBlocks; ++b) sum += block_fields_[static_cast<std::size_t>(b * nodes + node)];
+      field[static_cast<std::size_t>(node)] = sum;
+    }
+  }
 }
 
 void ScatteredRemoval::do_apply_adjoint(const Vector& residual, Vector& t) {
@@ -271,11 +317,18 @@ Vector scattered_removal_once(const Grid& map, const std::vector<Index>& pixels,
                                 threads);
   check_size(convolution);
   convolution.clear_field();
-  double* field = convolution.field().data();
-  Index j = 0;
+  const std::span<double> field = convolution.field();
+  const double weights = entries_a_stroke(map, convolution, strokes) * static_cast<double>(strokes.size());
+  std::vector<double> own(scatters_in_blocks(convolution, weights) ? field.size() : 0, 0.0);
+  double* to = own.empty() ? field.data() : own.data();
+  Index j = 0, block = 0;
   spread_all(map, convolution, strokes, threads, [&](std::span<const NodeWeight> entries) {
-    for (const NodeWeight& entry : entries) field[entry.node] += entry.weight * t[j];
+    for (const NodeWeight& entry : entries) to[entry.node] += entry.weight * t[j];
     ++j;
+    if (own.empty() || j != block_begin(block + 1, t.size())) return;
+    for (std::size_t node = 0; node < own.size(); ++node) field[node] += own[node];
+    std::fill(own.begin(), own.end(), 0.0);
+    while (block < kBlocks && block_begin(block + 1, t.size()) == j) ++block;
   });
   Vector removal(static_cast<Index>(pixels.size()));
   convolution.convolve(removal.data());

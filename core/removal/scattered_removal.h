@@ -14,7 +14,8 @@ namespace dwell {
 /// function: b(x_i - p) = sum_l c_(i-l) B3(l - p/h), so each stroke is spread on the map's lattice with its averaged
 /// B-spline weights and convolved with the coefficients c (docs/math.md, "Scattered dwell"). A stroke out of reach of
 /// the map has an empty column. Cost of a call: one padded transform pair plus 16 or more multiply-adds a stroke.
-/// Memory: the padded arrays and 24 bytes a weight.
+/// Memory: the padded arrays and 24 bytes a weight; 12 bytes where the lattice has far fewer nodes than the weights
+/// are.
 class ScatteredRemoval final : public RemovalOperator {
  public:
   /// Throws OutOfMemory before the weights are made, if these take more than the machine has.
@@ -33,12 +34,15 @@ class ScatteredRemoval final : public RemovalOperator {
 
   void do_apply(const Vector& t, Vector& removal) override;
   void do_apply_adjoint(const Vector& residual, Vector& t) override;
-  void reserve_weights(double expected);
+  void reserve_weights(double expected, double orders);
   void transpose_weights();
+  void gather_by_node(const Vector& t);
+  void scatter_in_blocks(const Vector& t);
 
   PaddedConvolution convolution_;
   Rows by_stroke_;
-  Rows by_node_;                       // gathered, not scattered: no races, and one order of summation
+  Rows by_node_;                       // gathered, not scattered: no races, and one order of summation; or
+  std::vector<double> block_fields_;   // what blocks of strokes scatter each for itself, summed in order
   std::vector<std::int32_t> touched_;  // field index of each row of by_node_
   int threads_;
 };

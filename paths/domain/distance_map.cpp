@@ -61,20 +61,41 @@ void DistanceMap::index_rows(const HeightMap& map, const Progress& progress) {
   }
 }
 
+/// Several columns at a time, since a row of the map is read along its columns.
 void DistanceMap::transform_columns(Index margin_rows, Index margin_cols, const Progress& progress) {
+  constexpr Index kTogether = 16;
   node_distance_.resize(static_cast<std::size_t>(nodes_.size()));
   const auto n = static_cast<std::size_t>(nodes_.rows);
-  std::vector<double> along_row(n, kInfinity);
+  std::vector<std::vector<double>> along_row(kTogether, std::vector<double>(n, kInfinity)), distance = along_row;
   LowerEnvelope envelope(nodes_.rows, pixels_.pitch_y);
-  for (Index col = 0; col < nodes_.cols; ++col) {
+  for (Index begin = 0; begin < nodes_.cols; begin += kTogether) {
     progress.check();
+    const Index count = std::min(kTogether, nodes_.cols - begin);
     for (Index row = 0; row < pixels_.rows; ++row) {
-      along_row[static_cast<std::size_t>(row + margin_rows)] = squared_in_row(row, pixels_.x(col - margin_cols));
+      const auto at = static_cast<std::size_t>(row + margin_rows);
+      for (Index k = 0; k < count; ++k)
+        along_row[static_cast<std::size_t>(k)][at] = squared_at_column(row, begin + k - margin_cols);
     }
-    envelope(along_row, [&](std::size_t row, double squared, std::size_t) {
-      node_distance_[static_cast<std::size_t>(nodes_.index(static_cast<Index>(row), col))] = std::sqrt(squared);
-    });
+    for (Index k = 0; k < count; ++k) {
+      std::vector<double>& column = distance[static_cast<std::size_t>(k)];
+      envelope(along_row[static_cast<std::size_t>(k)],
+               [&](std::size_t row, double squared, std::size_t) { column[row] = std::sqrt(squared); });
+    }
+    for (Index row = 0; row < nodes_.rows; ++row) {
+      double* to = &node_distance_[static_cast<std::size_t>(nodes_.index(row, begin))];
+      for (Index k = 0; k < count; ++k) to[k] = distance[static_cast<std::size_t>(k)][static_cast<std::size_t>(row)];
+    }
   }
+}
+
+double DistanceMap::squared_at_column(Index row, Index col) const {
+  const auto pixel = static_cast<std::size_t>(pixels_.index(row, std::clamp<Index>(col, 0, pixels_.cols - 1)));
+  const Index left = valid_left_[pixel], right = valid_right_[pixel];
+  const double x = pixels_.x(col);
+  double best = kInfinity;
+  if (left >= 0) best = std::abs(x - pixels_.x(left));
+  if (right < pixels_.cols) best = std::min(best, std::abs(x - pixels_.x(right)));
+  return best * best;
 }
 
 double DistanceMap::squared_in_row(Index row, double x) const {

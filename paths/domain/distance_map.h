@@ -49,6 +49,7 @@ class DistanceMap {
   void index_rows(const HeightMap& map, const Progress& progress);
   void transform_columns(Index margin_rows, Index margin_cols, const Progress& progress);
   double squared_in_row(Index row, double x) const;
+  double squared_at_column(Index row, Index col) const;  // the same at a column's x, also beyond the map
 
   Grid pixels_;
   Grid nodes_;

@@ -1,5 +1,6 @@
 #include "runs/programs/program_formats.h"
 
+#include "core/base/side_by_side.h"
 #include "core/base/text_lines.h"
 #include "runs/programs/gcode.h"
 #include "runs/programs/gcode_reader.h"
@@ -63,13 +64,14 @@ const ProgramFormat* program_format_of(std::string_view text) {
   return nullptr;
 }
 
-std::vector<WrittenProgram> written_programs(const FeedTable& table, const ProgramWriting& writing,
+std::vector<WrittenProgram> written_programs(const FeedTable& table, const ProgramWriting& writing, int threads,
                                              const Progress& progress) {
-  std::vector<WrittenProgram> programs;
-  for (const ProgramFormat& format : program_formats()) {
-    progress.step("write: " + format.file);
-    programs.push_back({format.file, format.write(table, writing, progress)});
-  }
+  const std::vector<ProgramFormat>& formats = program_formats();
+  std::vector<WrittenProgram> programs(formats.size());
+  run_side_by_side(threads, progress, formats.size(), [&](std::size_t k, const Progress& shared) {
+    shared.step("write: " + formats[k].file);
+    programs[k] = {formats[k].file, formats[k].write(table, writing, shared)};
+  });
   return programs;
 }
 

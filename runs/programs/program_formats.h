@@ -49,7 +49,7 @@ struct WrittenProgram {
 };
 
 /// The plan's program in every format, in the order of the table.
-std::vector<WrittenProgram> written_programs(const FeedTable& table, const ProgramWriting& writing,
+std::vector<WrittenProgram> written_programs(const FeedTable& table, const ProgramWriting& writing, int threads = 1,
                                              const Progress& progress = {});
 
 }  // namespace dwell

@@ -4,26 +4,25 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include "core/base/counted.h"
 #include "core/base/errors.h"
+#include "core/base/side_by_side.h"
 #include "core/base/units.h"
 #include "core/base/version.h"
 #include "core/base/whole_file.h"
 #include "core/form/robust_pv.h"
 #include "core/formats/map_io.h"
 #include "core/formats/npy.h"
-#include "runs/drawing/path_picture.h"
-#include "runs/drawing/picture.h"
-#include "runs/drawing/residual_picture.h"
 #include "runs/job/option_flags.h"
 #include "runs/plan/program_prediction.h"
 #include "runs/programs/program_formats.h"
 #include "runs/programs/program_reader.h"
 #include "runs/reports/exact_lines.h"
-#include "runs/reports/figure_output.h"
 #include "runs/reports/plan_costs.h"
+#include "runs/reports/plan_pictures.h"
 #include "runs/reports/plan_summary.h"
 #include "runs/reports/plan_warnings.h"
 #include "runs/reports/program_record.h"
@@ -45,47 +44,9 @@ void write_program(const PlannedJob& plan, const OutputFolder& folder, const Pro
   table.options = options_of_record(options);
   for (const auto& [key, value] : table.options) header.push_back(fmt::format("option: {} = {}", key, value));
   for (const WrittenProgram& program :
-       written_programs(table, {options.gcode, options.lift_height_mm, header}, progress)) {
+       written_programs(table, {options.gcode, options.lift_height_mm, header}, plan.part().threads, progress)) {
     folder.write(program.file, program.bytes);
   }
-}
-
-void write_pictures(const PlannedJob& plan, const WrittenPlan& written, const OutputFolder& folder,
-                    const Progress& progress) {
-  const Part& part = plan.part();
-  const ToolPath& path = plan.laid.path;
-  const JobOptions& options = plan.job.options;
-  const std::string removed = to_string(part.form);
-  const auto write = [&](const char* name, const auto& draw) {
-    write_figure(folder, options.figures, name, draw);
-    progress.check();
-  };
-  write("before", [&](FigureFormat format) {
-    const std::string title = fmt::format("Before: {} ({} removed)", in_words(part.before), removed);
-    return map_picture(part.figure, {title, "nm", true, {}, {}}, format, progress);
-  });
-  write("after", [&](FigureFormat format) {
-    const std::string title =
-        fmt::format("After (simulated program): {} ({} removed)", in_words(written.exact.statistics), removed);
-    return after_picture(part.figure, written.exact.surface, options.figure_range, title, format, progress);
-  });
-  write("residual", [&](FigureFormat format) {
-    const std::string title = fmt::format("What is left: {} ({} removed)", in_words(written.exact.statistics), removed);
-    return residual_picture(written.exact.surface, written.anatomy, title, format, progress);
-  });
-  write("dwell", [&](FigureFormat format) {
-    const std::string title =
-        fmt::format("Dwell: {}, total {:.4g} s", counted(path.size(), "point"), plan.dwell.seconds.sum());
-    return dwell_picture(path, plan.program.table.dwell_s, {title, "s", false, {}, {}}, format, progress);
-  });
-  write("path", [&](FigureFormat format) {
-    const std::string title = fmt::format("Path: {}, {}, {:.4g} mm, {}", path.kind, counted(path.size(), "point"),
-                                          plan.laid.metrics.length, counted(plan.laid.metrics.lifts, "lift"));
-    return path_picture(part.figure, path, title, format, progress);
-  });
-  write("path_detail", [&](FigureFormat format) {
-    return path_detail_picture(part.figure, path, "Path, detail: " + path.kind, format, progress);
-  });
 }
 
 /// Reads a program of the plan back from disk. It is called by its own name in all messages, and not by the temporary
@@ -132,6 +93,30 @@ void compare_with_solver(const PlannedJob& plan, WrittenPlan& written) {
   if (auto limit = more_than_before(written.exact, plan.part().before)) written.limits.push_back(std::move(*limit));
 }
 
+/// What the surface that is left is like. Its anatomy takes about as long as slopes and bands with what is to be done
+/// beside them.
+void study_surface(const PlannedJob& plan, WrittenPlan& written, const Progress& progress,
+                   const std::function<void(const Progress& progress)>& beside) {
+  const Part& part = plan.part();
+  const bool search = plan.job.options.blemishes != BlemishHandling::Keep;
+  MapStatistics statistics;
+  run_side_by_side(
+      part.threads, progress,
+      [&](const Progress& shared, int threads) {
+        statistics = with_robust_pv(written.exact.statistics, written.exact.surface, threads);
+        written.anatomy =
+            residual_anatomy(written.exact.surface, part.tif.fwhm, part.form, threads,
+                             search ? BlemishSearch::On : BlemishSearch::Off, shared.of_part("what is left"));
+      },
+      [&](const Progress& shared, int threads) {
+        beside(shared);
+        written.surface =
+            surface_sheet(part.figure, written.exact.surface, part.tif.fwhm, threads, shared.of_part("simulate"));
+      });
+  written.exact.statistics = statistics;
+  written.advice = residual_advice(written.anatomy, advice_facts(plan));
+}
+
 }  // namespace
 
 WrittenPlan write_plan(const PlannedJob& plan, const OutputFolder& folder, const Progress& progress) {
@@ -144,14 +129,9 @@ WrittenPlan write_plan(const PlannedJob& plan, const OutputFolder& folder, const
   WrittenPlan written;
   written.limits = plan.limits();
   written.exact = predict_program(plan.part(), program, plan.dwell.lattice.kernel, progress);
-  written.exact.statistics = with_robust_pv(written.exact.statistics, written.exact.surface, plan.part().threads);
-  written.anatomy =
-      residual_anatomy(written.exact.surface, plan.part().tif.fwhm, plan.part().form, plan.part().threads,
-                       plan.job.options.blemishes == BlemishHandling::Keep ? BlemishSearch::Off : BlemishSearch::On,
-                       progress.of_part("what is left"));
-  written.advice = residual_advice(written.anatomy, advice_facts(plan));
-  written.surface = surface_sheet(plan.part().figure, written.exact.surface, plan.part().tif.fwhm, plan.part().threads,
-                                  progress.of_part("simulate"));
+  Program table;
+  study_surface(plan, written, progress,
+                [&](const Progress& beside) { table = read_back(folder, "feed.csv", beside); });
   const DwellOptions options = dwell_options(plan.job.options);
   const double max_feed = options.machine.feed_limits().max_feed;
   written.run_seconds = program.run_seconds(max_feed);
@@ -169,11 +149,11 @@ WrittenPlan write_plan(const PlannedJob& plan, const OutputFolder& folder, const
   written.program = program_figures(program, written.exact, to_string(plan.part().form), max_feed);
   written.program_sha256 = sha256_of_file(folder.path("program.nc"));
   compare_with_solver(plan, written);
-  compare_with_table(plan, program, read_back(folder, "feed.csv", progress), written, progress);
+  compare_with_table(plan, program, table, written, progress);
   progress.check();
 
   progress.report("write: pictures and arrays");
-  write_pictures(plan, written, folder, progress);
+  write_plan_pictures(plan, written, folder, progress);
   write_map(folder.path("residual.npy"), written.exact.surface);
   folder.write("dwell.npy", npy_bytes(std::span<const double>(plan.program.table.dwell_s)));
   if (plan.dwell.search) folder.write("search.csv", write_trials(*plan.dwell.search));

@@ -216,6 +216,34 @@ TEST(RemovalOnce, IsTheScatteredOperatorBitByBit) {
   EXPECT_THROW(removal_once(f.map, f.pixels, f.kernel, strokes, t.head(5), 1), std::invalid_argument);
 }
 
+/// So many strokes on so few nodes are scattered block by block instead of gathered node by node.
+TEST(ScatteredRemoval, OfTheSameStrokesManyTimesIsThatOfTheirSums) {
+  const Fixture f;
+  const auto once = strokes_for(f, Kind::Scattered, true, 0.0);
+  const auto n = static_cast<Index>(once.size());
+  constexpr Index kTimes = 600;
+  std::vector<Stroke> strokes;
+  for (Index k = 0; k < kTimes; ++k) strokes.insert(strokes.end(), once.begin(), once.end());
+  const Vector t = random_vector(n * kTimes, 3);
+  Vector sums = Vector::Zero(n);
+  for (Index k = 0; k < kTimes; ++k) sums += t.segment(k * n, n);
+  ScatteredRemoval few(f.map, f.pixels, f.kernel, once, 1);
+  Vector expected, expected_adjoint;
+  few.apply(sums, expected);
+  few.apply_adjoint(expected, expected_adjoint);
+  for (const int threads : {1, 2}) {
+    ScatteredRemoval many(f.map, f.pixels, f.kernel, strokes, threads);
+    Vector removal, adjoint;
+    many.apply(t, removal);
+    EXPECT_LE((removal - expected).norm(), 1e-12 * expected.norm());
+    many.apply(t, removal);  // once more: nothing of the first is left in the fields
+    EXPECT_LE((removal - expected).norm(), 1e-12 * expected.norm());
+    many.apply_adjoint(expected, adjoint);
+    for (Index k = 0; k < kTimes; k += 37)
+      EXPECT_LE((adjoint.segment(k * n, n) - expected_adjoint).norm(), 1e-12 * expected_adjoint.norm());
+  }
+}
+
 TEST(RemovalOperator, RefusesWrongSizes) {
   const Fixture f;
   const auto a = make(Kind::Scattered, f, strokes_for(f, Kind::Scattered, false, 0.0), 1);

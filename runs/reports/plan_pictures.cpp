@@ -1,0 +1,79 @@
+#include "runs/reports/plan_pictures.h"
+
+#include <fmt/format.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/base/counted.h"
+#include "core/base/side_by_side.h"
+#include "core/form/map_statistics.h"
+#include "runs/drawing/path_picture.h"
+#include "runs/drawing/picture.h"
+#include "runs/drawing/residual_picture.h"
+#include "runs/reports/figure_output.h"
+
+namespace dwell {
+namespace {
+
+struct PlanPicture {
+  std::string name;
+  std::function<std::string(FigureFormat format, const Progress& progress)> draw;
+};
+
+/// Both must outlive the result.
+std::vector<PlanPicture> plan_pictures(const PlannedJob& plan, const WrittenPlan& written) {
+  const Part& part = plan.part();
+  const ToolPath& path = plan.laid.path;
+  const std::string removed = to_string(part.form);
+  return {
+      {"before",
+       [&part, removed](FigureFormat format, const Progress& progress) {
+         const std::string title = fmt::format("Before: {} ({} removed)", in_words(part.before), removed);
+         return map_picture(part.figure, {title, "nm", true, {}, {}}, format, progress);
+       }},
+      {"after",
+       [&plan, &part, &written, removed](FigureFormat format, const Progress& progress) {
+         const std::string title =
+             fmt::format("After (simulated program): {} ({} removed)", in_words(written.exact.statistics), removed);
+         return after_picture(part.figure, written.exact.surface, plan.job.options.figure_range, title, format,
+                              progress);
+       }},
+      {"residual",
+       [&written, removed](FigureFormat format, const Progress& progress) {
+         const std::string title =
+             fmt::format("What is left: {} ({} removed)", in_words(written.exact.statistics), removed);
+         return residual_picture(written.exact.surface, written.anatomy, title, format, progress);
+       }},
+      {"dwell",
+       [&plan, &path](FigureFormat format, const Progress& progress) {
+         const std::string title =
+             fmt::format("Dwell: {}, total {:.4g} s", counted(path.size(), "point"), plan.dwell.seconds.sum());
+         return dwell_picture(path, plan.program.table.dwell_s, {title, "s", false, {}, {}}, format, progress);
+       }},
+      {"path",
+       [&plan, &part, &path](FigureFormat format, const Progress& progress) {
+         const std::string title = fmt::format("Path: {}, {}, {:.4g} mm, {}", path.kind, counted(path.size(), "point"),
+                                               plan.laid.metrics.length, counted(plan.laid.metrics.lifts, "lift"));
+         return path_picture(part.figure, path, title, format, progress);
+       }},
+      {"path_detail",
+       [&part, &path](FigureFormat format, const Progress& progress) {
+         return path_detail_picture(part.figure, path, "Path, detail: " + path.kind, format, progress);
+       }},
+  };
+}
+
+}  // namespace
+
+void write_plan_pictures(const PlannedJob& plan, const WrittenPlan& written, const OutputFolder& folder,
+                         const Progress& progress) {
+  const std::vector<PlanPicture> pictures = plan_pictures(plan, written);
+  run_side_by_side(plan.part().threads, progress, pictures.size(), [&](std::size_t k, const Progress& shared) {
+    write_figure(folder, plan.job.options.figures, pictures[k].name,
+                 [&](FigureFormat format) { return pictures[k].draw(format, shared); });
+  });
+}
+
+}  // namespace dwell
