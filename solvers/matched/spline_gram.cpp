@@ -45,31 +45,49 @@ SplineGram::SplineGram(const Grid& map, CoarseFactor factor, int threads)
   stencil_.assign(static_cast<std::size_t>(lattice_.size() * kWidth * kWidth), 0.0F);
 }
 
+// A band, the pixels between two coarse rows, adds to four rows of stencils. Blocks of bands are at least so long that
+// every other one shares no row with the next but one: first these at once, then the others.
+void SplineGram::add(const std::vector<Index>& pixels, const Vector& weights, Take take, double scale) {
+  constexpr Index kBlock = 8;
+  const Products along_x = products_by_phase(factor_.x, take == Take::SlopeX);
+  const Products along_y = products_by_phase(factor_.y, take == Take::SlopeY);
+  const Addend addend{pixels, weights, scale, along_x, along_y};
+  const Index bands = (map_.rows + factor_.y - 1) / factor_.y, blocks = (bands + kBlock - 1) / kBlock;
+  for (const Index first : {Index{0}, Index{1}}) {
+#pragma omp parallel for num_threads(threads_) schedule(static, 1)
+    for (Index block = first; block < blocks; block += 2)
+      add_bands(addend, block * kBlock, std::min(bands, (block + 1) * kBlock));
+  }
+}
+
 // The weights are products of x and y, so sums are gathered first along a row of pixels within one coarse column (10
 // products), then over the rows within one coarse row (10 x 10), and only then scattered.
-void SplineGram::add(const std::vector<Index>& pixels, const Vector& weights, Take take, double scale) {
-  const auto along_x = products_by_phase(factor_.x, take == Take::SlopeX);
-  const auto along_y = products_by_phase(factor_.y, take == Take::SlopeY);
-  std::vector<std::array<double, 10>> row_sums(static_cast<std::size_t>(lattice_.cols));
+void SplineGram::add_bands(const Addend& addend, Index first, Index last) {
+  const std::vector<Index>& pixels = addend.pixels;
+  Products row_sums(static_cast<std::size_t>(lattice_.cols));
   std::vector<char> touched(row_sums.size());
   Cells cells(row_sums.size());
   for (auto& cell : cells) cell.fill(0.0);
-  Index band = 0;
-  for (std::size_t i = 0; i < pixels.size();) {
+  const auto index_of_row = [&](Index row) {
+    return static_cast<std::size_t>(std::lower_bound(pixels.begin(), pixels.end(), row * map_.cols) - pixels.begin());
+  };
+  Index band = first;
+  const std::size_t end = index_of_row(last * factor_.y);
+  for (std::size_t i = index_of_row(first * factor_.y); i < end;) {
     const Index row = pixels[i] / map_.cols;
     if (row / factor_.y != band) add_band(cells, band);
     band = row / factor_.y;
     for (auto& sums : row_sums) sums.fill(0.0);
     std::fill(touched.begin(), touched.end(), char{0});
-    for (; i < pixels.size() && pixels[i] / map_.cols == row; ++i) {
+    for (; i < end && pixels[i] / map_.cols == row; ++i) {
       const Index col = pixels[i] % map_.cols;
-      const double w = scale * (weights.size() == 0 ? 1.0 : weights[static_cast<Index>(i)]);
+      const double w = addend.scale * (addend.weights.size() == 0 ? 1.0 : addend.weights[static_cast<Index>(i)]);
       const auto cell = static_cast<std::size_t>(col / factor_.x);
-      const auto& x = along_x[static_cast<std::size_t>(col % factor_.x)];
+      const auto& x = addend.along_x[static_cast<std::size_t>(col % factor_.x)];
       touched[cell] = 1;
       for (std::size_t k = 0; k < 10; ++k) row_sums[cell][k] += w * x[k];
     }
-    const auto& y = along_y[static_cast<std::size_t>(row % factor_.y)];
+    const auto& y = addend.along_y[static_cast<std::size_t>(row % factor_.y)];
     for (std::size_t c = 0; c < cells.size(); ++c) {
       if (!touched[c]) continue;
       for (std::size_t j = 0; j < 10; ++j) {

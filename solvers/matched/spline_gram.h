@@ -26,7 +26,7 @@ class SplineGram {
   const Grid& lattice() const { return lattice_; }  // its nodes number the vectors below
 
   /// Adds scale S' diag(weights) S over the pixels, ascending linear indices; weights empty = all one. Cost about ten
-  /// multiply-adds a pixel.
+  /// multiply-adds a pixel. The same bytes for any number of threads.
   void add(const std::vector<Index>& pixels, const Vector& weights, Take take, double scale);
 
   /// out = the matrix times d. Cost 49 multiply-adds a node.
@@ -40,8 +40,17 @@ class SplineGram {
  private:
   static constexpr Index kReach = 3;  // cubic B-splines overlap if their nodes are at most 3 apart
   static constexpr Index kWidth = 2 * kReach + 1;
+  using Products = std::vector<std::array<double, 10>>;  // of the weights of a phase, pair by pair
   using Cells = std::vector<std::array<double, 100>>;
+  /// What is added, and by which weights.
+  struct Addend {
+    const std::vector<Index>& pixels;
+    const Vector& weights;
+    double scale;
+    const Products &along_x, &along_y;
+  };
 
+  void add_bands(const Addend& addend, Index first, Index last);
   void add_band(Cells& cells, Index first_row);
   void apply_row(Index row, const double* d, double* out) const;
 

@@ -29,8 +29,8 @@ constexpr double kAtRest = 0.01;
 constexpr long kFirstLook = 12;
 // Products with the model at a price: so much work on variables, and within these limits. A price need not be as exact
 // as a plan, and every step goes on from where the last one ended.
-constexpr double kWorkAPrice = 4e7;
-constexpr long kFewestProducts = 40, kMostProducts = 200;
+constexpr double kWorkAPrice = 2e7;
+constexpr long kFewestProducts = 20, kMostProducts = 200;
 constexpr double kModelTolerance = 1e-8;  // of the gradient, relative to that at the least dwell
 
 class Search {
@@ -51,10 +51,12 @@ class Search {
     }
     find_on_model();
     const double price = price_;
+    progress_.step("time price: estimating what other prices would give");
     found_.twice = estimate(2.0 * price);
     found_.half = estimate(0.5 * price);
     const PricedTradeOff best = estimate(kNoWorth * highest_);
     if (best.trade_off.residual_rms < found_.best.trade_off.residual_rms) found_.best = best;
+    progress_.step("time price: estimating what less smoothness would give");
     estimate_unsmoothed();
     set_price(price);
     found_.price = price;
