@@ -29,7 +29,7 @@ constexpr double kAtRest = 0.01;
 constexpr long kFirstLook = 12;
 // Products with the model at a price: so much work on variables, and within these limits. A price need not be as exact
 // as a plan, and every step goes on from where the last one ended.
-constexpr double kWorkAPrice = 2e7;
+constexpr double kWorkAPrice = 6e6;
 constexpr long kFewestProducts = 20, kMostProducts = 200;
 constexpr double kModelTolerance = 1e-8;  // of the gradient, relative to that at the least dwell
 

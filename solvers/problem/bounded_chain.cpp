@@ -12,6 +12,7 @@ namespace {
 constexpr double kMostSweeps = 50.0;  // seen: 2 to 8
 constexpr Index kAggregate = 8;       // variables of a coarse one
 constexpr Index kCoarseFrom = 256;
+constexpr double kRounding = 1e-12;  // of the diagonal: what is left of springs alone
 // A free stretch that nothing holds has a singular T: its last pivot is kept above this share of the diagonal.
 constexpr double kLeastPivot = 1e-14;
 
@@ -24,7 +25,8 @@ std::unique_ptr<BoundedChain> coarser(const Vector& diagonal, const Vector& off,
   double give = 0.0;  // of the springs since the last middle
   for (Index j = 0; j < n; ++j) {
     const Index cell = j / kAggregate, begin = cell * kAggregate, end = std::min(begin + kAggregate, n);
-    d[cell] += diagonal[j] + off[j] + (j + 1 < n ? off[j + 1] : 0.0);
+    const double tie = diagonal[j] + off[j] + (j + 1 < n ? off[j + 1] : 0.0);
+    if (tie > kRounding * diagonal[j]) d[cell] += tie;
     if (room.size() != 0) most[cell] = std::min(most[cell], room[j]);
     if (j > 0) give += 1.0 / std::abs(off[j]);  // infinite where nothing ties j to j - 1
     if (j != (begin + end) / 2) continue;
@@ -84,7 +86,8 @@ void BoundedChain::start_from(const Vector& s) {
   for (Index j = 0; j < size(); ++j) {
     // A variable that nothing ties down stands where its cost pushes it: solving for it would divide by 0.
     const bool loose = !(diagonal_[j] > 0.0);
-    at(j) = s[j] <= 0.0 || loose ? At::Zero : s[j] >= room(j) ? At::Room : At::Free;
+    const bool full = room_.size() != 0 && s[j] >= room_[j];
+    at(j) = s[j] <= 0.0 || loose ? At::Zero : full ? At::Room : At::Free;
   }
 }
 

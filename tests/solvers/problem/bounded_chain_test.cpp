@@ -110,8 +110,7 @@ TEST(BoundedChain, LeavesTheEndsOfLongStretchesFewRoundsFromTheirPlaces) {
       random.off[j] = j == 0 || j == 17000 ? 0.0 : -1.0;
       random.c[j] = 1e-4 * (0.2 + std::sin(1.3e-3 * x) + 0.5 * std::sin(2e-2 * x + 1.0) + 0.3 * random.c[j]);
     }
-    for (Index j = 0; j < n; ++j)
-      random.diagonal[j] = 1e-9 - random.off[j] - (j + 1 < n ? random.off[j + 1] : 0.0);
+    for (Index j = 0; j < n; ++j) random.diagonal[j] = 1e-9 - random.off[j] - (j + 1 < n ? random.off[j + 1] : 0.0);
     if (upper) random.room = Vector::Constant(n, 20.0);
     BoundedChain chain = random.chain();
     Vector s;
@@ -140,6 +139,20 @@ TEST(BoundedChain, ShowsByItsMultipliersThatThereIsNoMinimum) {
   chain.minimise(c, s);
   chain.multipliers(c, s, multipliers);
   EXPECT_LT(multipliers.minCoeff(), -0.1);
+}
+
+TEST(BoundedChain, OfManyVariablesShowsItToo) {
+  // Springs alone, and every cost below 0: the start from coarser chains is beyond all numbers.
+  constexpr Index n = 20000;
+  Vector diagonal = Vector::Constant(n, 2e-300), off = Vector::Constant(n, -1e-300);
+  diagonal[0] = diagonal[n - 1] = 1e-300;
+  off[0] = 0.0;
+  BoundedChain chain(diagonal, off, {});
+  const Vector c = Vector::Constant(n, -1e100);
+  Vector s, multipliers;
+  chain.minimise(c, s);
+  chain.multipliers(c, s, multipliers);
+  EXPECT_FALSE(multipliers.minCoeff() >= -1e90);
 }
 
 TEST(BoundedChain, RefusesWhatIsNoSuchChain) {
