@@ -12,6 +12,9 @@
 #include <cmath>
 #include <cstdlib>
 #include <stdexcept>
+#include <thread>
+
+#include "core/base/whole_file.h"
 
 namespace dwell::bench {
 namespace {
@@ -29,6 +32,21 @@ bool stay_on_one_processor() {
 
 double seconds_of(const timeval& time) {
   return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+}
+
+/// Sends SIGINT to a process after so many seconds, unless it ends before. Returns when; begin if it did not.
+std::chrono::steady_clock::time_point interrupt_in_time(pid_t child, std::chrono::steady_clock::time_point begin,
+                                                        double seconds) {
+  constexpr auto kLook = std::chrono::milliseconds(5);
+  const auto when = begin + std::chrono::duration<double>(seconds);
+  while (std::chrono::steady_clock::now() < when) {
+    siginfo_t info{};
+    if (waitid(P_PID, static_cast<id_t>(child), &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid == child)
+      return begin;
+    std::this_thread::sleep_for(kLook);
+  }
+  kill(child, SIGINT);
+  return std::chrono::steady_clock::now();
 }
 
 [[noreturn]] void become(const std::filesystem::path& program, char* const* argv, const ChildOptions& options) {
@@ -58,6 +76,8 @@ ChildRun run_program(const std::filesystem::path& program, const std::vector<std
   const pid_t child = fork();
   if (child < 0) throw std::runtime_error("cannot start a process");
   if (child == 0) become(program, argv.data(), options);
+  const auto interrupted =
+      options.interrupt_after > 0.0 ? interrupt_in_time(child, begin, options.interrupt_after) : begin;
   int status = 0;
   rusage usage{};
   while (wait4(child, &status, 0, &usage) < 0) {
@@ -65,12 +85,21 @@ ChildRun run_program(const std::filesystem::path& program, const std::vector<std
   }
   ChildRun run;
   run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  if (interrupted != begin) {
+    run.interrupted_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - interrupted).count();
+  }
   run.cpu_seconds = seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime);
   run.peak_memory = 1024.0 * static_cast<double>(usage.ru_maxrss);
   if (WIFEXITED(status)) run.exit_code = WEXITSTATUS(status);
   if (run.exit_code == 0) run.end = ChildEnd::Done;
   if (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM) run.end = ChildEnd::Killed;
   return run;
+}
+
+std::string last_line_of(const std::filesystem::path& file) {
+  std::string text = std::filesystem::exists(file) ? read_whole_file(file) : "";
+  while (text.ends_with('\n')) text.pop_back();
+  return text.substr(text.rfind('\n') + 1);
 }
 
 ChildRun run_child(const std::vector<std::string>& arguments, const ChildOptions& options) {

@@ -5,7 +5,6 @@
 #include "bench/child.h"
 #include "bench/scratch_folder.h"
 #include "core/base/whole_file.h"
-#include "solvers/solver_catalogue.h"
 
 namespace dwell::bench {
 
@@ -16,7 +15,7 @@ nlohmann::json solve_in_child(const SolveRequest& r) {
                                      "--scenario",
                                      r.scenario,
                                      "--solver",
-                                     to_string(r.kind),
+                                     r.solver,
                                      "--threads",
                                      std::to_string(r.threads),
                                      "--max-seconds",
@@ -37,7 +36,9 @@ nlohmann::json solve_in_child(const SolveRequest& r) {
   if (child.end == ChildEnd::Done) {
     run = nlohmann::json::parse(read_whole_file(out));
   } else {
-    run = {{"killed", child.end == ChildEnd::Killed ? "not done after twice its time limit" : "the process failed"}};
+    const bool late = child.end == ChildEnd::Killed;
+    run = {{late ? "late" : "failed", late ? "ended, as it did not look at the clock" : "the process failed"},
+           {"max_seconds", r.max_seconds}};
   }
   run["process_seconds"] = child.seconds;
   return run;

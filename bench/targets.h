@@ -15,6 +15,9 @@ std::string to_string(Verdict verdict);
 Verdict at_most(const std::optional<double>& seen, double limit);
 Verdict at_least(const std::optional<double>& seen, double limit);
 
+/// Of two parts of one aim: missed if either is, else not measured if either is not.
+Verdict worse(Verdict a, Verdict b);
+
 /// One aim of the project and the value that a run has found.
 struct TargetLine {
   std::string what, target, seen;
