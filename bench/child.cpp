@@ -10,10 +10,12 @@
 #include <cerrno>
 #include <chrono>
 #include <cmath>
+#include <csignal>
 #include <cstdlib>
 #include <stdexcept>
 #include <thread>
 
+#include "core/base/errors.h"
 #include "core/base/whole_file.h"
 
 namespace dwell::bench {
@@ -32,6 +34,25 @@ bool stay_on_one_processor() {
 
 double seconds_of(const timeval& time) {
   return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+}
+
+volatile std::sig_atomic_t interrupt_asked = 0;
+
+void note_interrupt(int) { interrupt_asked = 1; }
+
+/// Waits until a process has ended, or ends it if this one is interrupted.
+int wait_for(pid_t child, rusage& usage) {
+  int status = 0;
+  bool told = false;
+  while (wait4(child, &status, 0, &usage) < 0) {
+    if (errno != EINTR) throw std::runtime_error("lost a process");
+    if (interrupt_asked && !told) {
+      told = true;
+      kill(child, SIGTERM);
+    }
+  }
+  if (interrupt_asked) throw Interrupted();
+  return status;
 }
 
 /// Sends SIGINT to a process after so many seconds, unless it ends before. Returns when; begin if it did not.
@@ -63,6 +84,13 @@ std::chrono::steady_clock::time_point interrupt_in_time(pid_t child, std::chrono
 
 }  // namespace
 
+void end_children_on_interrupt() {
+  struct sigaction action {};
+  action.sa_handler = note_interrupt;
+  action.sa_flags = SA_RESETHAND;  // and none that restarts wait4
+  sigaction(SIGINT, &action, nullptr);
+}
+
 ChildRun run_program(const std::filesystem::path& program, const std::vector<std::string>& arguments,
                      const ChildOptions& options) {
   std::vector<std::string> words{program.filename().string()};
@@ -78,11 +106,8 @@ ChildRun run_program(const std::filesystem::path& program, const std::vector<std
   if (child == 0) become(program, argv.data(), options);
   const auto interrupted =
       options.interrupt_after > 0.0 ? interrupt_in_time(child, begin, options.interrupt_after) : begin;
-  int status = 0;
   rusage usage{};
-  while (wait4(child, &status, 0, &usage) < 0) {
-    if (errno != EINTR) throw std::runtime_error("lost a process");
-  }
+  const int status = wait_for(child, usage);
   ChildRun run;
   run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (interrupted != begin) {

@@ -25,8 +25,12 @@ struct ChildRun {
   double peak_memory = 0.0;          // resident, as the kernel tells on its end (ru_maxrss) [bytes]
 };
 
+/// From now on a first SIGINT (Ctrl-C) ends the running child, and run_program throws Interrupted, so that scratch
+/// folders are removed; a second ends this process at once.
+void end_children_on_interrupt();
+
 /// Runs a program in a process of its own and waits. Its memory and threads are its own, so one measurement cannot
-/// disturb the next. Throws std::runtime_error if no process can be made.
+/// disturb the next. Throws std::runtime_error if no process can be made, Interrupted.
 ChildRun run_program(const std::filesystem::path& program, const std::vector<std::string>& arguments,
                      const ChildOptions& options);
 /// The same with this very program.

@@ -8,6 +8,7 @@
 #include <functional>
 
 #include "bench/certificate_run.h"
+#include "bench/child.h"
 #include "bench/faults.h"
 #include "bench/field_method.h"
 #include "bench/measurements.h"
@@ -30,7 +31,7 @@ namespace {
 
 const std::vector<std::string> kParts{"plans", "planners", "micro", "certificates", "scenarios", "field"};
 constexpr double kQuickBudget = 112.0, kDefaultBudget = 880.0;  // 2 and 15 minutes, less what ends a run [s]
-constexpr double kPlannerShare = 0.3, kMicroShare = 0.4, kCertificateShare = 0.45, kSuiteShare = 0.95;
+constexpr double kPlanShare = 0.35, kPlannerShare = 0.4, kMicroShare = 0.5, kCertificateShare = 0.55;
 constexpr const char* kResults = "out/bench/full-results.json";
 constexpr const char* kFooter =
     "Example:\n"
@@ -142,6 +143,7 @@ nlohmann::json certificates(const Options& options, const Budget& budget, Measur
 
 /// Returns what is wrong with the answers of a quick run, a sentence each.
 std::vector<std::string> measure(const Options& options) {
+  end_children_on_interrupt();
   const Extent extent = extent_of(options);
   const Budget budget = budget_of(options);
   Measurements measurements = measurements_of(options);
@@ -152,15 +154,17 @@ std::vector<std::string> measure(const Options& options) {
     run();
     all["seconds"][name] = measurements.seconds(name);
   };
-  part("plans", [&] { all["plans"] = run_plans({extent, options.plan_size, options.data}, budget, measurements); });
+  part("plans", [&] {
+    all["plans"] = run_plans({extent, options.plan_size, options.data}, budget, kPlanShare, measurements);
+  });
   part("planners", [&] {
     all["planners"] = measurements.take("planners", [&] { return run_planners(options.quick, budget, kPlannerShare); });
   });
   part("micro", [&] { all["micro"] = measurements.take("micro", [&] { return micro(options, budget); }); });
   part("certificates", [&] { all["certificates"] = certificates(options, budget, measurements); });
   const SuiteOptions suite{extent, options.scenario, options.solvers, options.data, options.references};
-  part("scenarios", [&] { all.update(run_suite(suite, budget, kSuiteShare, measurements)); });
   part("field", [&] { all["field"] = run_field_method(suite, budget, measurements); });
+  part("scenarios", [&] { all.update(run_suite(suite, budget, measurements)); });
   all["seconds"]["all"] = measurements.seconds("");
   deliver(options, all);
   return extent == Extent::Quick && all.contains("results") ? faults_of(all) : std::vector<std::string>();
@@ -275,6 +279,9 @@ int main(int argc, char** argv) {
   } catch (const dwell::InputError& e) {
     fmt::print(stderr, "dwell-bench: {}\n", e.what());
     return 2;
+  } catch (const dwell::Interrupted&) {
+    fmt::print(stderr, "dwell-bench: interrupted; with --full, the same command goes on\n");
+    return 130;
   } catch (const std::exception& e) {
     fmt::print(stderr, "dwell-bench: internal fault: {}\n", e.what());
     return 1;

@@ -22,6 +22,7 @@ using Json = nlohmann::json;
 
 constexpr double kLeastGap = 1e-4;
 constexpr double kManyPoints = 1e4;
+constexpr std::size_t kMostCurves = 9;            // that the key has room for, in the order of the solvers' turns
 constexpr const char* kDrawn = "a-1024-every-4";  // whose curves are drawn, if it was measured
 
 /// A scenario on which `auto` was measured and has a reference.
@@ -121,20 +122,20 @@ std::string sentence_of_targets(const Json& all) {
                      missed, open);
 }
 
+/// A dot of its own: scenarios are no curve, even if they are sorted.
+ChartLine dot(const std::string& label, Colour colour, double x, double y) { return {label, colour, {{x, y}}}; }
+
 ChartPanel time_panel(const std::vector<Place>& places) {
+  constexpr Colour kOwn{214, 39, 40}, kPeer{20, 60, 160}, kNobody{127, 127, 127};
   ChartPanel panel{"dwell points", "time to within 1 % of the optimum [s]", {}};
-  panel.title = "two threads, every scenario";
-  ChartLine own{"auto", {214, 39, 40}, {}}, peer{"fastest peer", {31, 119, 180}, {}},
-      late{"no peer there: at least", {127, 127, 127}, {}};
-  late.dashed = true;
+  panel.title = "every scenario, two threads";
   for (const Place& p : places) {
     if (!p.seconds) continue;
-    own.points.push_back({p.points, *p.seconds});
+    panel.lines.push_back(dot("auto", kOwn, p.points, *p.seconds));
     if (!p.peer) continue;
-    (p.peer->peer.empty() ? late : peer).points.push_back({p.points, p.peer->ratio * *p.seconds});
-  }
-  for (ChartLine* line : {&own, &peer, &late}) {
-    if (!line->points.empty()) panel.lines.push_back(std::move(*line));
+    const bool late = p.peer->peer.empty();
+    panel.lines.push_back(dot(late ? "no peer there by then" : "fastest peer", late ? kNobody : kPeer, p.points,
+                              p.peer->ratio * *p.seconds));
   }
   return panel;
 }
@@ -165,10 +166,12 @@ ChartPanel gap_panel(const Json& all, const std::string& scenario, double refere
     if (text_of(run, "scenario") != scenario || run.at("threads").get<int>() != 2 || !run.contains("trace")) continue;
     ChartLine line{text_of(run, "solver"), colour_of(panel.lines.size()), {}, false};
     line.steps = true;
-    for (const Json& p : run.at("trace"))
+    for (const Json& p : run.at("trace")) {
+      if (!(p.at(0).get<double>() > 0.0)) continue;  // a logarithmic axis has no place for the start
       line.points.push_back(
           {p.at(0).get<double>(), 100.0 * std::max(p.at(2).get<double>() / reference - 1.0, kLeastGap)});
-    panel.lines.push_back(std::move(line));
+    }
+    if (line.points.size() > 1 && panel.lines.size() < kMostCurves) panel.lines.push_back(std::move(line));
   }
   return panel;
 }

@@ -152,7 +152,7 @@ void write_published_programs(const std::filesystem::path& udo, const std::files
   const ToolPath path = read_path_file(file);
   const std::vector<double> dwell = published_dwell(file);
   // Halts: moves so fast that they remove nothing, since those who published the dwell count none.
-  constexpr double kInstant = 1e9;
+  constexpr double kInstant = 1e7;
   write_whole_file(folder / "published-stop.csv", feed_table_text(feed_table_of(path, dwell, Motion::Stop, kInstant)));
   write_whole_file(folder / "published-moving.csv",
                    feed_table_text(feed_table_of(path, dwell, Motion::Moving, kFastFeed)));

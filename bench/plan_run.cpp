@@ -122,7 +122,7 @@ std::string plan_in_words(const Json& result) {
 
 std::filesystem::path dwell_program() { return DWELL_PROGRAM; }
 
-Json run_plans(const PlanRunOptions& options, const Budget& budget, Measurements& measurements) {
+Json run_plans(const PlanRunOptions& options, const Budget& budget, double share, Measurements& measurements) {
   const ScratchFolder scratch;
   const std::vector<PlanCase> cases = plan_cases(options, scratch.path());
   const std::filesystem::path udo = options.data / "udo-raster";
@@ -131,7 +131,7 @@ Json run_plans(const PlanRunOptions& options, const Budget& budget, Measurements
   Json all = Json::array();
   for (const PlanCase& plan : cases) {
     const double limit = std::min(plan.longest, budget.left());
-    Json result = limit < 1.0
+    Json result = budget.left(share) < 1.0
                       ? Json{{"skipped", "no time left"}}
                       : measurements.take("plans/" + plan.name, [&] { return run_case(plan, limit, scratch.path()); });
     result.update({{"name", plan.name}, {"what", plan.what}, {"size", plan.size}, {"threads", plan.threads}});

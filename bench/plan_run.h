@@ -24,8 +24,9 @@ struct PlanRunOptions {
 ///   seconds, cpu_seconds, peak_memory  of the process [s], [s], [bytes]
 ///   solver_seconds, points, status, residual_rms, without_blemishes, exit_code  as summary.json says
 ///   or, of the interrupted one, to_exit_seconds
-/// or "failed" or "skipped" with the reason. The time to make the map is not included.
-nlohmann::json run_plans(const PlanRunOptions& options, const Budget& budget, Measurements& measurements);
+/// or "failed" or "skipped" with the reason. The time to make the map is not included. Starts none after `share` of the
+/// budget.
+nlohmann::json run_plans(const PlanRunOptions& options, const Budget& budget, double share, Measurements& measurements);
 
 /// The program that is timed, as it was built.
 std::filesystem::path dwell_program();

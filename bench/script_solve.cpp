@@ -20,11 +20,17 @@ using Json = nlohmann::json;
 
 constexpr double kSameObjective = 1e-6;
 
-/// The first line of the trace within `share` of the target's objective.
-Json reached_within(const Eigen::MatrixXd& trace, double objective, double share) {
+/// Columns of a script's trace.
+enum Column : Index { kSeconds, kObjective, kResidual, kApplications, kColumns };
+
+/// The first line of the trace at which a column is within `share` of the target's.
+Json reached_within(const Eigen::MatrixXd& trace, Column column, double target, double share) {
   for (Index i = 0; i < trace.rows(); ++i) {
-    if (!(trace(i, 1) <= (1.0 + share) * objective)) continue;
-    return {{"iterations", i + 1}, {"applications", trace(i, 2)}, {"coarse_pairs", 0.0}, {"seconds", trace(i, 0)}};
+    if (!(trace(i, column) <= (1.0 + share) * target)) continue;
+    return {{"iterations", i},
+            {"applications", trace(i, kApplications)},
+            {"coarse_pairs", 0.0},
+            {"seconds", trace(i, kSeconds)}};
   }
   return {};
 }
@@ -49,26 +55,28 @@ void read_script_answer(const std::filesystem::path& folder, const DwellProblem&
   const Vector t = row.row(0).transpose();
   if (((t - problem.lower).array() < 0.0).any())
     throw InputError(fmt::format("{}: a dwell below the least; accepted: none", (folder / "answer.npy").string()));
-  const Eigen::MatrixXd trace = read_script_array(folder / "trace.npy", -1, 3);
+  const Eigen::MatrixXd trace = read_script_array(folder / "trace.npy", -1, kColumns);
   const Certificate c = certify(problem, t);
-  const double said = trace(trace.rows() - 1, 1);
+  const double said = trace(trace.rows() - 1, kObjective);
   if (!(std::abs(said - c.objective) <= kSameObjective * c.objective)) {
     throw InputError(fmt::format("{}: the script says an objective of {:.9g} nm^2, its dwell has {:.9g}",
                                  (folder / "trace.npy").string(), said, c.objective));
   }
-  Json pairs = Json::array();
-  for (Index i = 0; i < trace.rows(); ++i) pairs.push_back({trace(i, 0), trace(i, 2), trace(i, 1), nullptr});
+  Json lines = Json::array();
+  for (Index i = 0; i < trace.rows(); ++i)
+    lines.push_back({trace(i, kSeconds), trace(i, kApplications), trace(i, kObjective), trace(i, kResidual)});
   for (const double share : kQualities) {
-    result["reached"]["objective"].push_back(options.target ? reached_within(trace, options.target->objective, share)
-                                                            : Json());
-    // Scripts say objectives on their way, not residuals.
-    result["reached"]["residual"].push_back(nullptr);
+    const auto within = [&](Column column, double target) {
+      return options.target ? reached_within(trace, column, target, share) : Json();
+    };
+    result["reached"]["objective"].push_back(within(kObjective, options.target ? options.target->objective : 0.0));
+    result["reached"]["residual"].push_back(within(kResidual, options.target ? options.target->residual_rms : 0.0));
   }
   const bool ended_alone = text_of(end, "status") == "stopped by itself";
-  result.update({{"trace", pairs},
+  result.update({{"trace", lines},
                  {"status", ended_alone ? "stalled" : text_of(end, "status")},
                  {"message", end.at("message")},
-                 {"iterations", trace.rows()},
+                 {"iterations", trace.rows() - 1},
                  {"applications", end.at("applications")},
                  {"coarse_pairs", 0.0},
                  {"seconds", end.at("seconds")},

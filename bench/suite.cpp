@@ -49,10 +49,9 @@ bool arrived(const Json& run) {
 
 class Suite {
  public:
-  Suite(const SuiteOptions& options, const Budget& budget, double share, Measurements& measurements)
+  Suite(const SuiteOptions& options, const Budget& budget, Measurements& measurements)
       : options_(options),
         budget_(budget),
-        share_(share),
         measurements_(measurements),
         references_(read_references(options.references)),
         all_(scenarios(options.data)),
@@ -175,7 +174,7 @@ class Suite {
     const std::string name = fmt::format("scenarios/{}/{}/{} threads/round {}", entry.scenario->name,
                                          entry.solver->name, entry.threads, round + 1);
     // A limit that the budget cuts short would be no result: what does not fit is left for another run.
-    if (budget_.left(share_ * share) < around_[entry.scenario] + (entry.is_auto() ? kShortestSolve : limit)) return;
+    if (budget_.left(share) < around_[entry.scenario] + (entry.is_auto() ? kShortestSolve : limit)) return;
     entry.runs.push_back(measurements_.take(name, [&] { return run_once(entry, limit, times); }));
     const Json& run = entry.runs.back();
     if (run.contains("seconds"))
@@ -259,7 +258,6 @@ class Suite {
 
   const SuiteOptions& options_;
   const Budget& budget_;
-  double share_;
   Measurements& measurements_;
   Json references_;
   std::vector<Scenario> all_;
@@ -270,8 +268,8 @@ class Suite {
 
 }  // namespace
 
-Json run_suite(const SuiteOptions& options, const Budget& budget, double share, Measurements& measurements) {
-  Suite suite(options, budget, share, measurements);
+Json run_suite(const SuiteOptions& options, const Budget& budget, Measurements& measurements) {
+  Suite suite(options, budget, measurements);
   suite.run();
   return {{"scenarios", suite.descriptions()}, {"results", suite.results()}, {"suite_seconds", suite.accounting()}};
 }

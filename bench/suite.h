@@ -31,8 +31,8 @@ struct SuiteOptions {
 ///   whole                 the same of the whole solve
 ///   times_given           the time limit over the time of `auto` to 1 %, for the others
 /// and the result of the first run, with its trace; "refused", "failed", "late" or "too_large" with the reason where
-/// there was no answer; "skipped" where there was no time for it (none starts after `share` of the budget) or what it
+/// there was no answer; "skipped" where there was no time for it or what it
 /// needs is not installed.
-nlohmann::json run_suite(const SuiteOptions& options, const Budget& budget, double share, Measurements& measurements);
+nlohmann::json run_suite(const SuiteOptions& options, const Budget& budget, Measurements& measurements);
 
 }  // namespace dwell::bench

@@ -47,8 +47,9 @@ class Problem:
         self._make_operator(words)
         self._check_operator()
         # Whoever finds nothing better has the least dwell.
-        self.best, self.best_t = self.objective(self.lower), self.lower.copy()
-        self.trace = [[0.0, self.best, 0.0]]
+        self.best, r = self.judge(self.lower)
+        self.best_t = self.lower.copy()
+        self.trace = [[0.0, self.best, self._rms(r), 0.0]]
         self.begin = time.perf_counter()
 
     def _load(self, name):
@@ -81,15 +82,16 @@ class Problem:
         self.pick = (pixel // cols - r0 + 2 * half_r) % self.shape[0], (pixel % cols - c0 + 2 * half_c) % self.shape[1]
         self.pick = self.pick[0] * self.shape[1] + self.pick[1]
         origin = np.array([r0 - half_r, c0 - half_c])
-        self.spread = self._spread(u, v, weight, stroke, origin, field, on_nodes)
-        self.gather = self.spread.T.tocsr()
+        self.gather = self._gather(u, v, weight, stroke, origin, field, on_nodes)
+        self.spread = self.gather.T.tocsr()
 
-    def _spread(self, u, v, weight, stroke, origin, field, on_nodes):
-        """The nodes' shares of the strokes: a sparse matrix of nodes x strokes."""
+    def _gather(self, u, v, weight, stroke, origin, field, on_nodes):
+        """The nodes' shares of the strokes: a sparse matrix of strokes x nodes, made from some strokes at a time."""
         blocks = []
-        size = self.shape[0] * self.shape[1]
-        for first in range(0, len(u), 500_000):
-            part = slice(first, first + 500_000)
+        size, some = self.shape[0] * self.shape[1], 50_000
+        for first in range(0, self.n, some):
+            last = min(first + some, self.n)
+            part = slice(*np.searchsorted(stroke, [first, last]))
             if on_nodes:
                 r, c = np.rint(v[part]).astype(np.int64), np.rint(u[part]).astype(np.int64)
                 w, j = weight[part], stroke[part]
@@ -97,14 +99,15 @@ class Problem:
                 fu, fv = np.floor(u[part]), np.floor(v[part])
                 wx, wy = bspline_weights(u[part] - fu), bspline_weights(v[part] - fv)
                 w = (weight[part, None, None] * wy[:, :, None] * wx[:, None, :]).ravel()
-                r = (fv[:, None, None] + np.arange(-1, 3)[None, :, None] + np.zeros((1, 1, 4))).astype(np.int64).ravel()
-                c = (fu[:, None, None] + np.arange(-1, 3)[None, None, :] + np.zeros((1, 4, 1))).astype(np.int64).ravel()
+                near = np.arange(-1, 3)
+                r = np.repeat(fv.astype(np.int64)[:, None] + near, 4, axis=1).ravel()
+                c = np.tile(fu.astype(np.int64)[:, None] + near, (1, 4)).ravel()
                 j = np.repeat(stroke[part], 16)
             r, c = r - origin[0], c - origin[1]
             keep = (r >= 0) & (r < field[0]) & (c >= 0) & (c < field[1])
             node = r[keep] * self.shape[1] + c[keep]
-            blocks.append(scipy.sparse.coo_matrix((w[keep], (node, j[keep])), shape=(size, self.n)).tocsr())
-        return sum(blocks[1:], blocks[0])
+            blocks.append(scipy.sparse.coo_matrix((w[keep], (j[keep] - first, node)), shape=(last - first, size)).tocsr())
+        return scipy.sparse.vstack(blocks, format="csr")
 
     def apply(self, t):
         """A t [nm]."""
@@ -149,34 +152,40 @@ class Problem:
         out[:-1] -= d[1:]
         return self.scale * out
 
+    def _value(self, r, t):
+        d = self.steps(t - self.lower)
+        return 0.5 * r @ r + 0.5 * self.alpha * d @ d + self.gamma * t.sum()
+
     def objective_and_gradient(self, t):
         """The objective at t and its gradient. Notes the value beside the time."""
         r = self.project(self.apply(t) - self.z)
+        f = self._value(r, t)
         d = self.steps(t - self.lower)
-        f = 0.5 * r @ r + 0.5 * self.alpha * d @ d + self.gamma * t.sum()
         g = self.adjoint(r) + self.alpha * self.steps_adjoint(d) + self.gamma
-        self.note(f, t)
+        self.note(f, r, t)
         return f, g
 
-    def objective(self, t):
-        """The objective alone, which is not counted as work and not timed."""
+    def judge(self, t):
+        """The objective at t and the residual, which is not counted as work."""
         applications = self.applications
         r = self.project(self.apply(t) - self.z)
         self.applications = applications
-        d = self.steps(t - self.lower)
-        return 0.5 * r @ r + 0.5 * self.alpha * d @ d + self.gamma * t.sum()
+        return self._value(r, t), r
 
     def start(self):
         """The clock starts here: the solve alone, without imports and without putting the operator together."""
         self.applications = 0
         self.begin = time.perf_counter()
 
-    def note(self, f, t, seconds=None):
-        """Keeps the best dwell and a pair of time and objective; ends the solve where it has arrived or is late."""
+    def _rms(self, r):
+        return np.sqrt(r @ r / self.m)
+
+    def note(self, f, r, t, seconds=None):
+        """Keeps the best dwell with time, objective, residual RMS and work; ends the solve where it has arrived or is late."""
         now = time.perf_counter() - self.begin if seconds is None else seconds
         if f < self.best and (t >= self.lower).all():
             self.best, self.best_t = f, t.copy()
-            self.trace.append([now, f, float(self.applications)])
+            self.trace.append([now, f, self._rms(r), float(self.applications)])
         if self.target > 0.0 and self.best <= self.target:
             raise Done("target reached")
         if now > self.max_seconds:

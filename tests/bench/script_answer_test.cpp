@@ -72,8 +72,8 @@ class ScriptAnswer : public testing::Test {
     HeightMap row(Grid{1, dwell_.size(), 1.0, 1.0, {}});
     std::copy(dwell_.begin(), dwell_.end(), row.values.begin());
     write_whole_file(folder_.path() / "answer.npy", npy_bytes(row));
-    HeightMap trace(Grid{2, 3, 1.0, 1.0, {}});
-    trace.values = {0.1, 1.05 * objective(), 4.0, 0.7, said_over_true * objective(), 9.0};
+    HeightMap trace(Grid{2, 4, 1.0, 1.0, {}});
+    trace.values = {0.1, 1.05 * objective(), 1.2, 4.0, 0.7, said_over_true * objective(), 1.005, 9.0};
     write_whole_file(folder_.path() / "trace.npy", npy_bytes(trace));
     write_whole_file(folder_.path() / "end.json",
                      R"({"status": "target reached", "message": "m", "seconds": 0.8, "applications": 10})");
@@ -103,6 +103,8 @@ TEST_F(ScriptAnswer, IsReadWithItsTimes) {
   EXPECT_EQ(reached.at(1).at("seconds"), 0.7);  // 0.5 %
   EXPECT_EQ(reached.at(1).at("applications"), 9.0);
   EXPECT_TRUE(reached.at(2).is_null());
+  EXPECT_TRUE(result_.at("reached").at("residual").at(0).is_object());
+  EXPECT_EQ(result_.at("reached").at("residual").at(1).at("seconds"), 0.7);
   EXPECT_EQ(result_.at("status"), "target reached");
   EXPECT_NEAR(result_.at("certificate").at("objective").get<double>(), objective(), 1e-9 * objective());
 }
@@ -139,11 +141,12 @@ TEST_F(ScriptAnswer, WithoutAWholeEndIsRefused) {
 }
 
 /// Runs a script on a small problem; its answer, or nothing where there is no SciPy.
-std::optional<Json> answer_of(const std::string& solver, bool moving, double max_seconds) {
+std::optional<Json> answer_of(const std::string& solver, bool moving, double max_seconds, double stop_gap) {
   if (why_no_scripts()) return std::nullopt;
   SolveOptions options;
   options.weights = kWeights;
-  options.stop_at_target = false;
+  options.stop_at_target = true;
+  options.stop_gap = stop_gap;
   options.max_seconds = max_seconds;
   Instance instance = make_instance(small_scenario(moving), 1);
   set_weights(instance, kWeights);
@@ -163,7 +166,7 @@ std::optional<Json> answer_of(const std::string& solver, bool moving, double max
 TEST(Scripts, ComeToTheOptimumOfTheDenseSolver) {
   for (const bool moving : {false, true}) {
     for (const char* solver : {"scipy-nnls", "scipy-lbfgsb"}) {
-      const std::optional<Json> run = answer_of(solver, moving, 60.0);
+      const std::optional<Json> run = answer_of(solver, moving, 60.0, 1e-7);
       if (!run) GTEST_SKIP() << *why_no_scripts();
       ASSERT_TRUE(run->contains("certificate")) << solver << ": " << run->dump();
       const double objective = run->at("certificate").at("objective"), optimum = run->at("optimum");
@@ -174,7 +177,7 @@ TEST(Scripts, ComeToTheOptimumOfTheDenseSolver) {
 }
 
 TEST(Scripts, RowsForSumsOfSquaresHoldThePriceToo) {
-  const std::optional<Json> run = answer_of("scipy-lsq-linear", true, 20.0);
+  const std::optional<Json> run = answer_of("scipy-lsq-linear", true, 60.0, 5e-3);
   if (!run) GTEST_SKIP() << *why_no_scripts();
   ASSERT_TRUE(run->contains("certificate")) << run->dump();
   const double objective = run->at("certificate").at("objective"), optimum = run->at("optimum");
