@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <sched.h>
 #include <signal.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -76,7 +77,9 @@ std::chrono::steady_clock::time_point interrupt_in_time(pid_t child, std::chrono
     if (file < 0 || dup2(file, STDOUT_FILENO) < 0 || dup2(file, STDERR_FILENO) < 0) _exit(126);
   }
   if (options.one_processor && !stay_on_one_processor()) _exit(126);
-  // An alarm outlives execv.
+  // Nobody would end it if this process were killed. Outlives execv, as does an alarm.
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (!options.scratch.empty()) setenv("TMPDIR", options.scratch.c_str(), 1);
   if (options.limit > 0.0) alarm(static_cast<unsigned>(std::ceil(options.limit)));
   execv(program.c_str(), argv);
   _exit(127);

@@ -13,6 +13,8 @@ struct ChildOptions {
   double limit = 0.0;            // ended by SIGALRM after so many seconds of wall clock, rounded up; 0 = never
   std::filesystem::path output;  // takes its standard output and error; empty = those of this process
   bool one_processor = false;    // whatever the machine has, it may run on the first alone
+  std::filesystem::path
+      scratch{};                 // where it makes scratch folders, which go with this one; empty = the system's place
   double interrupt_after = 0.0;  // SIGINT, as of Ctrl-C, after so many seconds; 0 = never
 };
 

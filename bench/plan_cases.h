@@ -4,9 +4,15 @@
 #include <string>
 #include <vector>
 
-#include "bench/plan_run.h"
+#include "bench/extent.h"
 
 namespace dwell::bench {
+
+struct PlanRunOptions {
+  Extent extent = Extent::Default;  // Quick: maps of 1024^2 pixels; Full: one of 16384^2 besides
+  long size = 0;                    // edge of the large maps [pixels]; 0 = by the extent
+  std::filesystem::path data;       // public mirrors
+};
 
 /// One call of the program that is timed.
 struct PlanCase {

@@ -5,16 +5,10 @@
 #include <filesystem>
 
 #include "bench/budget.h"
-#include "bench/extent.h"
 #include "bench/measurements.h"
+#include "bench/plan_cases.h"
 
 namespace dwell::bench {
-
-struct PlanRunOptions {
-  Extent extent = Extent::Default;  // Quick: maps of 1024^2 pixels; Full: one of 16384^2 besides
-  long size = 0;                    // edge of the large maps [pixels]; 0 = by the extent
-  std::filesystem::path data;       // public mirrors
-};
 
 /// Times `dwell plan` as a user calls it, a process each, from files to the folder with program.nc, with the program's
 /// default weights: large made-up maps in NPY, on two threads and on one; the mirror udo-raster, if `data` has it; and

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/targets.h"
+#include "bench/verdict.h"
 
 namespace dwell::bench {
 

@@ -31,7 +31,9 @@ nlohmann::json solve_in_child(const SolveRequest& r) {
                                      "--out",
                                      out.string()};
   if (r.to_certificate) arguments.emplace_back("--to-certificate");
-  const ChildRun child = run_child(arguments, {r.threads, r.wall_limit, {}});
+  ChildOptions how{r.threads, r.wall_limit, {}};
+  how.scratch = scratch.path();
+  const ChildRun child = run_child(arguments, how);
   nlohmann::json run;
   if (child.end == ChildEnd::Done) {
     run = nlohmann::json::parse(read_whole_file(out));

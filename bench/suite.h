@@ -22,10 +22,10 @@ struct SuiteOptions {
 
 /// Runs every solver on every scenario, each solve in a process of its own. `auto` is first on each, on two threads and
 /// on one, in all its rounds; the median of its times to within 1 % of the reference sets the limit of the others
-/// (bench/peer_limit.h), which run on two threads. Who does not come within 1 % in its first round is not run again:
-/// the result stands. A full run goes from scenario to scenario; one with a budget takes first what matters most, the
-/// first turns of the fastest solvers on all of them. The result has one entry for each scenario, solver and number of
-/// threads:
+/// (bench/peer_limit.h), which run on two threads. Who does not come within 1 % in its first round, or takes over 20 s,
+/// is not run again: the result stands. A full run goes from scenario to scenario; one with a budget takes first what
+/// matters most, the first turns of the fastest solvers on all of them. The result has one entry for each scenario,
+/// solver and number of threads:
 ///   objective, residual   for 10 %, 1 % and 0.1 %: operator applications, coarse_pairs, median seconds, fastest,
 ///                         slowest; null where it was not reached
 ///   whole                 the same of the whole solve

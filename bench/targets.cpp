@@ -256,35 +256,6 @@ TargetLine memory_line(const Json& all) {
 
 }  // namespace
 
-Verdict worse(Verdict a, Verdict b) {
-  for (const Verdict v : {Verdict::Missed, Verdict::NotMeasured}) {
-    if (a == v || b == v) return v;
-  }
-  return Verdict::Met;
-}
-
-std::string to_string(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::Met:
-      return "met";
-    case Verdict::Missed:
-      return "missed";
-    case Verdict::NotMeasured:
-      return "not measured";
-  }
-  return "not measured";
-}
-
-Verdict at_most(const std::optional<double>& seen, double limit) {
-  if (!seen) return Verdict::NotMeasured;
-  return *seen <= limit ? Verdict::Met : Verdict::Missed;
-}
-
-Verdict at_least(const std::optional<double>& seen, double limit) {
-  if (!seen) return Verdict::NotMeasured;
-  return *seen >= limit ? Verdict::Met : Verdict::Missed;
-}
-
 std::vector<TargetLine> target_lines(const Json& all) {
   constexpr double kAny = std::numeric_limits<double>::infinity();
   std::vector<TargetLine> lines{pairs_line(all, "a-1024-every-4", kPairsTo1Percent, kAny),
