@@ -92,6 +92,7 @@ void end_children_on_interrupt() {
   action.sa_handler = note_interrupt;
   action.sa_flags = SA_RESETHAND;  // and none that restarts wait4
   sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
 }
 
 ChildRun run_program(const std::filesystem::path& program, const std::vector<std::string>& arguments,

@@ -27,8 +27,8 @@ struct ChildRun {
   double peak_memory = 0.0;          // resident, as the kernel tells on its end (ru_maxrss) [bytes]
 };
 
-/// From now on a first SIGINT (Ctrl-C) ends the running child, and run_program throws Interrupted, so that scratch
-/// folders are removed; a second ends this process at once.
+/// From now on a first SIGINT (Ctrl-C) or SIGTERM ends the running child, and run_program throws Interrupted, so that
+/// scratch folders are removed; a second ends this process at once.
 void end_children_on_interrupt();
 
 /// Runs a program in a process of its own and waits. Its memory and threads are its own, so one measurement cannot

@@ -78,10 +78,11 @@ std::string sentence_of_peers(const std::vector<Place>& places) {
   if (!least) return "Other people's solvers were not compared on large problems in this run.";
   return fmt::format(
       "Other people's solvers (L-BFGS-B, SciPy, NLopt, Ceres), given the same problem, take at least {}{:.3g} times as "
-      "long ({}) on the {} of {} problems of {:.0f} dwell points or more that were compared, and on {} of them none "
-      "was "
-      "there when its time was up.",
-      least->exact ? "" : "more than ", least->ratio, where, compared, large, kManyPoints, late);
+      "long ({}); they were compared on {} of {} problems of {:.0f} dwell points or more, and on {} of them no such "
+      "solver "
+      "was there when its time was up.",
+      least->exact ? "" : "more than ", least->ratio, where, compared, large, kManyPoints,
+      late == 0 ? "none" : fmt::format("{}", late));
 }
 
 std::string sentence_of_plans(const Json& all) {

@@ -27,10 +27,12 @@ std::optional<std::string> not_there(const nlohmann::json& run) {
   return fmt::format("not there at {:.3g} x", *times);
 }
 
-std::string too_large(double points, double pixels) {
-  const double other = pixels > 0.0 ? pixels : points;
-  return fmt::format("its matrix of {:.0f} x {:.0f} numbers takes {:.3g} GiB", other, points,
-                     8.0 * points * other / 0x1p30);
+std::string why_not_taken(double points, double pixels, double largest) {
+  constexpr double kFits = 2.0;  // [GiB], with the copies and factors that such solvers make
+  const double other = pixels > 0.0 ? pixels : points, gib = 8.0 * points * other / 0x1p30;
+  if (gib > kFits)
+    return fmt::format("too large: its matrix of {:.0f} x {:.0f} numbers takes {:.3g} GiB", other, points, gib);
+  return fmt::format("not meant for it: takes at most {:.0f} dwell points, as its work grows with their cube", largest);
 }
 
 }  // namespace dwell::bench

@@ -22,8 +22,9 @@ std::optional<double> times_given(const nlohmann::json& run);
 /// "not there at 12 x", or nothing if the run arrived within 1 %, ended by itself, or was not started.
 std::optional<std::string> not_there(const nlohmann::json& run);
 
-/// Why a solver cannot take a problem: the matrix that it needs, with its size; nothing if it can. `pixels` 0 = it
-/// needs the square matrix of the dwell points alone.
-std::string too_large(double points, double pixels);
+/// Why a solver that takes at most `largest` dwell points cannot take a problem of more: the matrix that it needs is
+/// too large, with its size, or where that would fit, its work is. `pixels` 0 = it needs the square matrix of the dwell
+/// points alone.
+std::string why_not_taken(double points, double pixels, double largest);
 
 }  // namespace dwell::bench

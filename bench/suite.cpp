@@ -197,8 +197,7 @@ class Suite {
     const double points = own.at("points").get<double>(), pixels = own.at("pixels").get<double>();
     if (!entry.solver->largest || points <= *entry.solver->largest) return false;
     entry.runs = {
-        Json{{"too_large", fmt::format("too large: takes at most {:.0f} dwell points; {}", *entry.solver->largest,
-                                       too_large(points, entry.solver->needs_pixels ? pixels : 0.0))}}};
+        Json{{"too_large", why_not_taken(points, entry.solver->needs_pixels ? pixels : 0.0, *entry.solver->largest)}}};
     return true;
   }
 

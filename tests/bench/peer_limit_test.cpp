@@ -36,9 +36,11 @@ TEST(PeerLimit, DoesNotSayItOfWhoArrivedOrEndedByItself) {
   EXPECT_EQ(not_there({{"times_given", 12.0}, {"late", "ended"}}), "not there at 12 x");
 }
 
-TEST(PeerLimit, GivesTheSizeOfTheMatrixThatDoesNotFit) {
-  EXPECT_THAT(too_large(77284, 1048576), HasSubstr("1048576 x 77284 numbers takes 604 GiB"));
-  EXPECT_THAT(too_large(32768, 0), HasSubstr("32768 x 32768 numbers takes 8 GiB"));
+TEST(PeerLimit, SaysOfWhomItIsTooLargeForHowLargeItIs) {
+  EXPECT_EQ(why_not_taken(77284, 1048576, 5000), "too large: its matrix of 1048576 x 77284 numbers takes 604 GiB");
+  EXPECT_THAT(why_not_taken(32768, 0, 20000), HasSubstr("32768 x 32768 numbers takes 8 GiB"));
+  // What would fit is not called too large.
+  EXPECT_THAT(why_not_taken(2678, 0, 500), HasSubstr("not meant for it: takes at most 500 dwell points"));
 }
 
 }  // namespace
