@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <limits>
 
 namespace dwell::bench {
 
@@ -10,7 +12,9 @@ namespace dwell::bench {
 class Budget {
  public:
   explicit Budget(double seconds) : total_(seconds) {}
+  static Budget without_end() { return Budget(std::numeric_limits<double>::infinity()); }
 
+  bool endless() const { return std::isinf(total_); }
   double total() const { return total_; }
   double spent() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count(); }
   /// Until `share` of the whole is spent; not below 0 [s].

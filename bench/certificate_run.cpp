@@ -23,7 +23,7 @@ bool passes_certificate(const nlohmann::json& run, double tolerance) {
 }
 
 std::string certificate_in_words(const nlohmann::json& run) {
-  for (const char* why : {"killed", "refused", "skipped"}) {
+  for (const char* why : {"late", "failed", "refused", "skipped"}) {
     if (run.contains(why)) return run[why].get<std::string>();
   }
   return fmt::format("{} after {:.2f} s", run["certified"].get<bool>() ? "reached" : "not reached",
@@ -32,8 +32,9 @@ std::string certificate_in_words(const nlohmann::json& run) {
 
 }  // namespace
 
-nlohmann::json run_certificates(const CertificateRunOptions& options, const Budget& budget, double share) {
-  const double longest = options.quick ? 4.0 : 30.0;
+nlohmann::json run_certificates(const CertificateRunOptions& options, const Budget& budget, double share,
+                                Measurements& measurements) {
+  const double longest = options.extent == Extent::Quick ? 4.0 : 30.0;
   nlohmann::json all = nlohmann::json::array();
   for (const SolverKind kind : {SolverKind::Auto, SolverKind::ProjectedCg}) {
     bool go_on = true;
@@ -46,14 +47,17 @@ nlohmann::json run_certificates(const CertificateRunOptions& options, const Budg
       } else if (left < kShortestProof) {
         run = {{"skipped", "no time left"}};
       } else {
-        run = solve_in_child({.scenario = options.scenario,
-                              .kind = kind,
-                              .max_seconds = std::min(longest, left),
-                              .wall_limit = budget.left(),
-                              .to_certificate = true,
-                              .gradient_tolerance = tolerance,
-                              .data = options.data,
-                              .references = options.references});
+        SolveRequest request;
+        request.scenario = options.scenario;
+        request.solver = to_string(kind);
+        request.max_seconds = std::min(longest, left);
+        request.wall_limit = budget.endless() ? 0.0 : budget.left();
+        request.to_certificate = true;
+        request.gradient_tolerance = tolerance;
+        request.data = options.data;
+        request.references = options.references;
+        const std::string name = fmt::format("certificates/{}/{}/{:g}", options.scenario, request.solver, tolerance);
+        run = measurements.take(name, [&] { return solve_in_child(request); });
         run["certified"] = passes_certificate(run, tolerance);
         go_on = run["certified"];
         if (run.contains("seconds")) around = run["process_seconds"].get<double>() - run["seconds"].get<double>();

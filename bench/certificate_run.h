@@ -6,11 +6,13 @@
 #include <string>
 
 #include "bench/budget.h"
+#include "bench/extent.h"
+#include "bench/measurements.h"
 
 namespace dwell::bench {
 
 struct CertificateRunOptions {
-  bool quick = false;  // short time limits
+  Extent extent = Extent::Default;  // Quick: short time limits
   std::string scenario;
   std::filesystem::path data;
   std::filesystem::path references;
@@ -21,6 +23,7 @@ struct CertificateRunOptions {
 /// one is not asked for the next. One entry a solve: the result of solve_once, and
 ///   "tolerance", and "certified": whether certify(), which trusts no solver, finds the projected gradient within it
 /// or "skipped" with the reason. Starts no solve that may end after `share` of the budget.
-nlohmann::json run_certificates(const CertificateRunOptions& options, const Budget& budget, double share);
+nlohmann::json run_certificates(const CertificateRunOptions& options, const Budget& budget, double share,
+                                Measurements& measurements);
 
 }  // namespace dwell::bench

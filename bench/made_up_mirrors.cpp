@@ -111,29 +111,29 @@ void append_made_up_mirrors(std::vector<Scenario>& all) {
       s.name = fmt::format("a-{}-every-{}", n, step);
       s.what = fmt::format("square mirror {} x {}, dwell at every {}pixel", n, n, step == 1 ? "" : "4th ");
       s.quick = n <= 256 && step == 4;
-      s.peers = n <= 1024;
+      s.lattice = true;
       s.make = [=] { return square_mirror(n, step); };
-      if (n == 4096) s.pairs = 60.0;
-      if (n == 1024 && step == 1) s.patience = 60.0;
       all.push_back(s);
     }
   }
   Scenario ring;
   ring.name = "b-512";
   ring.what = "round mirror 512 x 512 with a central hole, dwell at every 4th pixel";
+  ring.lattice = true;
   ring.make = [] { return ring_mirror(512, 4); };
   all.push_back(ring);
   for (const Index points : {3'000, 30'000, 1'000'000}) {
     Scenario s;
     s.name = fmt::format("c-{}", points);
     s.what = fmt::format("round mirror 512 x 512, spiral of {} points", points);
-    s.peers = points < 1'000'000;
+    s.quick = points == 3'000;
     s.make = [=] { return spiral_mirror(512, points); };
     all.push_back(s);
   }
   Scenario spot;
   spot.name = "d-512";
   spot.what = "square mirror 512 x 512, measured spot without symmetry, dwell at every 4th pixel";
+  spot.lattice = true;
   spot.make = [] { return measured_spot(512, 4); };
   all.push_back(spot);
 }

@@ -28,6 +28,7 @@ Parts ibfest(const std::filesystem::path& folder) {
       p.path.points.push_back(p.map.grid.centre(r, r % 2 ? cols - 1 - c : c));
   }
   p.path.lifted.assign(p.path.points.size(), 0);
+  p.whole = p.map;
   for (Index r = 0; r < rows; ++r) {
     for (Index c = 0; c < cols; ++c) {
       if (r < kMargin || r >= rows - kMargin || c < kMargin || c >= cols - kMargin)
@@ -52,22 +53,19 @@ Parts udo(const std::filesystem::path& folder) {
 }  // namespace
 
 void append_measured_mirrors(std::vector<Scenario>& all, const std::filesystem::path& data) {
-  const auto append = [&](const std::string& folder, const std::string& what, double smoothness,
+  const auto append = [&](const std::string& folder, const std::string& what, bool lattice,
                           Parts (*make)(const std::filesystem::path&)) {
     const std::filesystem::path path = data / folder;
     if (!std::filesystem::is_regular_file(path / "map_nm.csv")) return;
     Scenario s;
     s.name = "e-" + folder;
     s.what = what;
-    s.smoothness = smoothness;
-    s.patience = 20.0;
+    s.lattice = lattice;
     s.make = [=] { return make(path); };
     all.push_back(s);
   };
-  append("ibfest-70x30", "simulated mirror with noise, 80 x 412 counted pixels, dwell at every pixel", 0.1, ibfest);
-  // Its points are ten pixels apart, so fewer columns overlap, and less smoothness is needed to match the published
-  // dwell.
-  append("udo-raster", "measured mirror 168 x 985, measured spot, raster of 2,678 points, at least 0.1 s each", 1e-3,
+  append("ibfest-70x30", "simulated mirror with noise, 80 x 412 counted pixels, dwell at every pixel", true, ibfest);
+  append("udo-raster", "measured mirror 168 x 985, measured spot, raster of 2,678 points, at least 0.1 s each", false,
          udo);
 }
 

@@ -14,5 +14,7 @@ nlohmann::json to_json(const MicroResult& result);
 std::string micro_table(const nlohmann::json& micro);
 std::string certificate_table(const nlohmann::json& certificates);
 std::string plan_table(const nlohmann::json& plans);
+/// Of run_plans: udo-raster with and without what no tool reaches.
+std::string blemish_table(const nlohmann::json& plans);
 
 }  // namespace dwell::bench

@@ -5,7 +5,6 @@
 #include "bench/child.h"
 #include "bench/scratch_folder.h"
 #include "core/base/whole_file.h"
-#include "solvers/solver_catalogue.h"
 
 namespace dwell::bench {
 
@@ -16,7 +15,7 @@ nlohmann::json solve_in_child(const SolveRequest& r) {
                                      "--scenario",
                                      r.scenario,
                                      "--solver",
-                                     to_string(r.kind),
+                                     r.solver,
                                      "--threads",
                                      std::to_string(r.threads),
                                      "--max-seconds",
@@ -32,12 +31,16 @@ nlohmann::json solve_in_child(const SolveRequest& r) {
                                      "--out",
                                      out.string()};
   if (r.to_certificate) arguments.emplace_back("--to-certificate");
-  const ChildRun child = run_child(arguments, {r.threads, r.wall_limit, {}});
+  ChildOptions how{r.threads, r.wall_limit, {}};
+  how.scratch = scratch.path();
+  const ChildRun child = run_child(arguments, how);
   nlohmann::json run;
   if (child.end == ChildEnd::Done) {
     run = nlohmann::json::parse(read_whole_file(out));
   } else {
-    run = {{"killed", child.end == ChildEnd::Killed ? "not done after twice its time limit" : "the process failed"}};
+    const bool late = child.end == ChildEnd::Killed;
+    run = {{late ? "late" : "failed", late ? "ended, as it did not look at the clock" : "the process failed"},
+           {"max_seconds", r.max_seconds}};
   }
   run["process_seconds"] = child.seconds;
   return run;

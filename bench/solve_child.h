@@ -5,16 +5,14 @@
 #include <filesystem>
 #include <string>
 
-#include "solvers/problem/dwell_solver.h"
-
 namespace dwell::bench {
 
 /// One solve in a process of its own: `dwell-bench solve` and its options.
 struct SolveRequest {
   std::string scenario;
-  SolverKind kind = SolverKind::ProjectedCg;
+  std::string solver = "auto";
   int threads = 2;
-  double max_seconds = 60.0;  // for the solve alone; that of the scenario if it is shorter
+  double max_seconds = 60.0;  // for the solve alone
   double wall_limit = 0.0;    // for the whole process, making the instance included; 0 = none [s]
   double stop_gap = 1e-4;
   bool to_certificate = false;
@@ -23,8 +21,9 @@ struct SolveRequest {
   std::filesystem::path references;
 };
 
-/// The result of solve_once, or "killed" with the reason why there is none; and "process_seconds", the wall clock of
-/// the whole process.
+/// The result of solve_once or solve_by_script; or why there is none: "late" if a solver that does not look at the
+/// clock was ended after its time limit, "failed". And "max_seconds" and "process_seconds", the wall clock of the whole
+/// process.
 nlohmann::json solve_in_child(const SolveRequest& request);
 
 }  // namespace dwell::bench

@@ -37,21 +37,6 @@ void reset_peak_memory() {
   std::ofstream("/proc/self/clear_refs") << "5";
 }
 
-double pair_seconds(RemovalOperator& removal) {
-  Vector t = Vector::Ones(removal.cols()), r;
-  removal.apply(t, r);
-  removal.apply_adjoint(r, t);
-  double fastest = std::numeric_limits<double>::infinity();
-  for (int k = 0; k < 5; ++k) {
-    t.setOnes();
-    const auto begin = Clock::now();
-    removal.apply(t, r);
-    removal.apply_adjoint(r, t);
-    fastest = std::min(fastest, since(begin));
-  }
-  return fastest;
-}
-
 /// Watches a solve through its trace.
 class Watch {
  public:
@@ -108,12 +93,6 @@ class Watch {
   bool at_target_ = false;
 };
 
-double step_rms(const Vector& t) {
-  if (t.size() < 2) return 0.0;
-  const Index steps = t.size() - 1;
-  return std::sqrt((t.tail(steps) - t.head(steps)).squaredNorm() / static_cast<double>(steps));
-}
-
 /// Raises SIGALRM after so many seconds, unless the process that started this one has set an earlier alarm.
 void end_process_after(double seconds) {
   const auto wanted = static_cast<unsigned>(std::ceil(seconds));
@@ -130,7 +109,7 @@ void describe_end(nlohmann::json& result, const SolverSummary& s, const DwellPro
   result["coarse_pairs"] = s.coarse_pairs;
   result["seconds"] = s.seconds;
   result["total_dwell"] = t.sum();
-  result["step_rms"] = step_rms(t);
+  result["step_rms"] = step_rms(problem, t);
   result["certificate"] = {{"objective", c.objective},
                            {"residual_rms", c.residual_rms},
                            {"bound_violation", c.bound_violation},
@@ -141,15 +120,31 @@ void describe_end(nlohmann::json& result, const SolverSummary& s, const DwellPro
 
 }  // namespace
 
+double seconds_of_a_pair(RemovalOperator& removal) {
+  Vector t = Vector::Ones(removal.cols()), r;
+  removal.apply(t, r);
+  removal.apply_adjoint(r, t);
+  double fastest = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < 5; ++k) {
+    t.setOnes();
+    const auto begin = Clock::now();
+    removal.apply(t, r);
+    removal.apply_adjoint(r, t);
+    fastest = std::min(fastest, since(begin));
+  }
+  return fastest;
+}
+
 nlohmann::json solve_once(const Scenario& scenario, const SolveOptions& options) {
   omp_set_num_threads(options.threads);
   const auto begin = Clock::now();
-  const Instance instance = make_instance(scenario, options.threads);
+  Instance instance = make_instance(scenario, options.threads);
+  set_weights(instance, options.weights);
   nlohmann::json result{{"scenario", scenario.name},           {"solver", to_string(options.kind)},
                         {"threads", options.threads},          {"points", instance.problem.points()},
                         {"pixels", instance.problem.pixels()}, {"operator", instance.removal->name()},
                         {"build_seconds", since(begin)}};
-  const double pair = pair_seconds(*instance.removal);
+  const double pair = seconds_of_a_pair(*instance.removal);
   result["pair_seconds"] = pair;
 
   SolverOptions solver;
@@ -157,12 +152,7 @@ nlohmann::json solve_once(const Scenario& scenario, const SolveOptions& options)
   solver.objective_tolerance = 0.0;
   solver.max_iterations = 1'000'000;
   solver.gradient_tolerance = options.gradient_tolerance;
-  constexpr double kLeastSeconds = 2.0;
   solver.max_seconds = options.max_seconds;
-  if (options.stop_at_target) {
-    const double least = options.kind == SolverKind::Lbfgsb ? scenario.patience : kLeastSeconds;
-    solver.max_seconds = std::min(std::max({scenario.pairs * pair, kLeastSeconds, least}), options.max_seconds);
-  }
   result["max_seconds"] = solver.max_seconds;
   // Not every solver looks at the clock often enough, so the signal ends the process.
   end_process_after(2.0 * solver.max_seconds + 3.0);

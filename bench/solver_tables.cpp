@@ -6,20 +6,22 @@
 #include <limits>
 
 #include "bench/json_access.h"
-#include "solvers/solver_catalogue.h"
+#include "bench/peer_limit.h"
+#include "bench/solve_run.h"
+#include "bench/solver_list.h"
 
 namespace dwell::bench {
 namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::size_t kOnePercent = 1;  // in kQualities
-
 double reference_objective(const Json& scenario) {
   return scenario.at("reference").is_null() ? 0.0 : number(scenario.at("reference"), "objective");
 }
 
-bool stopped_by_clock(const Json& run) { return text_of(run, "status") == "time limit"; }
+bool stopped_by_clock(const Json& run) {
+  return run.contains("late") || (run.contains("status") && text_of(run, "status") == "time limit");
+}
 
 std::string band(const Json& slot, const Json& run) {
   if (run.at("rounds").get<int>() == 1) return fmt::format("{:.3g}", number(slot, "seconds"));
@@ -30,6 +32,9 @@ std::string band(const Json& slot, const Json& run) {
 std::string seconds_cell(const Json& run, const char* what, std::size_t quality) {
   const Json& slot = run.at("reached").at(what).at(quality);
   if (!slot.is_null()) return band(slot, run);
+  if (quality == kOnePercent && what == std::string("objective")) {
+    if (const std::optional<std::string> late = not_there(run)) return *late;
+  }
   // A solver that ended by itself was not stopped by the clock.
   return stopped_by_clock(run) ? fmt::format("> {:.3g}", number(run, "max_seconds")) : "never";
 }
@@ -45,10 +50,12 @@ std::string pairs_cell(const Json& run, std::size_t quality) {
 
 std::string line_of(const Json& run, double reference) {
   std::string line = fmt::format("| {} | {} |", text_of(run, "solver"), run.at("threads").get<int>());
-  for (const char* why : {"refused", "killed", "skipped"}) {  // the first in the solver's own words
-    if (run.contains(why))
-      return line + fmt::format(" {}{} | | | | | | | | | | | | |\n", why == std::string("skipped") ? "skipped: " : "",
-                                text_of(run, why));
+  for (const std::string why : {"too_large", "late", "failed", "refused", "skipped"}) {
+    if (!run.contains(why)) continue;
+    std::string words = text_of(run, why.c_str());  // of "refused" and "too_large" the solver's own
+    if (why == "late") words = fmt::format("{} ({})", not_there(run).value_or("late"), words);
+    if (why == "skipped" || why == "failed") words = why + ": " + words;
+    return line + fmt::format(" {} | | | | | | | | | | | | |\n", words);
   }
   const bool compared = reference > 0.0;
   for (const std::size_t q : {0U, 1U, 2U})
@@ -56,13 +63,24 @@ std::string line_of(const Json& run, double reference) {
   for (const std::size_t q : {0U, 1U, 2U}) line += fmt::format(" {} |", compared ? pairs_cell(run, q) : "");
   line += fmt::format(" {} |", compared ? seconds_cell(run, "residual", kOnePercent) : "");
   const Json& c = run.at("certificate");
-  const double vectors = number(run, "solve_memory") / (8.0 * std::max(number(run, "points"), number(run, "pixels")));
-  line += fmt::format(" {} | {:.4g} | {:.5g} | {:.1e} | {:.0f} MiB, {:.1f} | {} |\n",
+  std::string memory;  // not known of scripts
+  if (run.contains("solve_memory")) {
+    memory = fmt::format("{:.0f} MiB, {:.1f}", number(run, "solve_memory") / 0x1p20,
+                         number(run, "solve_memory") / (8.0 * std::max(number(run, "points"), number(run, "pixels"))));
+  }
+  line += fmt::format(" {} | {:.4g} | {:.5g} | {:.1e} | {} | {} |\n",
                       compared ? fmt::format("{:+.2g} %", 100.0 * (number(c, "objective") / reference - 1.0))
                                : fmt::format("{:.5g}", number(c, "objective")),
-                      number(c, "residual_rms"), number(run, "total_dwell"), number(c, "projected_gradient"),
-                      number(run, "solve_memory") / 0x1p20, vectors, text_of(run, "status"));
+                      number(c, "residual_rms"), number(run, "total_dwell"), number(c, "projected_gradient"), memory,
+                      text_of(run, "status"));
   return line;
+}
+
+std::string settled_in_words(const Json& reference) {
+  if (!reference.at("settled").get<bool>()) return "not settled";
+  if (text_of(reference, "by") == "proven")
+    return fmt::format("proven to be above the optimum by at most {:.1e} of it", number(reference, "proven_share"));
+  return fmt::format("changed by {:.1e} when the work was doubled", number(reference, "change_when_doubled"));
 }
 
 constexpr const char* kHead =
@@ -75,18 +93,28 @@ Json fastest_of_ours(const Json& all, const std::string& scenario) {
   Json best;
   for (const Json& run : all.at("results")) {
     if (text_of(run, "scenario") != scenario || run.at("threads").get<int>() != 2) continue;
-    if (solver_record(parse_solver_kind(text_of(run, "solver"))).peer || !seconds_to_1_percent(run)) continue;
+    if (find_bench_solver(text_of(run, "solver")).peer || !seconds_to_1_percent(run)) continue;
     if (best.is_null() || *seconds_to_1_percent(run) < *seconds_to_1_percent(best)) best = run;
   }
   return best;
 }
 
 /// The peer and its seconds to 1 %, or the reason why there are none.
-std::string peer_cell(const Json& all, const Json& scenario, const std::optional<PeerRatio>& ratio) {
-  if (!scenario.at("peers").get<bool>()) return "too large | ";
-  if (!ratio || ratio->peer.empty()) return "none in time | ";
-  const Json run = find_run(all, text_of(scenario, "name"), ratio->peer, 2);
-  return fmt::format("{} | {:.3g}", ratio->peer, *seconds_to_1_percent(run));
+std::string peer_cell(const Json& all, const std::string& scenario, const std::optional<PeerRatio>& ratio) {
+  if (ratio && !ratio->peer.empty()) {
+    const Json run = find_run(all, scenario, ratio->peer, 2);
+    return fmt::format("{} | {:.3g}", ratio->peer, *seconds_to_1_percent(run));
+  }
+  std::string most;  // of those that had time, which all had the same
+  bool skipped = false, ran = false;
+  for (const Json& run : list_of(all, "results")) {
+    if (text_of(run, "scenario") != scenario || !find_bench_solver(text_of(run, "solver")).peer) continue;
+    skipped = skipped || run.contains("skipped");
+    ran = ran || run.contains("reached") || run.contains("late");
+    if (const std::optional<std::string> late = not_there(run)) most = *late;
+  }
+  if (!most.empty()) return most + " | ";
+  return ran ? "none comes within 1 % | " : skipped ? "not run | " : "too large | ";
 }
 
 }  // namespace
@@ -119,8 +147,9 @@ std::optional<PeerRatio> peer_ratio(const Json& all, const std::string& scenario
   double arrived = std::numeric_limits<double>::infinity(), stopped = arrived;
   std::string peer;
   for (const Json& run : list_of(all, "results")) {
-    if (text_of(run, "scenario") != scenario || run.at("threads").get<int>() != 2 || !run.contains("reached")) continue;
-    if (!solver_record(parse_solver_kind(text_of(run, "solver"))).peer) continue;
+    if (text_of(run, "scenario") != scenario || run.at("threads").get<int>() != 2) continue;
+    if (!run.contains("reached") && !run.contains("late")) continue;
+    if (!find_bench_solver(text_of(run, "solver")).peer) continue;
     const std::optional<double> seconds = seconds_to_1_percent(run);
     if (seconds && *seconds < arrived) {
       arrived = *seconds;
@@ -164,7 +193,7 @@ std::string summary_table(const Json& all) {
                         ran ? fmt::format("{}", run.at("points").get<long>()) : "",
                         ran ? seconds_cell(run, "objective", kOnePercent) : "not run",
                         ran ? pairs_cell(run, kOnePercent) : "", best ? text_of(ours, "solver") : "none in time",
-                        best ? fmt::format("{:.3g}", *best) : "", peer_cell(all, scenario, ratio), times(1.0),
+                        best ? fmt::format("{:.3g}", *best) : "", peer_cell(all, name, ratio), times(1.0),
                         own && best ? times(*own / *best) : "");
   }
   return text;
@@ -211,17 +240,16 @@ std::string scenario_section(const Json& all, const Json& scenario) {
     }
     table += line_of(run, reference_objective(scenario));
   }
-  text += fmt::format(" Smoothness {:g}, price {:g}.", number(scenario, "smoothness"), number(scenario, "price"));
   const Json& r = scenario.at("reference");
   if (r.is_null()) {
     text += " No reference: nothing to compare with, the objective itself is shown.\n\n";
   } else {
     text += fmt::format(
-        " Reference: objective {:.7g}, residual {:.5g} nm, total {:.5g} s ({}, {} iterations; the last "
-        "doubling changed it by {:.1e}{}).\n\n",
-        number(r, "objective"), number(r, "residual_rms"), number(r, "total_dwell"), text_of(r, "solver"),
-        r.at("iterations").get<long>(), number(r, "change_when_doubled"),
-        r.at("settled").get<bool>() ? "" : ", not settled");
+        " Smoothness {:.4g}, time price {:.4g} nm^2/s ({}). Reference: objective {:.7g} nm^2, residual {:.5g} nm, "
+        "total "
+        "{:.5g} s ({}).\n\n",
+        number(r, "smoothness"), number(r, "time_price"), text_of(r, "weights_from"), number(r, "objective"),
+        number(r, "residual_rms"), number(r, "total_dwell"), settled_in_words(r));
   }
   return text + kHead + table;
 }

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "bench/json_access.h"
+#include "bench/plan_targets.h"
 #include "bench/solver_tables.h"
 
 namespace dwell::bench {
@@ -17,10 +18,8 @@ using Json = nlohmann::json;
 constexpr double kPairsTo1Percent = 30.0, kPairsToCertificate = 150.0, kCertificate = 1e-6;
 constexpr double kOverTransform = 1.25, kThreadRatio = 1.6, kPeerRatio = 10.0;
 constexpr double kPeerPoints = 1e4;  // from so many dwell points on
-constexpr double kUdoSeconds = 0.5, kUdoPlanSeconds = 2.0;
-constexpr double kOneProcessorRatio = 1.3;
-constexpr double kUdoStep = 0.0040, kUdoResidual = 0.155, kUdoTotal = 425.0;  // [s], [nm], [s]
-constexpr double kPlanSeconds = 20.0, kPlanGib = 6.0;
+constexpr double kPairsOfIbfest = 25.0, kWallPairsOfIbfest = 80.0;
+constexpr double kEveryPixelSeconds = 1.5;
 constexpr double kReadSeconds = 0.1;
 constexpr double kReadRatio = 2.0;  // NPY, over its bytes: the map and its check are one more pass each
 constexpr double kVectors = 16.0;
@@ -28,13 +27,6 @@ constexpr double kPlannerPoints = 5e5;  // paths with fewer points say nothing a
 constexpr double kPlannerRate = 2e7, kRandomRate = 5e4, kNearestRate = 2e5;  // [points/s]
 constexpr double kTourRatio = 1.08, kTourSeconds = 60.0, kTourPoints = 1e5;
 constexpr double kLargeVector = 0x1p17;  // below so many numbers, 1 MiB, fixed memory counts for more than vectors
-
-Verdict worse(Verdict a, Verdict b) {
-  for (const Verdict v : {Verdict::Missed, Verdict::NotMeasured}) {
-    if (a == v || b == v) return v;
-  }
-  return Verdict::Met;
-}
 
 /// Of several measurements of one aim, the one farthest from it. NaN is farther than any number.
 struct Worst {
@@ -49,9 +41,11 @@ struct Worst {
   }
 };
 
-TargetLine pairs_line(const Json& all, const std::string& scenario) {
+TargetLine pairs_line(const Json& all, const std::string& scenario, double most, double most_by_clock) {
+  const bool clocked = most_by_clock < std::numeric_limits<double>::infinity();
   TargetLine line{fmt::format("`auto` to 1 %, {}, pairs with coarse levels", scenario),
-                  fmt::format("<= {:g}", kPairsTo1Percent), "", Verdict::NotMeasured};
+                  fmt::format("<= {:g}", most) + (clocked ? fmt::format(", {:g} by the clock", most_by_clock) : ""), "",
+                  Verdict::NotMeasured};
   const Json run = find_run(all, scenario, "auto", 2);
   if (run.is_null() || !run.contains("reached")) return line;
   const auto& scenarios = list_of(all, "scenarios");
@@ -70,7 +64,8 @@ TargetLine pairs_line(const Json& all, const std::string& scenario) {
   }
   const double by_clock = number(run.at("reached").at("objective").at(1), "seconds") / number(run, "pair_seconds");
   line.seen = fmt::format("{:.1f} ({:.0f} by the clock)", pairs->total(), by_clock);
-  line.verdict = at_most(pairs->total(), kPairsTo1Percent);
+  line.verdict = at_most(pairs->total(), most);
+  if (clocked) line.verdict = worse(line.verdict, at_most(by_clock, most_by_clock));
   return line;
 }
 
@@ -128,6 +123,35 @@ TargetLine thread_line(const Json& all) {
           ratio ? fmt::format("{:.2f}", *ratio) : "", at_least(ratio, kThreadRatio)};
 }
 
+/// Dwell at every pixel.
+TargetLine every_pixel_line(const Json& all) {
+  TargetLine line{"`auto` to 1 %, a-1024-every-1", fmt::format("<= {:g} s", kEveryPixelSeconds), "",
+                  Verdict::NotMeasured};
+  const Json run = find_run(all, "a-1024-every-1", "auto", 2);
+  if (run.is_null() || !run.contains("reached")) return line;
+  const std::optional<double> seconds = seconds_to_1_percent(run);
+  line.seen = seconds ? fmt::format("{:.2f} s", *seconds) : "1 % not reached";
+  line.verdict = seconds ? at_most(seconds, kEveryPixelSeconds) : Verdict::Missed;
+  return line;
+}
+
+TargetLine reference_line(const Json& all) {
+  TargetLine line{"references settled", "all", "", Verdict::NotMeasured};
+  const Json scenarios = list_of(all, "scenarios");
+  std::size_t settled = 0;
+  std::string open;
+  for (const Json& s : scenarios) {
+    const Json& reference = s.at("reference");
+    const bool is = !reference.is_null() && reference.at("settled").get<bool>();
+    settled += is ? 1 : 0;
+    if (!is) open += (open.empty() ? "" : ", ") + text_of(s, "name");
+  }
+  if (scenarios.empty()) return line;
+  line.seen = fmt::format("{} of {}{}", settled, scenarios.size(), open.empty() ? "" : "; not: " + open);
+  line.verdict = open.empty() ? Verdict::Met : Verdict::Missed;
+  return line;
+}
+
 TargetLine peer_line(const Json& all) {
   TargetLine line{fmt::format("fastest peer to 1 % over `auto`, every scenario with {:g} points or more", kPeerPoints),
                   fmt::format(">= {:g}", kPeerRatio), "", Verdict::NotMeasured};
@@ -137,7 +161,6 @@ TargetLine peer_line(const Json& all) {
   for (const Json& scenario : list_of(all, "scenarios")) {
     const std::string name = text_of(scenario, "name");
     const Json run = find_run(all, name, "auto", 2);
-    if (!scenario.at("peers").get<bool>()) continue;
     if (!run.is_null() && run.contains("points") && !(number(run, "points") >= kPeerPoints)) continue;
     if (!run.is_null() && run.contains("reached") && !seconds_to_1_percent(run) &&
         !scenario.at("reference").is_null()) {
@@ -159,58 +182,6 @@ TargetLine peer_line(const Json& all) {
   line.verdict = at_least(worst.value, kPeerRatio);
   if (!open.empty()) line.verdict = worse(line.verdict, Verdict::NotMeasured);
   if (!lost.empty()) line.verdict = Verdict::Missed;
-  return line;
-}
-
-Json find_plan(const Json& all, const std::string& name) {
-  for (const Json& plan : list_of(all, "plans")) {
-    if (text_of(plan, "name") == name) return plan;
-  }
-  return {};
-}
-
-TargetLine udo_line(const Json& all) {
-  TargetLine line{"udo-raster: solve to the smooth optimum, 2 threads",
-                  fmt::format("<= {:g} s; step <= {:g} s, residual <= {:g} nm, total <= {:g} s", kUdoSeconds, kUdoStep,
-                              kUdoResidual, kUdoTotal),
-                  "", Verdict::NotMeasured};
-  const Json plan = find_plan(all, "udo-raster");
-  if (plan.is_null() || !plan.contains("solver_seconds")) return line;
-  const double seconds = number(plan, "solver_seconds"), step = number(plan, "step_rms"),
-               residual = number(plan, "residual_rms"), total = number(plan, "total_dwell");
-  line.seen = fmt::format("{:.3g} s; {:.4f} s, {:.4f} nm, {:.1f} s", seconds, step, residual, total);
-  line.verdict = worse(worse(at_most(seconds, kUdoSeconds), at_most(step, kUdoStep)),
-                       worse(at_most(residual, kUdoResidual), at_most(total, kUdoTotal)));
-  return line;
-}
-
-TargetLine plan_line(const Json& all, const std::string& name, double seconds_limit, double gib_limit) {
-  TargetLine line{fmt::format("whole `dwell plan`, {}", name), fmt::format("<= {:g} s", seconds_limit), "",
-                  Verdict::NotMeasured};
-  const bool memory = gib_limit < std::numeric_limits<double>::infinity();
-  if (memory) line.target += fmt::format(", <= {:g} GiB", gib_limit);
-  const Json plan = find_plan(all, name);
-  if (plan.is_null() || plan.contains("skipped")) return line;
-  if (plan.contains("failed")) {
-    line.seen = text_of(plan, "failed");
-    line.verdict = Verdict::Missed;
-    return line;
-  }
-  const double seconds = number(plan, "seconds"), gib = number(plan, "peak_memory") / 0x1p30;
-  line.seen = memory ? fmt::format("{:.1f} s, {:.2f} GiB", seconds, gib) : fmt::format("{:.2f} s", seconds);
-  line.verdict = at_most(seconds, seconds_limit);
-  if (memory) line.verdict = worse(line.verdict, at_most(gib, gib_limit));
-  return line;
-}
-
-TargetLine one_processor_line(const Json& all) {
-  TargetLine line{"2 threads over 1 where one processor is to be had, CPU seconds of a plan",
-                  fmt::format("<= {:g}", kOneProcessorRatio), "", Verdict::NotMeasured};
-  const Json one = find_plan(all, "one-processor-1-thread"), two = find_plan(all, "one-processor-2-threads");
-  if (!one.contains("cpu_seconds") || !two.contains("cpu_seconds")) return line;
-  const double alone = number(one, "cpu_seconds"), both = number(two, "cpu_seconds");
-  line.seen = fmt::format("{:.2f} ({:.2f} s, {:.2f} s)", both / alone, both, alone);
-  line.verdict = at_most(both / alone, kOneProcessorRatio);
   return line;
 }
 
@@ -285,51 +256,29 @@ TargetLine memory_line(const Json& all) {
 
 }  // namespace
 
-std::string to_string(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::Met:
-      return "met";
-    case Verdict::Missed:
-      return "missed";
-    case Verdict::NotMeasured:
-      return "not measured";
-  }
-  return "not measured";
-}
-
-Verdict at_most(const std::optional<double>& seen, double limit) {
-  if (!seen) return Verdict::NotMeasured;
-  return *seen <= limit ? Verdict::Met : Verdict::Missed;
-}
-
-Verdict at_least(const std::optional<double>& seen, double limit) {
-  if (!seen) return Verdict::NotMeasured;
-  return *seen >= limit ? Verdict::Met : Verdict::Missed;
-}
-
 std::vector<TargetLine> target_lines(const Json& all) {
   constexpr double kAny = std::numeric_limits<double>::infinity();
-  return {pairs_line(all, "a-1024-every-4"),
-          pairs_line(all, "a-1024-every-1"),
-          pairs_line(all, "e-ibfest-70x30"),
-          certificate_line(all),
-          operator_line(all),
-          thread_line(all),
-          peer_line(all),
-          udo_line(all),
-          plan_line(all, "udo-raster", kUdoPlanSeconds, kAny),
-          plan_line(all, "4096-every-4-stop", kPlanSeconds, kPlanGib),
-          plan_line(all, "4096-every-4-moving", kPlanSeconds, kPlanGib),
-          one_processor_line(all),
-          memory_line(all),
-          planner_line(all, "raster, spiral, hilbert, multi-pitch", {"raster", "spiral", "hilbert", "multi-pitch"},
-                       kPlannerRate),
-          planner_line(all, "random", {"random"}, kRandomRate),
-          planner_line(all, "nearest", {"nearest"}, kNearestRate),
-          shortening_line(all),
-          reading_line(all, "dat"),
-          reading_line(all, "datx"),
-          npy_line(all)};
+  std::vector<TargetLine> lines{pairs_line(all, "a-1024-every-4", kPairsTo1Percent, kAny),
+                                pairs_line(all, "a-1024-every-1", kPairsTo1Percent, kAny),
+                                every_pixel_line(all),
+                                pairs_line(all, "e-ibfest-70x30", kPairsOfIbfest, kWallPairsOfIbfest),
+                                certificate_line(all),
+                                operator_line(all),
+                                thread_line(all),
+                                reference_line(all),
+                                peer_line(all),
+                                memory_line(all),
+                                planner_line(all, "raster, spiral, hilbert, multi-pitch",
+                                             {"raster", "spiral", "hilbert", "multi-pitch"}, kPlannerRate),
+                                planner_line(all, "random", {"random"}, kRandomRate),
+                                planner_line(all, "nearest", {"nearest"}, kNearestRate),
+                                shortening_line(all),
+                                reading_line(all, "dat"),
+                                reading_line(all, "datx"),
+                                npy_line(all)};
+  const std::vector<TargetLine> plans = plan_target_lines(all);
+  lines.insert(lines.end(), plans.begin(), plans.end());
+  return lines;
 }
 
 std::string target_table(const Json& all) {

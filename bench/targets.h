@@ -2,24 +2,12 @@
 
 #include <nlohmann/json.hpp>
 
-#include <optional>
 #include <string>
 #include <vector>
 
+#include "bench/verdict.h"
+
 namespace dwell::bench {
-
-enum class Verdict { Met, Missed, NotMeasured };
-std::string to_string(Verdict verdict);
-
-/// NaN counts as missed; nothing counts as not measured.
-Verdict at_most(const std::optional<double>& seen, double limit);
-Verdict at_least(const std::optional<double>& seen, double limit);
-
-/// One aim of the project and the value that a run has found.
-struct TargetLine {
-  std::string what, target, seen;
-  Verdict verdict = Verdict::NotMeasured;
-};
 
 /// Every aim, in fixed order, from the JSON of a run; whatever the run left out is not measured.
 std::vector<TargetLine> target_lines(const nlohmann::json& all);

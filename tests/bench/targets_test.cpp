@@ -5,78 +5,14 @@
 #include <cmath>
 #include <limits>
 
-#include "bench/report.h"
+#include "tests/bench/made_up_run.h"
 
 namespace dwell::bench {
 namespace {
 
-using Json = nlohmann::json;
 using ::testing::HasSubstr;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
-Json reached(double applications, double seconds) {
-  const Json slot{{"iterations", 1},    {"applications", applications}, {"coarse_pairs", 15.0},
-                  {"seconds", seconds}, {"fastest", seconds},           {"slowest", seconds}};
-  return {{"objective", {slot, slot, slot}}, {"residual", {slot, slot, slot}}};
-}
-
-/// A line of the suite that arrived: 20 applications and 2 s to every quality, 4 s in all.
-Json solve(const std::string& scenario, const std::string& solver, int threads) {
-  return {{"scenario", scenario},
-          {"solver", solver},
-          {"threads", threads},
-          {"rounds", 1},
-          {"points", 20000},
-          {"pixels", 1048576},
-          {"operator", "lattice"},
-          {"pair_seconds", 0.1},
-          {"build_seconds", 1.0},
-          {"max_seconds", 30.0},
-          {"seconds", 4.0},
-          {"applications", 20},
-          {"coarse_pairs", 15.0},
-          {"solve_memory", 8.0 * 1048576 * 10.0},
-          {"total_dwell", 400.0},
-          {"step_rms", 0.003},
-          {"status", "target reached"},
-          {"certificate", {{"objective", 1.0}, {"residual_rms", 0.15}, {"projected_gradient", 1e-3}}},
-          {"whole", {{"seconds", 4.0}, {"fastest", 4.0}, {"slowest", 4.0}}},
-          {"reached", reached(20, 2.0)}};
-}
-
-Json scenario(const std::string& name) {
-  return {{"name", name},
-          {"what", "made for a test"},
-          {"smoothness", 0.1},
-          {"price", 1e-4},
-          {"peers", true},
-          {"reference",
-           {{"objective", 1.0},
-            {"residual_rms", 0.15},
-            {"total_dwell", 400.0},
-            {"solver", "projected-cg"},
-            {"iterations", 10},
-            {"change_when_doubled", 1e-7},
-            {"settled", true}}}};
-}
-
-Json never(Json run, const std::string& status) {
-  run["status"] = status;
-  for (const char* what : {"objective", "residual"}) run["reached"][what] = {nullptr, nullptr, nullptr};
-  return run;
-}
-
-Json results(const std::vector<Json>& runs) {
-  Json all{{"results", runs}, {"scenarios", Json::array()}};
-  std::vector<std::string> seen;
-  for (const Json& run : runs) {
-    if (std::find(seen.begin(), seen.end(), run["scenario"]) != seen.end()) continue;
-    seen.push_back(run["scenario"]);
-    all["scenarios"].push_back(scenario(run["scenario"]));
-  }
-  return all;
-}
 
 TargetLine line(const Json& all, const std::string& of) {
   for (const TargetLine& l : target_lines(all)) {
@@ -236,13 +172,67 @@ TEST(Targets, ThreadsDoNotSpinForOneProcessor) {
 }
 
 TEST(Targets, PlansKeepTimeAndMemory) {
-  const auto of = [](const Json& plan) { return line({{"plans", {plan}}}, "4096-every-4-stop"); };
-  Json plan{{"name", "4096-every-4-stop"}, {"seconds", 20.0}, {"peak_memory", 6.0 * 0x1p30}};
+  const auto of = [](const Json& plan) { return line({{"plans", {plan}}}, "plan`, 4096-narrow-moving"); };
+  Json plan{{"name", "4096-narrow-moving"}, {"seconds", 20.0}, {"peak_memory", 4.0 * 0x1p30}};
   EXPECT_EQ(of(plan).verdict, Verdict::Met);
-  plan["peak_memory"] = 6.1 * 0x1p30;
+  plan["peak_memory"] = 4.1 * 0x1p30;
   EXPECT_EQ(of(plan).verdict, Verdict::Missed);
-  EXPECT_EQ(of({{"name", "4096-every-4-stop"}, {"failed", "not done after 60 s"}}).verdict, Verdict::Missed);
-  EXPECT_EQ(of({{"name", "4096-every-4-stop"}, {"skipped", "no time left"}}).verdict, Verdict::NotMeasured);
+  EXPECT_EQ(of({{"name", "4096-narrow-moving"}, {"failed", "not done after 60 s"}}).verdict, Verdict::Missed);
+  EXPECT_EQ(of({{"name", "4096-narrow-moving"}, {"skipped", "no time left"}}).verdict, Verdict::NotMeasured);
+}
+
+TEST(Targets, ThreadsOfAPlanAreComparedByItsSolve) {
+  const auto of = [](const std::vector<Json>& plans) {
+    return line({{"plans", plans}}, "against 1, 4096-wide-moving");
+  };
+  const Json one{{"name", "4096-wide-moving-1-thread"}, {"solver_seconds", 16.0}};
+  Json two{{"name", "4096-wide-moving"}, {"solver_seconds", 10.0}};
+  EXPECT_EQ(of({one, two}).verdict, Verdict::Met);
+  two["solver_seconds"] = 10.1;
+  EXPECT_EQ(of({one, two}).verdict, Verdict::Missed);
+  two["solver_seconds"] = nullptr;
+  EXPECT_EQ(of({one, two}).verdict, Verdict::Missed);
+  EXPECT_EQ(of({one}).verdict, Verdict::NotMeasured);
+}
+
+TEST(Targets, AnInterruptedPlanEndsAtOnce) {
+  const auto of = [](const Json& plan) { return line({{"plans", {plan}}}, "after an interrupt"); };
+  EXPECT_EQ(of({{"name", "4096-interrupted"}, {"to_exit_seconds", 0.5}}).verdict, Verdict::Met);
+  EXPECT_EQ(of({{"name", "4096-interrupted"}, {"to_exit_seconds", 0.6}}).verdict, Verdict::Missed);
+  EXPECT_EQ(of({{"name", "4096-interrupted"}, {"failed", "done before it could be interrupted"}}).verdict,
+            Verdict::NotMeasured);
+}
+
+TEST(Targets, IbfestCountsPairsAndTheClock) {
+  Json run = solve("e-ibfest-70x30", "auto", 2);  // 10 + 15 pairs, 20 by the clock
+  EXPECT_EQ(line(results({run}), "1 %, e-ibfest").verdict, Verdict::Met);
+  run["reached"]["objective"][1]["seconds"] = 8.1;  // 81 pairs
+  EXPECT_EQ(line(results({run}), "1 %, e-ibfest").verdict, Verdict::Missed);
+}
+
+TEST(Targets, EveryPixelIsJudgedInSeconds) {
+  Json run = solve("a-1024-every-1", "auto", 2);
+  const auto verdict = [&] {
+    for (const TargetLine& l : target_lines(results({run}))) {
+      if (l.what == "`auto` to 1 %, a-1024-every-1") return l.verdict;
+    }
+    throw std::runtime_error("no such target");
+  };
+  run["reached"]["objective"][1]["seconds"] = 1.5;
+  EXPECT_EQ(verdict(), Verdict::Met);
+  run["reached"]["objective"][1]["seconds"] = 1.6;
+  EXPECT_EQ(verdict(), Verdict::Missed);
+}
+
+TEST(Targets, EveryReferenceIsSettled) {
+  Json all = results({solve("b-512", "auto", 2), solve("c-3000", "auto", 2)});
+  EXPECT_EQ(line(all, "references settled").verdict, Verdict::Met);
+  all["scenarios"][1]["reference"]["settled"] = false;
+  const TargetLine open = line(all, "references settled");
+  EXPECT_EQ(open.verdict, Verdict::Missed);
+  EXPECT_THAT(open.seen, HasSubstr("1 of 2; not: c-3000"));
+  all["scenarios"][1]["reference"] = nullptr;
+  EXPECT_EQ(line(all, "references settled").verdict, Verdict::Missed);
 }
 
 TEST(Targets, MemoryIsThatOfLargeProblems) {
@@ -274,26 +264,6 @@ TEST(Targets, PlannersAreJudgedByTheSlowestAtAMillionPoints) {
   EXPECT_EQ(line(all, "2-opt").verdict, Verdict::Met);
   all["planners"].back()["length_ratio"] = 1.09;
   EXPECT_EQ(line(all, "2-opt").verdict, Verdict::Missed);
-}
-
-TEST(Report, ShowsWhatWasSkippedAsSuch) {
-  Json all = results({solve("b-512", "auto", 2),
-                      {{"scenario", "b-512"},
-                       {"solver", "lbfgsb"},
-                       {"threads", 2},
-                       {"rounds", 0},
-                       {"skipped", "no time left in the budget"}}});
-  all["machine"] = {{"processor", "p"}, {"cores", 2},       {"memory_gib", 1.0}, {"compiler", "c"},
-                    {"flags", "f"},     {"commit", "none"}, {"fftw", "w"},       {"date", "d"}};
-  all["certificates"] = {{{"scenario", "b-512"}, {"solver", "auto"}, {"tolerance", 1e-3}, {"skipped", "no time left"}}};
-  all["plans"] = {{{"name", "p"}, {"what", "w"}, {"skipped", "no time left"}}};
-  all["seconds"] = {{"all", 10.0}};
-  all["budget"] = 10.0;
-  const std::string text = markdown_report(all, "picture.png");
-  EXPECT_THAT(text, HasSubstr("| lbfgsb | 2 | skipped: no time left in the budget |"));
-  EXPECT_THAT(text, HasSubstr("skipped: 3 measurements"));
-  EXPECT_THAT(text, HasSubstr("| 10 + 15 = 25 (20) |"));
-  EXPECT_EQ(text.find("nan"), std::string::npos);
 }
 
 }  // namespace
