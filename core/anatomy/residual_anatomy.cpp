@@ -2,10 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/base/errors.h"
+#include "core/form/form_polynomials.h"
 #include "core/form/robust_pv.h"
 #include "core/spectra/psd.h"
 
@@ -14,13 +17,27 @@ namespace {
 
 double square(double v) { return v * v; }
 
-/// The interior alone, with the level of their surroundings where there are blemishes.
-HeightMap interior_of(const HeightMap& residual, const ResidualAnatomy& a) {
-  HeightMap interior = residual;
+/// The surface with the level of their surroundings where there are blemishes, less the form of all other pixels: what
+/// blemishes add to the form terms is theirs.
+HeightMap without_their_form(const HeightMap& residual, const ResidualAnatomy& a, const FormTerms& form, int threads) {
+  HeightMap surface = residual;
+  if (a.blemishes.empty()) return surface;
+  const std::vector<Index> others = finite_pixels(without_blemishes(residual, a.blemishes));
   for (const Blemish& b : a.blemishes) {
     for (std::size_t k = 0; k < b.pixels.size(); ++k)
-      interior.values[static_cast<std::size_t>(b.pixels[k])] = b.level[k];
+      surface.values[static_cast<std::size_t>(b.pixels[k])] = b.level[k];
   }
+  const FormPolynomials polynomials(residual.grid, others, form, {}, threads);
+  polynomials.remove_from(surface.values);
+  const FormPolynomials::Polynomial theirs = polynomials.fit(residual.values);
+  for (const Blemish& b : a.blemishes) {
+    for (const Index i : b.pixels) surface.values[static_cast<std::size_t>(i)] -= polynomials.value_at(theirs, i);
+  }
+  return surface;
+}
+
+/// The interior alone.
+HeightMap interior_of(HeightMap interior, const ResidualAnatomy& a) {
   for (std::size_t i = 0; i < interior.values.size(); ++i) {
     if (a.edge.holds[i] != 0) interior.values[i] = std::numeric_limits<double>::quiet_NaN();
   }
@@ -91,13 +108,15 @@ ResidualAnatomy residual_anatomy(const HeightMap& residual, double fwhm, const F
       sum += square(residual.values[static_cast<std::size_t>(i)]);
     }
     a.of_blemish.push_back(sum * each);
-    a.mean_square.blemishes += sum * each;
     a.blemish_pixels += static_cast<Index>(b.pixels.size());
   }
-  double edge = 0.0, interior = 0.0;
+  HeightMap surface = without_their_form(residual, a, form, threads);
+  double edge = 0.0, interior = 0.0, whole = 0.0;
   for (std::size_t i = 0; i < residual.values.size(); ++i) {
-    const double v = residual.values[i];
-    if (!std::isfinite(v) || blemished[i] != 0) continue;
+    const double v = surface.values[i];
+    if (!std::isfinite(v)) continue;
+    whole += square(residual.values[i]);
+    if (blemished[i] != 0) continue;
     if (a.edge.holds[i] != 0) {
       edge += v * v;
       ++a.edge_pixels;
@@ -106,8 +125,9 @@ ResidualAnatomy residual_anatomy(const HeightMap& residual, double fwhm, const F
     }
   }
   a.mean_square.edge = edge * each;
+  if (!a.blemishes.empty()) a.mean_square.blemishes = std::max(0.0, whole - edge - interior) * each;
   progress.step("waves of the interior");
-  divide_interior(interior_of(residual, a), fwhm, interior * each, threads, a.mean_square);
+  divide_interior(interior_of(std::move(surface), a), fwhm, interior * each, threads, a.mean_square);
   progress.check();
   if (a.blemish_pixels < a.pixels) {
     if (a.blemishes.empty()) {

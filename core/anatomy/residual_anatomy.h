@@ -13,11 +13,11 @@ namespace dwell {
 /// Parts of a mean square [nm^2]. Each pixel counts in one of the first two, or in the interior, which its wavelengths
 /// divide; so the five add up to the whole.
 struct ResidualShares {
-  double blemishes = 0.0;
-  double edge = 0.0;     // the zone at the edge, without blemishes
-  double shorter = 0.0;  // interior: wavelengths up to the tool's FWHM
-  double middle = 0.0;   // from one to three times the FWHM
-  double longer = 0.0;   // from three times on, and the interior's mean
+  double blemishes = 0.0;  // and what they add to the form terms of the others
+  double edge = 0.0;       // the zone at the edge, without blemishes
+  double shorter = 0.0;    // interior: wavelengths up to the tool's FWHM
+  double middle = 0.0;     // from one to three times the FWHM
+  double longer = 0.0;     // from three times on, and the interior's mean
 
   double interior() const { return shorter + middle + longer; }
   double whole() const { return blemishes + edge + interior(); }

@@ -178,13 +178,22 @@ double FormPolynomials::orthogonalise(Polynomial& candidate) const {
 
 Eigen::VectorXd FormPolynomials::at(Index pixel) const {
   Eigen::VectorXd values(rank());
+  for (Index k = 0; k < rank(); ++k) values[k] = value_at(orthonormal_[static_cast<std::size_t>(k)], pixel);
+  return values;
+}
+
+double FormPolynomials::value_at(const Polynomial& form, Index pixel) const {
+  const Point p = scaled(pixel);
+  return value_of<kTerms>(form, p.x, p.y);
+}
+
+/// The place of a pixel as the polynomials take it.
+Point FormPolynomials::scaled(Index pixel) const {
+  if (pixels_.empty()) return {};
   const Index first = pixels_.front();
   const auto rows = static_cast<double>(pixel / grid_.cols - first / grid_.cols);
   const auto cols = static_cast<double>(pixel % grid_.cols - first % grid_.cols);
-  const double x = (grid_.pitch_x * cols - centre_x_) * per_extent_;
-  const double y = (grid_.pitch_y * rows - centre_y_) * per_extent_;
-  for (Index k = 0; k < rank(); ++k) values[k] = value_of<kTerms>(orthonormal_[static_cast<std::size_t>(k)], x, y);
-  return values;
+  return {(grid_.pitch_x * cols - centre_x_) * per_extent_, (grid_.pitch_y * rows - centre_y_) * per_extent_};
 }
 
 template <std::size_t Terms>
@@ -204,7 +213,7 @@ Eigen::MatrixXd FormPolynomials::columns() const {
 }
 
 template <std::size_t Terms>
-void FormPolynomials::subtract_form(std::span<double> map_values) const {
+FormPolynomials::Polynomial FormPolynomials::fit_terms(std::span<const double> map_values) const {
   Polynomial form{};
   for (int pass = 0; pass < 2; ++pass) {  // as above
     const Sums product = sum<kTerms>([&](Sums& s, const Place& p) {
@@ -215,6 +224,17 @@ void FormPolynomials::subtract_form(std::span<double> map_values) const {
       for (std::size_t c = 0; c < kTerms; ++c) form[c] += product[k] * orthonormal_[k][c];
     }
   }
+  return form;
+}
+
+FormPolynomials::Polynomial FormPolynomials::fit(std::span<const double> map_values) const {
+  if (rank() == 0) return {};
+  return astigmatism_ ? fit_terms<kTerms>(map_values) : fit_terms<kRoundTerms>(map_values);
+}
+
+template <std::size_t Terms>
+void FormPolynomials::subtract_form(std::span<double> map_values) const {
+  const Polynomial form = fit_terms<Terms>(map_values);
   for_each([&](const Place& p) { map_values[static_cast<std::size_t>(p.pixel)] -= value_of<Terms>(form, p.x, p.y); });
 }
 

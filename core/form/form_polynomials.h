@@ -34,6 +34,11 @@ class FormPolynomials {
   /// Columns w q_k: pixels.size() x rank.
   Eigen::MatrixXd columns() const;
 
+  /// The least-squares form of `map_values` (one a pixel of the grid) at the pixels, and its value at any pixel of the
+  /// grid. Weights must be empty.
+  Polynomial fit(std::span<const double> map_values) const;
+  double value_at(const Polynomial& form, Index pixel) const;
+
   /// Takes the least-squares form out of `map_values` (one a pixel of the grid) at the pixels. Weights must be empty.
   void remove_from(std::span<double> map_values) const;
 
@@ -66,7 +71,10 @@ class FormPolynomials {
   template <std::size_t Terms>
   void write_columns(Eigen::MatrixXd& q) const;
   template <std::size_t Terms>
+  Polynomial fit_terms(std::span<const double> map_values) const;
+  template <std::size_t Terms>
   void subtract_form(std::span<double> map_values) const;
+  Point scaled(Index pixel) const;
 
   Grid grid_;
   std::span<const Index> pixels_;

@@ -21,9 +21,10 @@ constexpr double kLeastSolve = 1e-9;  // s; enough for the statement that there 
 
 std::string not_proven(const DwellPlan& plan, const DwellOptions& options) {
   const double gap = plan.certificate.gap();
-  const std::string reached = std::isfinite(gap) ? fmt::format("is {:.3g} % is", 100.0 * gap) : "none is";
+  const std::string reached =
+      std::isfinite(gap) ? fmt::format("what is proven is {:.3g} %", 100.0 * gap) : "nothing is proven";
   const bool rough = plan.weights.smoothness == 0.0 || plan.weights.time_price == 0.0;
-  return fmt::format("--certify is {:.3g} %, but what {} proven{}", 100.0 * options.certify, reached,
+  return fmt::format("--certify is {:.3g} %, but {}{}", 100.0 * options.certify, reached,
                      rough ? "; without smoothness or time price the bound is rough" : "");
 }
 
@@ -53,6 +54,7 @@ DwellOptions with_weights(const DwellOptions& options, const Part& part, const L
   const double smoothness =
       numbers.smoothness.kind == GoalKind::Fixed ? numbers.smoothness.value : usual_smoothness(part, laid);
   plan.worth = problem.find_price(smoothness, options.time_worth, progress);
+  plan.worth_smoothness = smoothness;
   numbers.time_price = {plan.worth->price};
   return numbers;
 }
@@ -121,9 +123,11 @@ DwellPlan find_dwell(const Part& part, const LaidPath& laid, const DwellOptions&
       rest.time_price = {plan.weights.time_price};
     }
     const std::optional<TimePrice> worth = plan.worth;
+    const double worth_smoothness = plan.worth_smoothness;
     try {
       plan = find_dwell_on(finer_lattice(part, plan.lattice), part, laid, rest, plan.seconds, check, progress);
-      if (worth) plan.worth = worth;
+      plan.worth = worth;
+      plan.worth_smoothness = worth_smoothness;
     } catch (const TimeLimitReached&) {
       break;  // the plan on the coarser lattice stands, and what follows says how wrong it is
     }

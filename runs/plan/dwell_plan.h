@@ -23,6 +23,7 @@ namespace dwell {
 struct DwellPlan {
   Weights weights;                     // given, or found
   std::optional<TimePrice> worth;      // how the time price was found, where it is Auto
+  double worth_smoothness = 0.0;       // with which it was found; the plan's own may be another, if that is searched
   std::optional<WeightTrials> search;  // nothing = no weight is searched over plans
   Vector seconds;                      // of every dwell point, in path order
   double step_rms = 0.0;               // |D t| / sqrt(number of links) [s]

@@ -7,7 +7,9 @@
 #include <limits>
 
 #include "runs/base/json_blocks.h"
+#include "runs/base/percent_text.h"
 #include "runs/reports/anatomy_lines.h"
+#include "runs/reports/price_estimates.h"
 
 namespace dwell {
 namespace {
@@ -33,14 +35,10 @@ double overrun_of(const HeightMap& map, const ToolPath& path) {
   return std::min({low.x - first.x, low.y - first.y, last.x - high.x, last.y - high.y});
 }
 
-/// Of the mean square that the fit left, about zero [nm^2].
-double left_by_fit(const DwellPlan& plan) {
-  const double rms = plan.left_out ? plan.left_out->fit_rms : plan.residual.rms_about_zero();
-  return rms * rms;
+/// The share of the mean square that a run that leaves `rms` would leave less than one that leaves `left`.
+double share_above(double left, double rms) {
+  return left > 0.0 ? std::max(0.0, 1.0 - rms * rms / (left * left)) : 0.0;
 }
-
-/// The share of `left` by which a run that leaves `rms` would leave less.
-double share_above(double left, double rms) { return left > 0.0 ? std::max(0.0, 1.0 - rms * rms / left) : 0.0; }
 
 }  // namespace
 
@@ -49,13 +47,13 @@ AdviceFacts advice_facts(const PlannedJob& plan) {
   facts.fraction = plan.job.options.fraction;
   facts.blemishes_left_out = plan.dwell.left_out && !plan.dwell.left_out->pixels.empty();
   facts.overrun = overrun_of(plan.part().map, plan.laid.path);
-  if (!plan.dwell.worth || !(plan.dwell.worth->price > 0.0) || facts.fraction < 1.0) return facts;
-  const TimePrice& worth = *plan.dwell.worth;
-  const double left = left_by_fit(plan.dwell), priceless = worth.best.trade_off.residual_rms;
-  facts.price_cost = share_above(left, priceless);
-  if (worth.unsmoothed)
-    facts.smoothness_cost =
-        std::max(0.0, share_above(left, worth.unsmoothed->trade_off.residual_rms) - *facts.price_cost);
+  if (facts.fraction < 1.0) return facts;
+  const auto estimates = price_estimates(plan);
+  if (!estimates) return facts;
+  const double left = left_by_fit(plan.dwell);
+  facts.price_cost = share_above(left, estimates->least_rms);
+  if (estimates->unsmoothed_rms)
+    facts.smoothness_cost = std::max(0.0, share_above(left, *estimates->unsmoothed_rms) - *facts.price_cost);
   return facts;
 }
 
@@ -63,9 +61,9 @@ std::string cost_line(const PlannedJob& plan) {
   const AdviceFacts facts = advice_facts(plan);
   if (!facts.price_cost) return "";
   return fmt::format(
-      "cost      of the mean square about {:.2g} % for the time price{} (estimated on a model)\n",
-      100.0 * *facts.price_cost,
-      facts.smoothness_cost ? fmt::format(", at least {:.2g} % for smoothness", 100.0 * *facts.smoothness_cost) : "");
+      "cost      of the mean square about {} % for the time price{} (estimated on a model)\n",
+      percent_text(*facts.price_cost),
+      facts.smoothness_cost ? fmt::format(", at least {} % for smoothness", percent_text(*facts.smoothness_cost)) : "");
 }
 
 std::string left_out_line(const DwellPlan& plan) {

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 
+#include "runs/base/percent_text.h"
+
 namespace dwell {
 namespace {
 
@@ -45,22 +47,24 @@ Remedy overrun(const ResidualAnatomy& a, const AdviceFacts& facts, double whole)
 
 Remedy less_smoothness(const AdviceFacts& facts) {
   const double cost = facts.smoothness_cost.value_or(0.0);
-  return {cost, fmt::format("less smoothness: it costs at least {:.2g} % of the mean square", 100.0 * cost)};
+  return {cost, fmt::format("less smoothness: it costs at least {} % of the mean square", percent_text(cost))};
 }
 
 Remedy longer_run(const AdviceFacts& facts) {
   const double cost = facts.price_cost.value_or(0.0);
-  return {cost, fmt::format("a longer run: the time price costs about {:.2g} % of the mean square", 100.0 * cost)};
+  return {cost, fmt::format("a longer run: the time price costs about {} % of the mean square", percent_text(cost))};
 }
 
 /// Waves that the tool reaches, and that neither price nor smoothness leaves.
 Remedy finer_path(const ResidualAnatomy& a, const AdviceFacts& facts, double whole) {
   const double long_waves = (a.mean_square.middle + a.mean_square.longer) / whole;
-  return {
-      long_waves - facts.price_cost.value_or(0.0) - facts.smoothness_cost.value_or(0.0),
-      fmt::format("a finer path, or a machine of shorter dwell: {:.3g} % of the mean square is in waves longer than "
-                  "the tool's FWHM of {:.3g} mm, which it can reach",
-                  100.0 * long_waves, a.fwhm)};
+  const bool known = facts.price_cost.has_value();  // else the weights may leave them
+  return {long_waves - facts.price_cost.value_or(0.0) - facts.smoothness_cost.value_or(0.0),
+          fmt::format(
+              "{}: {:.3g} % of the mean square is in waves longer than the tool's FWHM of {:.3g} mm, which it can "
+              "reach",
+              known ? "a finer path, or a machine of shorter dwell" : "a longer run, less smoothness or a finer path",
+              100.0 * long_waves, a.fwhm)};
 }
 
 }  // namespace

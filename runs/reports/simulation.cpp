@@ -72,7 +72,9 @@ Simulation simulate_file(const std::filesystem::path& program, const GcodeReadin
   s.after.statistics = with_robust_pv(s.after.statistics, s.after.surface, part.threads);
   s.anatomy = residual_anatomy(s.after.surface, part.tif.fwhm, part.form, part.threads, BlemishSearch::On,
                                progress.of_part("what is left"));
-  s.advice = residual_advice(s.anatomy, {});
+  AdviceFacts facts;
+  facts.blemishes_left_out = !s.plan.empty() && options.blemishes == BlemishHandling::LeaveOut;
+  s.advice = residual_advice(s.anatomy, facts);
   if (auto limit = more_than_before(s.after, s.before)) s.limits.push_back(std::move(*limit));
   return s;
 }

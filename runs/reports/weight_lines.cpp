@@ -11,6 +11,7 @@
 #include "runs/job/job.h"
 #include "runs/plan/usual_smoothness.h"
 #include "runs/reports/front_lines.h"
+#include "runs/reports/price_estimates.h"
 
 namespace dwell {
 namespace {
@@ -47,19 +48,11 @@ std::string in_words(const PricedTradeOff& plan) {
   return fmt::format("{:.4g} nm in {}", plan.trade_off.residual_rms, duration_text(plan.trade_off.total));
 }
 
-/// The least that is left on the path, as far as is known: the plan itself may leave less than the model. Of a fraction
-/// of the error the models tell what is left of that, and the plan what remains on the part.
-double least_left(const PlannedJob& plan) {
-  const TimePrice& worth = *plan.dwell.worth;
-  const double modelled = std::min(
-      {worth.best.trade_off.residual_rms, worth.half.trade_off.residual_rms, worth.twice.trade_off.residual_rms});
-  return plan.job.options.fraction < 1.0 ? modelled : std::min(modelled, plan.dwell.residual.rms_about_zero());
-}
-
 /// Of what the estimates are, behind "RMS".
 std::string of_what(const PlannedJob& plan) {
   return std::string(about_zero_in_words(plan.dwell.residual)) +
-         (plan.job.options.fraction < 1.0 ? " of the fraction that is to be removed" : "");
+         (plan.job.options.fraction < 1.0 ? " of the fraction that is to be removed" : "") +
+         (plan.dwell.left_out && !plan.dwell.left_out->pixels.empty() ? " without the blemishes left out" : "");
 }
 
 /// What a user wants to know who has to choose a price.
@@ -70,12 +63,17 @@ std::string price_lines(const PlannedJob& plan) {
                        kIndent);
   }
   std::string text = fmt::format("{}time price: {}\n", kIndent, rule_in_words(plan.job.options.time_worth, worth.rule));
+  const auto estimates = price_estimates(plan);
+  if (!estimates) {
+    return text + fmt::format("{}            found with the smoothness {:.4g}\n", kIndent, plan.dwell.worth_smoothness);
+  }
   text += fmt::format("{}            half of it: about {}; twice: about {} (RMS{}, dwell; estimated on a model)\n",
-                      kIndent, in_words(worth.half), in_words(worth.twice), of_what(plan));
+                      kIndent, in_words(estimates->half), in_words(estimates->twice), of_what(plan));
   text += fmt::format(
-      "{}            the least that this tool leaves on this path is about {:.4g} nm RMS{} (estimated "
+      "{}            the least that this tool leaves on this path at this smoothness is about {:.4g} nm RMS{} "
+      "(estimated "
       "on a model)\n",
-      kIndent, least_left(plan), of_what(plan));
+      kIndent, estimates->least_rms, of_what(plan));
   return text;
 }
 
@@ -112,10 +110,12 @@ std::optional<std::string> little_gained(const PlannedJob& plan, const MapStatis
                                          const MapStatistics& after) {
   const double was = before.rms_about_zero(), left = after.rms_about_zero();
   if (!(was > 0.0) || left > was || left < (1.0 - kLittleGain) * was) return std::nullopt;
-  const std::string reach = plan.dwell.worth
-                                ? fmt::format("; about {:.4g} nm RMS{} is the least that this tool leaves on this path",
-                                              least_left(plan), of_what(plan))
-                                : "";
+  const auto estimates = price_estimates(plan);
+  const std::string reach =
+      estimates
+          ? fmt::format("; about {:.4g} nm RMS{} is the least that this tool leaves on this path at this smoothness",
+                        estimates->least_rms, of_what(plan))
+          : "";
   return fmt::format("this run gains {:.2g} % of the RMS{}, from {:.4g} to {:.4g} nm{}", 100.0 * (1.0 - left / was),
                      about_zero_in_words(before), was, left, reach);
 }
@@ -138,12 +138,14 @@ Json weights_block(const PlannedJob& plan) {
                 {"step_rms_s", p.trade_off.step_rms}};
   };
   weights["worth"] = {{"rule", dwell.worth->rule == PriceRule::Share ? "share" : "average"},
+                      {"smoothness", dwell.worth_smoothness},
                       {"least_dwell_rms_nm", dwell.worth->least.residual_rms},
-                      {"least_dwell_total_s", dwell.worth->least.total},
-                      {"estimates",
-                       {{"best", estimate(dwell.worth->best)},
-                        {"half_price", estimate(dwell.worth->half)},
-                        {"twice_price", estimate(dwell.worth->twice)}}}};
+                      {"least_dwell_total_s", dwell.worth->least.total}};
+  if (const auto estimates = price_estimates(plan)) {
+    weights["worth"]["estimates"] = {{"least_rms_nm", estimates->least_rms},
+                                     {"half_price", estimate(estimates->half)},
+                                     {"twice_price", estimate(estimates->twice)}};
+  }
   return weights;
 }
 

@@ -52,6 +52,7 @@ class Search {
     find_on_model();
     const double price = price_;
     progress_.step("time price: estimating what other prices would give");
+    found_.here = estimate(price);  // once more, or what is still to gain at this price would count for the others
     found_.twice = estimate(2.0 * price);
     found_.half = estimate(0.5 * price);
     const PricedTradeOff best = estimate(kNoWorth * highest_);

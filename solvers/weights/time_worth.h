@@ -51,6 +51,7 @@ struct TimePrice {
   PriceRule rule = PriceRule::Share;
   TradeOff least;       // of the least dwell, exact
   PricedTradeOff best;  // with next to no price: the least residual that the tool reaches, long as the run may be
+  PricedTradeOff here;  // of the price, by the same model as the next two
   PricedTradeOff half, twice;                // of the price
   std::optional<PricedTradeOff> unsmoothed;  // as best, without smoothness; nothing where the problem has none
   int models = 0;                            // that were solved

@@ -207,7 +207,15 @@ TEST(PlanCommand, FindsTheWeightThatMeetsATargetAndSaysWhich) {
   EXPECT_EQ(own["worth"]["rule"], "share");
   expect_has(usual.out, " (auto), time price ");
   expect_has(usual.out, "one per cent more time would lower the mean square left by 0.3 %");
-  expect_has(usual.out, "the least that this tool leaves on this path is about ");
+  expect_has(usual.out, "the least that this tool leaves on this path at this smoothness is about ");
+  // What the estimates compare with is the plan itself.
+  const json estimates = own["worth"]["estimates"], of_plan = summary_of(inputs);
+  const double left = of_plan["residual"]["rms_nm"], total = of_plan["dwell"]["total_s"];
+  EXPECT_LE(estimates["half_price"]["residual_rms_nm"], left);
+  EXPECT_GE(estimates["half_price"]["total_s"], total);
+  EXPECT_GE(estimates["twice_price"]["residual_rms_nm"], left);
+  EXPECT_LE(estimates["twice_price"]["total_s"], total);
+  EXPECT_LE(estimates["least_rms_nm"], left);
   expect_has(usual.out, "optimum   this plan's objective is at most ");
   const double limit = 0.9 * summary_of(inputs)["dwell"]["total_s"].get<double>();
   const ProgramResult result =
@@ -220,6 +228,13 @@ TEST(PlanCommand, FindsTheWeightThatMeetsATargetAndSaysWhich) {
   EXPECT_LE(s["dwell"]["total_s"], limit);
   EXPECT_GT(s["weights"]["time_price_nm2_per_s"], 0.0);
   EXPECT_TRUE(names_in(inputs / "plan").contains("search.csv"));
+  // Of another smoothness than the price was found with, the estimates would say nothing of this plan.
+  const ProgramResult smooth = inputs.run(SmallInputs::plan({"--smoothness", "step<=0.05", "--time-price", "auto"}));
+  ASSERT_EQ(smooth.exit_code, 0) << smooth.err;
+  expect_has(smooth.out, "found with the smoothness ");
+  EXPECT_EQ(smooth.out.find("half of it"), std::string::npos);
+  EXPECT_EQ(smooth.out.find("cost      "), std::string::npos);
+  EXPECT_FALSE(summary_of(inputs)["weights"]["worth"].contains("estimates"));
   // The next plan replaces this one whole, and has no search.
   ASSERT_EQ(inputs.run(SmallInputs::plan()).exit_code, 0);
   EXPECT_FALSE(names_in(inputs / "plan").contains("search.csv"));

@@ -57,5 +57,11 @@ TEST(RobustPv, NeedsAsManyPixelsAsTerms) {
   EXPECT_FALSE(robust_pv(map));
 }
 
+TEST(RobustPv, NeedsMoreThanALine) {
+  EXPECT_FALSE(robust_pv(HeightMap(Grid{1, 50, 0.5, 0.4, {}}, std::vector<double>(50, 1.0))));
+  EXPECT_FALSE(robust_pv(HeightMap(Grid{60, 5, 0.5, 0.4, {}}, std::vector<double>(300, 1.0))));
+  EXPECT_TRUE(robust_pv(HeightMap(Grid{60, 6, 0.5, 0.4, {}}, std::vector<double>(360, 1.0))));
+}
+
 }  // namespace
 }  // namespace dwell

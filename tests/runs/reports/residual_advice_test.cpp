@@ -29,7 +29,11 @@ TEST(ResidualAdvice, SaysWhatWouldLowerTheMeanSquareMost) {
   EXPECT_TRUE(says(anatomy(82, 6, 11, 1, 0), {}, "mask the blemishes"));
   EXPECT_TRUE(says(anatomy(0, 60, 40, 0, 0), {}, "overrun: the zone at the edge leaves"));
   EXPECT_TRUE(says(anatomy(0, 10, 89, 1, 0), {}, "this tool can go no further: 89 %"));
-  EXPECT_TRUE(says(anatomy(0, 10, 50, 30, 10), {}, "a finer path"));
+  EXPECT_TRUE(says(anatomy(0, 10, 50, 30, 10), {.price_cost = 0.0, .smoothness_cost = 0.0}, "a finer path"));
+  // What the weights cost is not known: they may be the cause.
+  EXPECT_TRUE(says(anatomy(0, 10, 50, 30, 10), {}, "a longer run, less smoothness or a finer path: 40 %"));
+  EXPECT_TRUE(says(anatomy(0, 0, 1, 0, 99), {.price_cost = 0.002, .smoothness_cost = 0.9971},
+                   "less smoothness: it costs at least 99.7 %"));
   EXPECT_TRUE(says(anatomy(0, 10, 60, 30, 0), {.price_cost = 0.05, .smoothness_cost = 0.3}, "less smoothness"));
   EXPECT_TRUE(says(anatomy(0, 10, 60, 30, 0), {.price_cost = 0.3, .smoothness_cost = 0.1}, "a longer run"));
 }
