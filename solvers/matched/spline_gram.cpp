@@ -149,5 +149,4 @@ void SplineGram::apply_row(Index r, const double* d, double* out) const {
   }
 }
 
-// Summed along a row within one coarse column first, as in add().
 }  // namespace dwell
