@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <stdexcept>
+#include <system_error>
 
 #include "core/base/text_lines.h"
 #include "core/base/whole_file.h"
@@ -135,7 +137,9 @@ std::vector<double> published_dwell(const std::filesystem::path& file) {
     }
     const std::size_t comma = line.rfind(',');
     double value = 0.0;
-    std::from_chars(line.data() + comma + 1, line.data() + line.size(), value);
+    const auto read = std::from_chars(line.data() + comma + 1, line.data() + line.size(), value);
+    if (comma == std::string::npos || read.ec != std::errc() || !(value >= 0.0))
+      throw std::runtime_error(fmt::format("{}: '{}' does not end in a dwell of 0 s or more", file.string(), line));
     dwell.push_back(value);
   }
   return dwell;
