@@ -103,6 +103,8 @@ ChildRun run_program(const std::filesystem::path& program, const std::vector<std
   for (std::string& w : words) argv.push_back(w.data());
   argv.push_back(nullptr);
   setenv("OMP_NUM_THREADS", std::to_string(options.threads).c_str(), 1);
+  // As `dwell` sets it for itself: threads that spin while they wait would count as CPU seconds of work.
+  setenv("OMP_WAIT_POLICY", "passive", 1);
 
   const auto begin = std::chrono::steady_clock::now();
   const pid_t child = fork();
