@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "core/base/errors.h"
 #include "core/base/memory.h"
@@ -112,7 +114,11 @@ WeightedDwell PlanProblem::solve(const Weights& weights, Vector start, double ma
   with(weights);
   if (kind_ == SolverKind::Auto) start.resize(0);  // see solve() in the header
   WeightedDwell found{weights, std::move(start), {}, {}};
-  found.solver = make_solver(solver_options(max_seconds, stage, progress))->solve(problem_, found.dwell);
+  SolverOptions options = solver_options(max_seconds, stage, progress);
+  found.solver = make_solver(options)->solve(problem_, found.dwell);
+  progress.check();
+  options.max_seconds = std::max(1e-9, max_seconds - found.solver.seconds);
+  doubt_settled(problem_, std::move(options), found.dwell, found.solver);
   progress.check();
   if (!found.solver.usable()) throw std::runtime_error("solver " + to_string(kind_) + ": " + found.solver.message);
   found.trade_off = trade_off_of(found.dwell);

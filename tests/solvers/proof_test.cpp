@@ -82,5 +82,62 @@ TEST(Proof, EndsWithoutOneWhereTheLimitsAreReached) {
   EXPECT_THROW(prove_optimum(part.problem, options, 0.0, s.t, s.summary, s.certificate), std::invalid_argument);
 }
 
+// A tolerance so loose that the solver rests after its first look.
+SolverOptions hasty() {
+  SolverOptions options;
+  options.kind = SolverKind::ProjectedLbfgs;
+  options.objective_tolerance = 1e6;
+  options.settle_iterations = 2;
+  return options;
+}
+
+TEST(Doubt, GoesOnFromASettledAnswerFarFromTheOptimum) {
+  RasteredPart part({.step = 3});
+  find_time_price(part.problem, {}, {});
+  SolverOptions options = hasty();
+  Solved s = solved(part.problem, options);
+  ASSERT_EQ(s.summary.status, SolverStatus::Settled) << s.summary.message;
+  ASSERT_GT(s.certificate.gap(), kSettledGap);
+  const long before = s.summary.iterations;
+  doubt_settled(part.problem, options, s.t, s.summary);
+  EXPECT_TRUE(s.summary.converged()) << s.summary.message;
+  EXPECT_GT(s.summary.iterations, before);
+  EXPECT_LE(certify(part.problem, s.t).gap(), kSettledGap);
+}
+
+TEST(Doubt, SaysStalledOfAnAnswerThatItCannotProve) {
+  RasteredPart part({.step = 3});
+  find_time_price(part.problem, {}, {});
+  SolverOptions options = hasty();
+  Solved s = solved(part.problem, options);
+  options.objective_tolerance = 1e-11;  // no stricter one is left to go on with
+  doubt_settled(part.problem, options, s.t, s.summary);
+  EXPECT_EQ(s.summary.status, SolverStatus::Stalled);
+  EXPECT_NE(s.summary.message.find("not proven to be within 25 % of the optimum's"), std::string::npos)
+      << s.summary.message;
+}
+
+TEST(Doubt, EndsWithTheLimitThatCutItShort) {
+  RasteredPart part({.step = 3});
+  find_time_price(part.problem, {}, {});
+  Solved s = solved(part.problem, hasty());
+  SolverOptions options = hasty();
+  options.objective_tolerance = 1e-8;
+  options.max_iterations = 3;
+  doubt_settled(part.problem, options, s.t, s.summary);
+  EXPECT_EQ(s.summary.status, SolverStatus::IterationLimit);
+  EXPECT_NE(s.summary.message.find("what is proven is"), std::string::npos) << s.summary.message;
+}
+
+TEST(Doubt, HasNothingToSayWithoutABound) {
+  RasteredPart part({.step = 3});
+  part.problem.gamma = 0.0;
+  Solved s = solved(part.problem, hasty());
+  const SolverSummary before = s.summary;
+  doubt_settled(part.problem, hasty(), s.t, s.summary);
+  EXPECT_EQ(s.summary.status, before.status);
+  EXPECT_EQ(s.summary.iterations, before.iterations);
+}
+
 }  // namespace
 }  // namespace dwell
