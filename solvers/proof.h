@@ -23,7 +23,7 @@ void prove_optimum(const DwellProblem& problem, SolverOptions options, double ga
 /// and the bound between 60 times and twice the optimum. Cost: two operator applications, and the solves of
 /// prove_optimum.
 inline constexpr double kSettledGap = 0.25;
-inline constexpr long kMostProofIterations = 500;
+inline constexpr long kMostProofIterations = 2000;
 void doubt_settled(const DwellProblem& problem, SolverOptions options, Vector& t, SolverSummary& summary);
 
 }  // namespace dwell
