@@ -36,9 +36,10 @@ constexpr long kLeastBeforeSettling = 48;  // on the dwell points: a warm start 
 // minimiser's own vectors. Measured on six scenarios: 10 to 40, and 45 to 60.
 constexpr double kPointWork = 25.0;
 constexpr double kSmoothWork = 60.0;
-// A settled objective that may, by the proven bound, still be above the optimum by more than this share is watched on
-// with a tolerance a tenth as large: how far the last rounds fell is a matter of chance.
-constexpr double kUncertain = 0.15;
+// An objective that falls by less than its tolerance, and may by the proven bound be above the optimum by no more than
+// the first share, is settled; up to the second it must fall by a tenth of the tolerance. Beyond, the work goes on.
+constexpr double kUncertain = 0.3;
+constexpr double kDoubtful = 1.0;
 constexpr double kStricter = 0.1;
 // A model leads on as long as its steps gain these shares of what they promise; with its own gradient, as long as the
 // full problem's gradient after a step is no more than so many times the model's.
@@ -78,8 +79,7 @@ class Run {
         t_(t),
         finest_(finest_factor(problem)),
         sigma_(narrowest_sigma(problem)),
-        pair_cost_(pair_cost(problem)),
-        tolerance_(options.objective_tolerance) {
+        pair_cost_(pair_cost(problem)) {
     monitor_ = [this](const QuadraticPoint& model) { return go_on(model); };
   }
 
@@ -235,10 +235,10 @@ class Run {
       const bool leads =
           exact ? gained > kLeadsOn * promised
                 : gained > kLeadsOnItsOwn * promised && gradient_norm(point_) < kOwnGradient * left_by_model;
-      const double little = tolerance_ * std::abs(before);
+      const double little = o_.objective_tolerance * std::abs(before);
       const bool watched = points_products_ >= kLeastBeforeSettling;
-      if (watched && gained < little && (leads || promised < little)) {
-        settle_unless_uncertain(gained, factor);
+      if (watched && gained < little && (leads || promised < little) && is_certain(gained / std::abs(before))) {
+        settle(gained, factor);
       } else if ((watched && rules_.undetermined(before, point_.value, total, point_.x.sum())) ||
                  (!leads && (exact || !fine))) {
         break;
@@ -276,13 +276,12 @@ class Run {
                     gradient_norm(point_) / rules_.gradient_scale()));
   }
 
-  void settle_unless_uncertain(double gained, CoarseFactor factor) {
-    const double gap = tolerance_ < o_.objective_tolerance ? 0.0 : proven_gap();
-    if (std::isfinite(gap) && gap > kUncertain) {
-      tolerance_ *= kStricter;
-    } else {
-      settle(gained, factor);
-    }
+  /// Whether a round that lowered the objective by so small a share of itself may be the last, by the proven bound. How
+  /// far one round falls is a matter of chance.
+  bool is_certain(double gained) {
+    const double gap = proven_gap();
+    return !std::isfinite(gap) || gap <= kUncertain ||
+           (gap <= kDoubtful && gained < kStricter * o_.objective_tolerance);
   }
 
   void settle(double gained, CoarseFactor factor) {
@@ -308,7 +307,6 @@ class Run {
   double sigma_, pair_cost_;  // of the narrowest removal function [pixels]; transform_cost of an operator pair
   double product_cost_ = 0.0;
 
-  double tolerance_;                        // of the objective; the options' or less
   double product_work_ = 0.0, work_ = 0.0;  // in operator pairs
   long products_ = 0, budget_ = 0;          // of the running round
   long next_look_ = 0, most_products_ = std::numeric_limits<long>::max();

@@ -258,22 +258,6 @@ TEST(PlanCommand, GoesOnUntilTheOptimumIsProvenOrSaysThatItIsNot) {
   }
 }
 
-TEST(PlanCommand, GoesOnFarEnoughThatItsAnswerDoesNotDependOnTheSolverOrSaysSo) {
-  const SmallInputs inputs;
-  // By its own rule, lbfgsb rests here at what the bound says may be 35 % above the optimum.
-  const ProgramResult plan =
-      inputs.run(SmallInputs::plan({"--time-price", "1e-6", "--smoothness", "0.1", "--solver", "lbfgsb"}));
-  ASSERT_EQ(plan.exit_code, 0) << plan.err;
-  EXPECT_LE(summary_of(inputs)["solve"]["certificate"]["gap_relative"], 0.25);
-  EXPECT_EQ(plan.err.find("not proven"), std::string::npos) << plan.err;
-  // This one ends caught, at 27 %.
-  const ProgramResult caught = inputs.run(
-      SmallInputs::plan({"--time-price", "1e-6", "--smoothness", "0.1", "--solver", "spectral-projected-gradient"}));
-  EXPECT_EQ(caught.exit_code, 3) << caught.err;
-  EXPECT_GT(summary_of(inputs)["solve"]["certificate"]["gap_relative"], 0.25);
-  expect_has(caught.err, ": stalled: ");
-}
-
 TEST(PlanCommand, ATargetOutOfReachStillPlansWithExitCode3) {
   const SmallInputs inputs;
   const ProgramResult result = inputs.run(SmallInputs::plan({"--time-price", "total<=0.001"}));
