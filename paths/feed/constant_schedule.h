@@ -1,0 +1,30 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include <vector>
+
+#include "paths/feed/kinematic_path.h"
+#include "paths/feed/stroke_moves.h"
+
+namespace dwell {
+
+/// One feed a stroke, as plain G-code says it, compensated for what the controller makes of it.
+struct ConstantSchedule {
+  std::vector<double> feed;  // to command on every stroke [mm/s]; 0 for halts
+  Eigen::VectorXd seconds;   // that every stroke then takes [s]; of halts their dwell
+  int rounds = 0;
+  double worst_error = 0.0;  // largest |seconds - dwell| / dwell over strokes that could be held
+  Index too_short = 0;       // strokes that take longer than their dwell even at the highest feed
+};
+
+/// Feeds with which a controller that accelerates as trapezoids, looks ahead and takes corners as the machine does
+/// spends on every stroke its dwell [s]. For known speeds at the nodes the feed of a stroke follows from its dwell
+/// (feed_for_time), and for known feeds the speeds at the nodes follow from two passes (node_speeds_squared): this is
+/// repeated until both hold, from the fifth round on with half the change, which ends the swinging of strokes that hold
+/// each other back. A stroke at a corner must be faster elsewhere. dwell: n values, finite, >= 0. Cost: about 20 rounds
+/// of O(moves).
+ConstantSchedule schedule_constant(const StrokeMoves& moves, const KinematicPath& path, const Machine& machine,
+                                   const Eigen::VectorXd& dwell);
+
+}  // namespace dwell

@@ -1,0 +1,72 @@
+#include "paths/feed/kinematic_path.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace dwell {
+namespace {
+
+// Coordinates in files are rounded to 1e-6 mm, which turns a straight line by no more than this over the length of a
+// move, and no machine tells a tenth of a milliradian from straight on.
+constexpr double kRounding = 2e-6;    // [mm]
+constexpr double kStraightOn = 1e-4;  // [rad]
+
+/// The highest squared speed between two moves.
+double corner_speed_squared(const ProgramStep& before, const ProgramStep& after, double acceleration,
+                            const Machine& machine) {
+  const Point a = before.finish - before.start, b = after.finish - after.start;
+  const double la = length(a), lb = length(b);
+  const double turn = std::atan2(std::abs(a.x * b.y - a.y * b.x), dot(a, b));
+  if (turn <= kStraightOn + kRounding * (1.0 / la + 1.0 / lb)) return std::numeric_limits<double>::infinity();
+  switch (machine.corner) {
+    case CornerRule::ExactStop:
+      return 0.0;
+    case CornerRule::Free:
+      return std::numeric_limits<double>::infinity();
+    case CornerRule::JunctionDeviation:
+      break;
+  }
+  const double s = std::cos(0.5 * turn);  // the angle between the moves is what the turn lacks to a half circle
+  return acceleration * machine.junction_deviation * s / (1.0 - s);
+}
+
+}  // namespace
+
+KinematicPath kinematic_path(const std::vector<ProgramStep>& steps, const Machine& machine) {
+  KinematicPath path;
+  path.moves.reserve(steps.size());
+  for (const ProgramStep& step : steps) {
+    const Point along = step.finish - step.start;
+    path.moves.push_back({length(along), speed_limit(machine, along), acceleration_limit(machine, along)});
+  }
+  path.corner.assign(steps.size() + 1, 0.0);
+  path.stops.assign(steps.size() + 1, 0);
+  for (std::size_t i = 0; i + 1 < steps.size(); ++i) {
+    const KinematicMove &before = path.moves[i], &after = path.moves[i + 1];
+    if (!(before.length > 0.0) || !(after.length > 0.0) || steps[i].removes != steps[i + 1].removes) continue;
+    path.corner[i + 1] =
+        corner_speed_squared(steps[i], steps[i + 1], std::min(before.acceleration, after.acceleration), machine);
+    path.stops[i + 1] = static_cast<char>(path.corner[i + 1] == 0.0);
+  }
+  return path;
+}
+
+std::vector<double> node_speeds_squared(const KinematicPath& path, const std::vector<double>& feed) {
+  const std::size_t n = path.size();
+  std::vector<double> u = path.corner;
+  const auto highest = [&](std::size_t i) {
+    const double v = std::min(feed[i], path.moves[i].max_speed);
+    return v * v;
+  };
+  for (std::size_t i = 0; i < n; ++i) {
+    u[i] = std::min(u[i], highest(i));
+    u[i + 1] = std::min(u[i + 1], highest(i));
+  }
+  const auto gain = [&](std::size_t i) { return 2.0 * path.moves[i].acceleration * path.moves[i].length; };
+  for (std::size_t i = 0; i < n; ++i) u[i + 1] = std::min(u[i + 1], u[i] + gain(i));
+  for (std::size_t i = n; i-- > 0;) u[i] = std::min(u[i], u[i + 1] + gain(i));
+  return u;
+}
+
+}  // namespace dwell

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <vector>
+
+#include "core/motion/program.h"
+#include "paths/feed/machine.h"
+
+namespace dwell {
+
+/// A straight move with what the machine can do along it, or a halt (length 0).
+struct KinematicMove {
+  double length = 0.0;        // [mm]
+  double max_speed = 0.0;     // [mm/s]
+  double acceleration = 0.0;  // [mm/s^2]
+};
+
+/// Moves one after the other. Move i goes from node i to node i + 1.
+struct KinematicPath {
+  std::vector<KinematicMove> moves;
+  std::vector<double> corner;  // highest squared speed at every node [mm^2/s^2]; 0 = the machine comes to rest
+  std::vector<char> stops;     // of every node: exact stops, where the machine's corner delay goes by
+
+  std::size_t size() const { return moves.size(); }
+};
+
+/// The corner rule that holds at the end of a program's step: the machine's, or what the program's path mode makes of
+/// it. Exact stop: CornerRule::ExactStop at every turn, straight on too if the program says G61.1.
+///
+/// The moves of consecutive steps on a machine. It rests at the beginning, at the end, at halts and where the tool is
+/// lifted or lowered. Between two moves that turn by more than rounding explains, the squared speed is at most a d s /
+/// (1 - s) with a the lesser acceleration, d the junction deviation and s the sine of half the angle between the moves
+/// (Jeon 2011, "Improving Grbl: cornering algorithm"), 0 for an exact stop. Cost O(steps).
+KinematicPath kinematic_path(const std::vector<ProgramStep>& steps, const Machine& machine);
+
+/// The highest squared speed at every node [mm^2/s^2] for a highest speed on every move (`feed`; taken as at most the
+/// move's own): what corner and both feeds allow, reached by constant acceleration from both neighbours (a pass forward
+/// and one back, as controllers look ahead). Cost O(moves).
+std::vector<double> node_speeds_squared(const KinematicPath& path, const std::vector<double>& feed);
+
+}  // namespace dwell

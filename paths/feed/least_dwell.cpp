@@ -1,0 +1,36 @@
+#include "paths/feed/least_dwell.h"
+
+#include <cmath>
+
+#include "paths/feed/trapezoid.h"
+
+namespace dwell {
+
+Eigen::VectorXd stop_delays(const StrokeMoves& moves, const KinematicPath& path, const Machine& machine) {
+  Eigen::VectorXd delay = Eigen::VectorXd::Zero(moves.strokes);
+  if (machine.corner_delay == 0.0) return delay;
+  for (std::size_t i = 1; i < moves.size(); ++i) {
+    if (path.stops[i] == 0) continue;
+    for (const Index j : {moves.stroke[i - 1], moves.stroke[i]}) {
+      if (j != StrokeMoves::kNoStroke) delay[j] += 0.5 * machine.corner_delay;
+    }
+  }
+  return delay;
+}
+
+Eigen::VectorXd least_dwell(const StrokeMoves& moves, const KinematicPath& path, const Machine& machine) {
+  std::vector<double> fastest;
+  fastest.reserve(path.size());
+  for (const KinematicMove& move : path.moves) fastest.push_back(move.max_speed);
+  const std::vector<double> u = node_speeds_squared(path, fastest);
+  Eigen::VectorXd least = stop_delays(moves, path, machine);
+  for (std::size_t i = 0; i < moves.size(); ++i) {
+    const KinematicMove& move = path.moves[i];
+    if (moves.stroke[i] == StrokeMoves::kNoStroke || !(move.length > 0.0)) continue;
+    least[moves.stroke[i]] +=
+        time_at_feed({move.length, move.acceleration, std::sqrt(u[i]), std::sqrt(u[i + 1])}, move.max_speed);
+  }
+  return least;
+}
+
+}  // namespace dwell

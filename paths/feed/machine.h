@@ -1,0 +1,50 @@
+#pragma once
+
+#include <array>
+#include <limits>
+#include <string_view>
+
+#include "core/base/point.h"
+
+namespace dwell {
+
+/// What one axis of a machine can do.
+struct MachineAxis {
+  double lowest = -std::numeric_limits<double>::infinity();  // of its travel [mm]
+  double highest = std::numeric_limits<double>::infinity();
+  double max_speed = std::numeric_limits<double>::infinity();         // [mm/s], > 0
+  double max_acceleration = std::numeric_limits<double>::infinity();  // [mm/s^2], > 0
+};
+
+/// How a machine takes the corner between two straight moves.
+enum class CornerRule {
+  ExactStop,          // it comes to rest there
+  JunctionDeviation,  // at the speed of an arc that would leave the corner by junction_deviation
+  Free,               // at any speed
+};
+
+std::string_view to_string(CornerRule rule);
+
+/// A machine with two axes in the part's plane and one along the tool, as far as its motion decides what is removed.
+/// Infinite limits do not bind. A default machine has none and is what a plan without a machine takes for granted.
+struct Machine {
+  MachineAxis x{}, y{}, z{};
+  double max_feed = std::numeric_limits<double>::infinity();           // along the path [mm/s], > 0
+  double path_acceleration = std::numeric_limits<double>::infinity();  // along the path [mm/s^2], > 0
+  CornerRule corner = CornerRule::ExactStop;
+  double junction_deviation = 0.01;  // [mm], > 0
+  double corner_delay = 0.0;         // at rest at each exact stop [s], >= 0
+  double min_feed = 0.0;             // [mm/s], >= 0
+};
+
+/// Highest speed [mm/s] along a direction: every axis within its own, and the path within its own. `along` need not
+/// have length 1; 0 has no limit but the path's.
+double speed_limit(const Machine& machine, Point along);
+/// The same for acceleration [mm/s^2].
+double acceleration_limit(const Machine& machine, Point along);
+
+/// Throws InputError naming the fields of the machine that contradict each other, with both values: a travel of no
+/// length, a minimum feed above what an axis or the path can do; or the one that is out of range.
+void validate(const Machine& machine);
+
+}  // namespace dwell

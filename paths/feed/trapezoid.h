@@ -1,0 +1,40 @@
+#pragma once
+
+#include <vector>
+
+namespace dwell {
+
+/// A straight move as a controller runs it: from one speed to another at constant acceleration, with a stretch at the
+/// commanded feed between them if there is room. The ends must be within reach of each other: |out^2 - in^2| <= 2
+/// acceleration length.
+struct Trapezoid {
+  double length;        // [mm], > 0
+  double acceleration;  // [mm/s^2], > 0; may be infinite
+  double speed_in;      // [mm/s], >= 0
+  double speed_out;
+};
+
+/// The highest speed that a move reaches if the feed does not hold it back [mm/s].
+double peak_speed(const Trapezoid& move);
+
+/// Time of a move at a feed [s]. The feed counts as at least the speeds at the ends and at most the peak. Infinite at a
+/// feed of 0.
+double time_at_feed(const Trapezoid& move, double feed);
+
+/// The feed at which moves together take a time [s], or `most` where even that is too slow. They are the moves of one
+/// stroke, which have one feed. Where it is below the speeds at the ends it is what schedule_constant goes on with, and
+/// the moves take less than the time. Cost: a few passes over the moves.
+double feed_for_time(const std::vector<Trapezoid>& moves, double seconds, double most);
+
+/// A stretch of a move at constant acceleration.
+struct MotionPiece {
+  double length;  // [mm]
+  double speed_in, speed_out;
+
+  double seconds() const { return length > 0.0 ? 2.0 * length / (speed_in + speed_out) : 0.0; }
+};
+
+/// The pieces of a move at a feed, in order: acceleration, feed, deceleration; those without length left out.
+std::vector<MotionPiece> pieces_at_feed(const Trapezoid& move, double feed);
+
+}  // namespace dwell
