@@ -29,8 +29,8 @@ int usable_cores() {
 
 }  // namespace
 
-Machine this_machine() {
-  Machine m;
+Computer this_machine() {
+  Computer m;
   m.processor = processor_name();
   m.cores = usable_cores();
   m.memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE)) / 0x1p30;

@@ -5,7 +5,7 @@
 namespace dwell::bench {
 
 /// The machine and program that made a measurement: everything that can change its numbers.
-struct Machine {
+struct Computer {
   std::string processor;  // as the kernel names it
   int cores = 0;          // that this process may use
   double memory = 0.0;    // [GiB]
@@ -17,6 +17,6 @@ struct Machine {
 };
 
 /// The machine that this process runs on.
-Machine this_machine();
+Computer this_machine();
 
 }  // namespace dwell::bench

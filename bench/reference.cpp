@@ -88,7 +88,7 @@ std::string rule_of(const Answer& answer) {
 
 nlohmann::json make_reference(const Scenario& scenario, const std::optional<ScenarioWeights>& weights, int threads,
                               double max_seconds) {
-  const Machine machine = this_machine();
+  const Computer machine = this_machine();
   Instance instance = make_instance(scenario, threads);
   nlohmann::json result;
   ScenarioWeights set;

@@ -8,7 +8,7 @@
 
 namespace dwell::bench {
 
-nlohmann::json to_json(const Machine& m) {
+nlohmann::json to_json(const Computer& m) {
   return {{"processor", m.processor}, {"cores", m.cores},   {"memory_gib", m.memory}, {"compiler", m.compiler},
           {"flags", m.flags},         {"commit", m.commit}, {"fftw", m.fftw},         {"date", m.date}};
 }

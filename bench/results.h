@@ -7,7 +7,7 @@
 
 namespace dwell::bench {
 
-nlohmann::json to_json(const Machine& machine);
+nlohmann::json to_json(const Computer& machine);
 nlohmann::json to_json(const MicroResult& result);
 
 /// The results of a part as a Markdown table: of run_micro, run_certificates, run_plans.
