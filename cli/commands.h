@@ -11,6 +11,7 @@ void add_pareto_command(CLI::App& program, int& exit_code);
 void add_simulate_command(CLI::App& program, int& exit_code);
 void add_map_command(CLI::App& program, int& exit_code);
 void add_tif_command(CLI::App& program, int& exit_code);
+void add_machine_command(CLI::App& program, int& exit_code);
 void add_example_command(CLI::App& program, int& exit_code);
 
 }  // namespace dwell::cli

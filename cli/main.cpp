@@ -56,6 +56,7 @@ int run(int argc, char** argv) {
   add_simulate_command(program, exit_code);
   add_map_command(program, exit_code);
   add_tif_command(program, exit_code);
+  add_machine_command(program, exit_code);
   add_example_command(program, exit_code);
   check_json_words({argv + 1, argv + argc});
   try {

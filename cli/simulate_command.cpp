@@ -24,6 +24,7 @@
 #include "runs/programs/program_formats.h"
 #include "runs/reports/anatomy_lines.h"
 #include "runs/reports/exact_lines.h"
+#include "runs/reports/machine_report.h"
 #include "runs/reports/map_line.h"
 #include "runs/reports/recorded_plan.h"
 #include "runs/reports/simulation.h"
@@ -34,7 +35,7 @@ namespace {
 
 struct SimulateArguments {
   std::unique_ptr<JobArguments> job;
-  std::string plan, program, gcode, g4, residual, png;
+  std::string plan, program, machine, gcode, g4, residual, png;
   JsonOption json;
   bool exact = false;
   OtherInputs other;
@@ -119,6 +120,7 @@ SimulationRequest request_of(const SimulateArguments& a) {
 void check_outputs(const SimulateArguments& a, const JobOptions& options, const std::string& program) {
   std::vector<ReadFile> read = a.job->files_read(options);
   read.push_back({"the program", program});
+  read.push_back({"the machine", a.machine});
   if (!a.plan.empty())
     read.push_back({"the plan's summary", (std::filesystem::path(a.plan) / "summary.json").string()});
   check_output_files(
@@ -134,6 +136,20 @@ std::string lifted_words(const Simulation& s) {
                      s.max_feed ? "the plan's maximum" : "the program's fastest");
 }
 
+/// What the machine makes of the program; empty without one.
+std::string executed_lines(const Simulation& s) {
+  if (!s.executed) return "";
+  const ExecutedProgram& e = *s.executed;
+  return machine_lines(e.machine) +
+         fmt::format("executed  {} for the run, {} of {} take over 1 % longer than commanded; up to {:.4g} mm/s^2\n",
+                     duration_text(e.run_seconds), e.slow_steps, counted(e.removing_steps, "removing step"),
+                     e.max_acceleration) +
+         fmt::format(
+             "commanded {} and {}, if every move had its speed from end to end; the removals differ by {:.4g} nm "
+             "RMS\n",
+             in_words(e.commanded.residual), duration_text(e.commanded.run_seconds), e.removal_change);
+}
+
 std::string simulation_text(const Simulation& s) {
   std::string notes;
   for (const std::string& note : s.program.notes) notes += fmt::format("          {}\n", note);
@@ -143,7 +159,7 @@ std::string simulation_text(const Simulation& s) {
          fmt::format("program   {}: {}, {:.6g} mm with removal, {}{}\n", s.program.file,
                      counted(s.program.steps.size(), "step"), s.program.removing_length(),
                      duration_text(s.program.run_seconds(s.max_feed)), lifted_words(s)) +
-         notes + map_line(s.map.grid, s.before.valid_pixels) + tool_lines(tool_sheet(s.tif)) +
+         notes + executed_lines(s) + map_line(s.map.grid, s.before.valid_pixels) + tool_lines(tool_sheet(s.tif)) +
          fmt::format("before    {} ({} removed, {})\n", in_words(s.before), to_string(s.terms),
                      counted(s.before.valid_pixels, "pixel")) +
          fmt::format("after     {} ({} removed)\n", in_words(s.after.statistics), to_string(s.terms)) +
@@ -184,7 +200,8 @@ int run_simulate(const SimulateArguments& arguments) {
   const SimulateArguments& a = arguments;
   if (!a.gcode.empty()) reading.dialect = of_option("--gcode", [&a] { return parse_gcode_dialect(a.gcode); });
   if (!a.g4.empty()) reading.halts = of_option("--g4", [&a] { return parse_halt_unit(a.g4); });
-  const SimulationRequest request = request_of(arguments);
+  SimulationRequest request = request_of(arguments);
+  request.source.machine = a.machine;
   check_outputs(arguments, request.options, request.program);
   const Progress progress = terminal_progress();
   const Simulation s = simulated(arguments, request, reading, progress);
@@ -220,6 +237,12 @@ void add_simulate_command(CLI::App& program, int& exit_code) {
       ->type_name("PLAN");
   command->add_option("--program", arguments->program, program_files() + ": a program alone")->type_name("FILE");
   arguments->job = std::make_unique<JobArguments>(*command, flags, false);
+  command
+      ->add_option(
+          "--machine", arguments->machine,
+          "machine file (docs/motion.md): execute the program as this machine does, with its accelerations and "
+          "corners, instead of at the commanded speeds")
+      ->type_name("FILE");
   command
       ->add_option("--gcode", arguments->gcode,
                    "what F means in a G93 program that does not say so: g93-per-minute or g93-seconds")

@@ -17,13 +17,17 @@ constexpr double kPartsFromRest = 12.0;
 class Runner {
  public:
   Runner(const Program& program, const Machine& machine)
-      : program_(program), machine_(machine), path_(kinematic_path(program.steps, machine)) {
+      : program_(program), machine_(machine), path_(kinematic_path(program, machine)) {
     for (std::size_t i = 0; i < program.steps.size(); ++i) feed_.push_back(commanded_feed(i));
     u_ = node_speeds_squared(path_, feed_);
     result_.motion = program;
     result_.motion.steps.clear();
     result_.motion.path_modes.clear();
-    result_.motion.rapid_length = 0.0;
+    if (std::isfinite(machine.max_feed)) result_.motion.fastest_feed = machine.max_feed;
+    for (const ProgramStep& step : program.steps) {  // what is left are the ways up
+      if (is_rapid(step)) result_.motion.rapid_length -= step.length();
+    }
+    result_.motion.rapid_length = std::max(0.0, result_.motion.rapid_length);
   }
 
   Execution run(const Progress& progress) {
@@ -37,10 +41,13 @@ class Runner {
   }
 
  private:
+  static bool is_rapid(const ProgramStep& step) { return !step.removes && !(step.seconds > 0.0); }
+
   double commanded_feed(std::size_t i) const {
     const ProgramStep& step = program_.steps[i];
     const double most = path_.moves[i].max_speed;
-    return step.seconds > 0.0 ? std::min(most, step.length() / step.seconds) : most;
+    if (step.seconds > 0.0) return std::min(most, step.length() / step.seconds);
+    return std::isfinite(most) || !(program_.fastest_feed > 0.0) ? most : program_.fastest_feed;
   }
 
   double half_rest(std::size_t node) const { return path_.stops[node] != 0 ? 0.5 * machine_.corner_delay : 0.0; }

@@ -11,7 +11,8 @@ namespace dwell {
 /// The motion that a machine makes of a program.
 struct Execution {
   /// Steps so short that each may count as one at constant speed: where the machine accelerates, a step of the program
-  /// is cut into several. Their seconds are exact. Lifted steps have the time that the machine takes for them.
+  /// is cut into several. Their seconds are exact. Rapids have the time that the machine takes for them, but for the
+  /// way up, which is left in motion.rapid_length.
   Program motion;
   std::vector<double> seconds;    // of every step of the program, rests at exact stops halved between their two steps
   double max_speed = 0.0;         // reached at work [mm/s]
@@ -19,9 +20,9 @@ struct Execution {
 };
 
 /// Runs a program's steps on a machine: each as a trapezoid of speed from its entry to its exit with the commanded feed
-/// = length / seconds between (the machine's maximum where the program does not say it, as for rapids), the speeds at
-/// the nodes as node_speeds_squared looks ahead, corners and delays as the machine takes them. Throws Interrupted. Cost
-/// O(steps).
+/// = length / seconds between (of rapids, which say none, the machine's maximum, or else the program's fastest), the
+/// speeds at the nodes as node_speeds_squared looks ahead, corners and delays as the machine takes them. Throws
+/// InputError as kinematic_path, Interrupted. Cost O(steps).
 Execution execute(const Program& program, const Machine& machine, const Progress& progress = {});
 
 }  // namespace dwell

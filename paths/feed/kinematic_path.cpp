@@ -1,8 +1,12 @@
 #include "paths/feed/kinematic_path.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "core/base/errors.h"
 
 namespace dwell {
 namespace {
@@ -13,13 +17,13 @@ constexpr double kRounding = 2e-6;    // [mm]
 constexpr double kStraightOn = 1e-4;  // [rad]
 
 /// The highest squared speed between two moves.
-double corner_speed_squared(const ProgramStep& before, const ProgramStep& after, double acceleration,
+double corner_speed_squared(const ProgramStep& before, const ProgramStep& after, double acceleration, CornerRule rule,
                             const Machine& machine) {
   const Point a = before.finish - before.start, b = after.finish - after.start;
   const double la = length(a), lb = length(b);
   const double turn = std::atan2(std::abs(a.x * b.y - a.y * b.x), dot(a, b));
   if (turn <= kStraightOn + kRounding * (1.0 / la + 1.0 / lb)) return std::numeric_limits<double>::infinity();
-  switch (machine.corner) {
+  switch (rule) {
     case CornerRule::ExactStop:
       return 0.0;
     case CornerRule::Free:
@@ -31,9 +35,14 @@ double corner_speed_squared(const ProgramStep& before, const ProgramStep& after,
   return acceleration * machine.junction_deviation * s / (1.0 - s);
 }
 
-}  // namespace
+/// What holds at the end of a step: a rule for corners, and whether it holds straight on as well.
+struct EndRule {
+  CornerRule corner;
+  bool everywhere;
+};
 
-KinematicPath kinematic_path(const std::vector<ProgramStep>& steps, const Machine& machine) {
+template <class RuleAt>
+KinematicPath make_path(const std::vector<ProgramStep>& steps, const Machine& machine, const RuleAt& rule_at) {
   KinematicPath path;
   path.moves.reserve(steps.size());
   for (const ProgramStep& step : steps) {
@@ -45,11 +54,40 @@ KinematicPath kinematic_path(const std::vector<ProgramStep>& steps, const Machin
   for (std::size_t i = 0; i + 1 < steps.size(); ++i) {
     const KinematicMove &before = path.moves[i], &after = path.moves[i + 1];
     if (!(before.length > 0.0) || !(after.length > 0.0) || steps[i].removes != steps[i + 1].removes) continue;
+    const EndRule rule = rule_at(i);
+    const double acceleration = std::min(before.acceleration, after.acceleration);
     path.corner[i + 1] =
-        corner_speed_squared(steps[i], steps[i + 1], std::min(before.acceleration, after.acceleration), machine);
+        rule.everywhere ? 0.0 : corner_speed_squared(steps[i], steps[i + 1], acceleration, rule.corner, machine);
     path.stops[i + 1] = static_cast<char>(path.corner[i + 1] == 0.0);
   }
   return path;
+}
+
+void refuse_blending(const Program& program) {
+  for (const PathModeChange& change : program.path_modes) {
+    if (change.mode.kind != PathMode::Kind::Blended) continue;
+    throw InputError(fmt::format(
+        "{}: from step {} on the controller may round corners (G64), and where the tool then goes is not in the "
+        "program; its motion on a machine can be told for G61 and G61.1, or without a path mode",
+        program.file, change.first_step + 1));
+  }
+}
+
+}  // namespace
+
+KinematicPath kinematic_path(const std::vector<ProgramStep>& steps, const Machine& machine) {
+  return make_path(steps, machine, [&machine](std::size_t) { return EndRule{machine.corner, false}; });
+}
+
+KinematicPath kinematic_path(const Program& program, const Machine& machine) {
+  refuse_blending(program);
+  std::size_t next = 0;
+  EndRule rule{machine.corner, false};
+  return make_path(program.steps, machine, [&](std::size_t step) {
+    for (; next < program.path_modes.size() && program.path_modes[next].first_step <= step; ++next)
+      rule = {CornerRule::ExactStop, program.path_modes[next].mode.kind == PathMode::Kind::ExactStop};
+    return rule;
+  });
 }
 
 std::vector<double> node_speeds_squared(const KinematicPath& path, const std::vector<double>& feed) {

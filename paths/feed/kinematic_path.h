@@ -23,14 +23,16 @@ struct KinematicPath {
   std::size_t size() const { return moves.size(); }
 };
 
-/// The corner rule that holds at the end of a program's step: the machine's, or what the program's path mode makes of
-/// it. Exact stop: CornerRule::ExactStop at every turn, straight on too if the program says G61.1.
-///
 /// The moves of consecutive steps on a machine. It rests at the beginning, at the end, at halts and where the tool is
 /// lifted or lowered. Between two moves that turn by more than rounding explains, the squared speed is at most a d s /
 /// (1 - s) with a the lesser acceleration, d the junction deviation and s the sine of half the angle between the moves
 /// (Jeon 2011, "Improving Grbl: cornering algorithm"), 0 for an exact stop. Cost O(steps).
 KinematicPath kinematic_path(const std::vector<ProgramStep>& steps, const Machine& machine);
+
+/// The same for a program, whose path modes come before the machine's corner rule: with an exact path (G61) it rests
+/// where two moves meet at an angle, with exact stops (G61.1) at the end of every move. Throws InputError for a path
+/// that the controller blends (G64): where the tool then goes is not in the program.
+KinematicPath kinematic_path(const Program& program, const Machine& machine);
 
 /// The highest squared speed at every node [mm^2/s^2] for a highest speed on every move (`feed`; taken as at most the
 /// move's own): what corner and both feeds allow, reached by constant acceleration from both neighbours (a pass forward

@@ -4,8 +4,11 @@
 #include <fmt/ranges.h>
 #include <toml++/toml.h>
 
+#include <array>
 #include <cmath>
+#include <limits>
 #include <sstream>
+#include <utility>
 
 #include "core/base/errors.h"
 #include "core/base/version.h"
@@ -185,7 +188,7 @@ std::string machine_text(const NamedMachine& machine) {
   std::ostringstream name;
   name << toml::value<std::string>(machine.name);
   std::string text = fmt::format(
-      "# Machine file of dwell {}: dwell plan --machine THIS.toml, dwell simulate --machine THIS.toml\n"
+      "# Machine file of dwell {}: dwell simulate --machine THIS.toml\n"
       "# What is left out has no limit.\n\nschema = 1\nname = {}\n",
       version(), name.str());
   std::string section;

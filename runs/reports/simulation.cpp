@@ -7,15 +7,19 @@
 
 #include "core/base/counted.h"
 #include "core/base/whole_file.h"
+#include "core/form/map_statistics.h"
 #include "core/form/robust_pv.h"
 #include "core/map/part_distance.h"
 #include "core/removal/simulate.h"
+#include "paths/feed/execution.h"
+#include "paths/feed/machine_check.h"
 #include "runs/base/inputs_json.h"
 #include "runs/job/job.h"
 #include "runs/plan/program_prediction.h"
 #include "runs/programs/program_reader.h"
 #include "runs/reports/anatomy_lines.h"
 #include "runs/reports/exact_lines.h"
+#include "runs/reports/machine_report.h"
 #include "runs/reports/residual_advice.h"
 #include "runs/reports/tool_sheet.h"
 
@@ -34,6 +38,36 @@ void check_steps(const Program& program, const Part& part) {
       });
     }
   }
+}
+
+/// A program as a machine runs it, in the place of the program as commanded.
+Program executed_on(const NamedMachine& machine, const Program& program, ExecutedProgram& executed,
+                    std::vector<std::string>& limits, const Progress& progress) {
+  progress.report("simulate: motion of the machine");
+  Execution run = execute(program, machine.machine, progress);
+  limits = beyond_machine(program, machine.machine);
+  executed.machine = machine;
+  executed.run_seconds = run.motion.run_seconds();
+  executed.max_acceleration = run.max_acceleration;
+  constexpr double kSlow = 1.01;
+  for (std::size_t i = 0; i < program.steps.size(); ++i) {
+    const ProgramStep& step = program.steps[i];
+    if (!step.removes || !(step.length() > 0.0)) continue;
+    ++executed.removing_steps;
+    executed.slow_steps += static_cast<std::size_t>(run.seconds[i] > kSlow * step.seconds);
+  }
+  return std::move(run.motion);
+}
+
+/// What the commanded speeds would leave, beside what the motion leaves.
+void compare_with_commanded(const Part& part, const Program& program, const LatticeChoice& lattice, Simulation& s,
+                            const Progress& progress) {
+  ExecutedProgram& executed = *s.executed;
+  const ExactResidual commanded = predict_program(part, program, lattice.kernel, progress);
+  executed.commanded = {commanded.statistics, program.run_seconds(s.max_feed)};
+  HeightMap change = commanded.surface;
+  for (std::size_t i = 0; i < change.values.size(); ++i) change.values[i] -= s.after.surface.values[i];
+  executed.removal_change = map_statistics(change, part.form, part.threads).rms_about_zero();
 }
 
 }  // namespace
@@ -61,14 +95,21 @@ Simulation simulate_file(const std::filesystem::path& program, const GcodeReadin
   s.tif = part.tif;
   s.volume_factor = part.kernel.volume_factor;
   check_steps(s.program, part);
+  std::optional<Program> motion;
+  if (!source.machine.empty()) {
+    s.inputs.push_back({"machine", source.machine, sha256_of_file(source.machine)});
+    motion = executed_on(read_machine_file(source.machine), s.program, s.executed.emplace(), s.limits, progress);
+  }
+  const Program& run = motion ? *motion : s.program;
   const Progress simulating = progress.of_part(fmt::format("simulate {}", counted(s.program.steps.size(), "step")));
-  LatticeChoice lattice = choose_lattice(part, removing_steps(s.program).strokes, simulating);
-  s.after = predict_program(part, s.program, lattice.kernel, simulating,
-                            every_pixel ? ExactCheck::EveryPixel : ExactCheck::Figure);
+  LatticeChoice lattice = choose_lattice(part, removing_steps(run).strokes, simulating);
+  s.after =
+      predict_program(part, run, lattice.kernel, simulating, every_pixel ? ExactCheck::EveryPixel : ExactCheck::Figure);
   while (!s.after.all && lattice_too_coarse(s.after, part.before) && !lattice.finest) {
     lattice = finer_lattice(part, lattice);
-    s.after = predict_program(part, s.program, lattice.kernel, simulating);
+    s.after = predict_program(part, run, lattice.kernel, simulating);
   }
+  if (s.executed) compare_with_commanded(part, s.program, lattice, s, simulating);
   s.after.statistics = with_robust_pv(s.after.statistics, s.after.surface, part.threads);
   s.anatomy = residual_anatomy(s.after.surface, part.tif.fwhm, part.form, part.threads, BlemishSearch::On,
                                progress.of_part("what is left"));
@@ -85,6 +126,17 @@ std::string simulation_json(const Simulation& s) {
   json["tif"] = tif_block(s.tif, kind_of(s.tif), s.tif.samples.history, s.volume_factor);
   json["tool"] = tool_block(tool_sheet(s.tif));
   json["program"] = program_block(program_figures(s.program, s.after, to_string(s.terms), s.max_feed));
+  if (s.executed) {
+    const ExecutedProgram& e = *s.executed;
+    json["machine"] = machine_block(e.machine);
+    json["executed"] = {{"total_s", e.run_seconds},
+                        {"slow_steps", e.slow_steps},
+                        {"removing_steps", e.removing_steps},
+                        {"max_acceleration_mm_per_s2", e.max_acceleration},
+                        {"removal_change_rms_nm", e.removal_change},
+                        {"commanded_rms_nm", e.commanded.residual.rms},
+                        {"commanded_total_s", e.commanded.run_seconds}};
+  }
   json["anatomy"] = anatomy_block(s.anatomy, s.advice);
   if (!s.plan.empty()) json["plan"] = s.plan;
   json["differences"] = s.differences;

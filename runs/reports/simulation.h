@@ -14,6 +14,7 @@
 #include "runs/base/input_file.h"
 #include "runs/base/json_blocks.h"
 #include "runs/job/job_options.h"
+#include "runs/machine/machine_file.h"
 #include "runs/programs/gcode_reading.h"
 #include "runs/reports/program_record.h"
 
@@ -24,6 +25,24 @@ struct SimulationSource {
   std::string plan;                // folder of the plan whose options these are; empty: the program stands alone
   std::vector<std::string> given;  // a sentence for each option that is given in the place of the plan's
   OtherInputs other;               // inputs that are meant to be others than the program's header says
+  std::string machine{};           // file of the machine that executes the program; empty: none, as commanded
+};
+
+/// What a program would leave if every move had its commanded speed from end to end.
+struct CommandedMotion {
+  MapStatistics residual;
+  double run_seconds = 0.0;
+};
+
+/// The machine on which a program is executed, and what its motion makes of the program.
+struct ExecutedProgram {
+  NamedMachine machine;
+  CommandedMotion commanded;
+  double run_seconds = 0.0;     // of the motion, lifted moves included
+  double removal_change = 0.0;  // RMS of the executed removal less the commanded one, form terms removed [nm]
+  std::size_t slow_steps = 0;   // removing steps that take more than 1 % longer than commanded
+  std::size_t removing_steps = 0;
+  double max_acceleration = 0.0;  // along the path, at work [mm/s^2]
 };
 
 /// The effect of a program on disk on a map.
@@ -36,19 +55,20 @@ struct Simulation {
   RemovalFunction tif;
   double volume_factor = 1.0;  // of its kernel
   MapStatistics before;
-  ExactResidual after;
-  ResidualAnatomy anatomy;               // of what it leaves
-  std::string advice;                    // what would help most, a sentence
-  std::string plan;                      // as SimulationSource
-  std::vector<std::string> differences;  // from the plan that the program was made by, a sentence each
-  std::vector<std::string> limits;       // that were reached, a sentence each
+  ExactResidual after;                      // of the motion, where there is a machine
+  std::optional<ExecutedProgram> executed;  // on a machine
+  ResidualAnatomy anatomy;                  // of what it leaves
+  std::string advice;                       // what would help most, a sentence
+  std::string plan;                         // as SimulationSource
+  std::vector<std::string> differences;     // from the plan that the program was made by, a sentence each
+  std::vector<std::string> limits;          // that were reached, a sentence each
 };
 
 /// Simulates a program file (feed.csv or G-code) on the job's map with the job's removal function; the tool moves
-/// continuously. `every_pixel`: the exact figure from every pixel (exact_residual), which takes longer. `reading`: for
-/// G-code that leaves something to its controller. Of the job it uses map, tif, remove, aperture and threads.
-/// Map and removal function are held to what the program's header says of them (program_record.h). Throws InputError,
-/// Interrupted.
+/// continuously, at the commanded speeds or, with a machine, as that executes the program. `every_pixel`: the exact
+/// figure from every pixel (exact_residual), which takes longer. `reading`: for G-code that leaves something to its
+/// controller. Of the job it uses map, tif, remove, aperture and threads. Map and removal function are held to what the
+/// program's header says of them (program_record.h). Throws InputError, Interrupted.
 Simulation simulate_file(const std::filesystem::path& program, const GcodeReading& reading, const JobOptions& options,
                          const Progress& progress, bool every_pixel = false, const SimulationSource& source = {});
 

@@ -65,6 +65,9 @@ struct CommandInputs : SmallInputs {
     }
     specked.at(30, 40) += 200.0, specked.at(30, 41) += 200.0;
     write_map(*this / "specked.csv", specked);
+    const ProgramResult machine = run({"machine", "--example"});
+    EXPECT_EQ(machine.exit_code, 0);
+    folder.file("machine.toml", machine.out);
     EXPECT_EQ(run(SmallInputs::plan()).exit_code, 0);
     EXPECT_EQ(run(SmallInputs::plan({"--map", "specked.csv", "--out", "specked"})).exit_code, 0);
   }
@@ -91,7 +94,9 @@ std::map<std::string, std::vector<Words>> runs_of_commands() {
        {kSimulate,
         with(kSimulate, {"--exact", "--tif-pedestal", "subtract"}),
         {"simulate", "plan"},
-        {"simulate", "specked"}}},
+        {"simulate", "specked"},
+        {"simulate", "plan", "--machine", "machine.toml"}}},
+      {"machine", {{"machine", "machine.toml"}}},
       {"map",
        {kMap,
         with(kMap, {"--form", "zernike-noll:1-6", "--remove", "legendre:1", "--limit", "1e-9,2", "--profile", "y=3"}),

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 
+#include "core/base/errors.h"
 #include "core/removal/simulate.h"
 #include "core/tif/removal_function.h"
 #include "paths/feed/kinematic_path.h"
@@ -140,6 +142,40 @@ TEST(Execution, KeepsHaltsAndLiftsAndGivesRapidsTheirTime) {
   EXPECT_DOUBLE_EQ(run.motion.steps[1].seconds, 0.25);
   EXPECT_FALSE(run.motion.steps[1].removes);
   EXPECT_DOUBLE_EQ(run.motion.steps[2].seconds, 0.5);
+}
+
+TEST(Execution, TakesThePathModeOfTheProgramBeforeTheMachinesRule) {
+  const Machine free = machine_with(CornerRule::Free);
+  Program program{"p.nc", {{{0, 0}, {4, 0}, 1.0, true}, {{4, 0}, {8, 0}, 1.0, true}, {{8, 0}, {8, 4}, 1.0, true}}};
+  const double none = execute(program, free).motion.total_seconds();
+  program.path_modes = {{0, {PathMode::Kind::ExactPath}}};
+  const double corner = execute(program, free).motion.total_seconds();
+  // A stop from 4 mm/s and start again: 4 / 20 s each, over 0.4 mm each that would take 0.1 s.
+  EXPECT_NEAR(corner, none + 0.2, 1e-12);
+  program.path_modes = {{0, {PathMode::Kind::ExactStop}}};
+  EXPECT_NEAR(execute(program, free).motion.total_seconds(), none + 0.4, 1e-12);
+  program.path_modes = {{1, {PathMode::Kind::ExactStop}}};  // the end of the first move is free still
+  EXPECT_NEAR(execute(program, free).motion.total_seconds(), none + 0.2, 1e-12);
+  program.path_modes = {{2, {PathMode::Kind::Blended, 0.01}}};
+  try {
+    execute(program, free);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("p.nc: from step 3 on the controller may round corners (G64)"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
+TEST(Execution, LeavesTheWayUpToTheRapidLength) {
+  Machine machine = machine_with(CornerRule::Free);
+  machine.path_acceleration = INFINITY;
+  machine.max_feed = 20.0;
+  Program program{"", {{{0, 0}, {1, 0}, 0.5, true}, {{1, 0}, {6, 0}, 0.0, false}, {{6, 0}, {7, 0}, 0.5, true}}};
+  program.rapid_length = 5.0 + 10.0;
+  program.fastest_feed = 2.0;
+  EXPECT_NEAR(execute(program, machine).motion.run_seconds(), 0.5 + 0.25 + 0.5 + 0.5, 1e-12);
+  EXPECT_NEAR(execute(program, Machine{}).motion.run_seconds(), 0.5 + 2.5 + 0.5 + 5.0, 1e-12);
 }
 
 TEST(KinematicPath, HoldsEveryAxisWithinItsOwnLimits) {

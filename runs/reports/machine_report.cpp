@@ -1,0 +1,89 @@
+#include "runs/reports/machine_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/units.h"
+#include "core/base/whole_file.h"
+#include "runs/base/inputs_json.h"
+#include "runs/base/json_blocks.h"
+
+namespace dwell {
+namespace {
+
+std::string limit_words(double value, const char* unit) {
+  return std::isfinite(value) ? fmt::format("{:.6g} {}", value, unit) : fmt::format("any {}", unit);
+}
+
+std::string axis_words(const char* name, const MachineAxis& axis) {
+  const bool travels = std::isfinite(axis.lowest) || std::isfinite(axis.highest);
+  const std::string travel =
+      travels ? fmt::format("from {:.6g} to {:.6g} mm", axis.lowest, axis.highest) : std::string("of any travel");
+  return fmt::format("{} {}, at most {} and {}", name, travel, limit_words(axis.max_speed, "mm/s"),
+                     limit_words(axis.max_acceleration, "mm/s^2"));
+}
+
+std::string corner_words(const Machine& m) {
+  switch (m.corner) {
+    case CornerRule::ExactStop:
+      return fmt::format("exact-stop: rests at every corner, {:.6g} s at each", m.corner_delay);
+    case CornerRule::JunctionDeviation:
+      return fmt::format("junction-deviation: at the speed of an arc {:.6g} mm beside the corner",
+                         m.junction_deviation);
+    case CornerRule::Free:
+      return "free: at full speed";
+  }
+  return "";
+}
+
+/// What it costs to come to rest from a feed and to start again.
+std::string stop_words(const Machine& m, double feed) {
+  const double a = std::min({m.path_acceleration, m.x.max_acceleration, m.y.max_acceleration});
+  return fmt::format("{:.6g} mm/min {:.3g} ms over {:.3g} mm", units::mm_per_min(feed), 1e3 * feed / a,
+                     feed * feed / a);
+}
+
+std::string stop_line(const Machine& m) {
+  const double feed = std::min({m.max_feed, m.x.max_speed, m.y.max_speed});
+  const double a = std::min({m.path_acceleration, m.x.max_acceleration, m.y.max_acceleration});
+  if (!std::isfinite(feed) || !std::isfinite(a)) return "";
+  return fmt::format("a stop    down to rest and up again costs, from {}; from {}\n", stop_words(m, 0.1 * feed),
+                     stop_words(m, feed));
+}
+
+}  // namespace
+
+std::string machine_lines(const NamedMachine& machine) {
+  const Machine& m = machine.machine;
+  const std::string feed =
+      std::isfinite(m.max_feed)
+          ? fmt::format("{:.6g} to {:.6g} mm/min", units::mm_per_min(m.min_feed), units::mm_per_min(m.max_feed))
+          : fmt::format("from {:.6g} mm/min on", units::mm_per_min(m.min_feed));
+  return fmt::format("machine   {}\naxes      {}\n          {}\npath      {}, {}\ncorners   {}\n",
+                     machine.name.empty() ? "without a name" : machine.name, axis_words("x", m.x), axis_words("y", m.y),
+                     feed, limit_words(m.path_acceleration, "mm/s^2"), corner_words(m)) +
+         stop_line(m);
+}
+
+nlohmann::ordered_json machine_block(const NamedMachine& machine) {
+  nlohmann::ordered_json json;
+  json["name"] = machine.name;
+  Machine copy = machine.machine;
+  for (const MachineField& field : machine_fields()) {
+    const std::string prefix = field.section.empty() ? "" : field.section + "_";
+    json[prefix + field.key] = finite_or_null(field.value(copy) / field.scale);
+  }
+  json["corner_rule"] = to_string(machine.machine.corner);
+  return json;
+}
+
+std::string machine_json(const NamedMachine& machine, const std::string& file) {
+  nlohmann::ordered_json json = json_of_command("machine");
+  json["machine"] = machine_block(machine);
+  json["inputs"] = inputs_json({{"machine", file, sha256_of_file(file)}});
+  return json_text(std::move(json));
+}
+
+}  // namespace dwell

@@ -1,0 +1,87 @@
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <string>
+
+#include "core/base/whole_file.h"
+#include "runs/machine/machine_file.h"
+#include "tests/cli/small_inputs.h"
+
+namespace dwell {
+namespace {
+
+using nlohmann::json;
+using test::expect_has;
+using test::ProgramResult;
+using test::SmallInputs;
+
+const std::vector<std::string> kTurning{"--path", "random:pitch=1.5,seed=2", "--max-feed", "600"};
+
+TEST(MachineCommand, PrintsAnExampleThatItReads) {
+  const SmallInputs inputs;
+  const ProgramResult example = inputs.run({"machine", "--example"});
+  ASSERT_EQ(example.exit_code, 0) << example.err;
+  inputs.folder.file("m.toml", example.out);
+  const ProgramResult shown = inputs.run({"machine", "m.toml"});
+  EXPECT_EQ(shown.exit_code, 0) << shown.err;
+  expect_has(shown.out, "corners   exact-stop");
+  expect_has(shown.out, "from 300 mm/min 10 ms over 0.05 mm");
+  EXPECT_EQ(inputs.run({"machine"}).exit_code, 2);
+  EXPECT_EQ(inputs.run({"machine", "m.toml", "--example"}).exit_code, 2);
+  EXPECT_EQ(inputs.run({"machine", "--example", "--json"}).exit_code, 2);
+  const ProgramResult absent = inputs.run({"machine", "none.toml"});
+  EXPECT_EQ(absent.exit_code, 2);
+  expect_has(absent.err, "none.toml");
+}
+
+TEST(MachineCommand, ExecutesAProgramAndSaysWhatThatCosts) {
+  const SmallInputs inputs;
+  ASSERT_EQ(inputs.run(SmallInputs::plan(kTurning)).exit_code, 0);
+  inputs.folder.file("quick.toml", "path_acceleration_mm_per_s2 = 1e9\n[corner]\nrule = \"free\"\n");
+  inputs.folder.file("slow.toml", "path_acceleration_mm_per_s2 = 20\nmax_feed_mm_per_min = 600\n");
+  const auto simulated = [&inputs](const std::vector<std::string>& more) {
+    std::vector<std::string> words{"simulate", "plan", "--json"};
+    words.insert(words.end(), more.begin(), more.end());
+    const ProgramResult result = inputs.run(words);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return json::parse(result.out);
+  };
+  const json commanded = simulated({}), quick = simulated({"--machine", "quick.toml"}),
+             slow = simulated({"--machine", "slow.toml"});
+  const double rms = commanded["program"]["residual_rms_nm"];
+  EXPECT_FALSE(commanded.contains("executed"));
+  // A machine without limits does as commanded.
+  EXPECT_NEAR(quick["program"]["residual_rms_nm"].get<double>(), rms, 1e-6 * rms);
+  EXPECT_EQ(quick["executed"]["slow_steps"], 0);
+  // One that must stop at every corner is late, removes more there, and says both figures.
+  EXPECT_GT(slow["program"]["residual_rms_nm"].get<double>(), 1.5 * rms);
+  EXPECT_NEAR(slow["executed"]["commanded_rms_nm"].get<double>(), rms, 1e-9);
+  EXPECT_GT(slow["executed"]["total_s"].get<double>(), 1.1 * slow["executed"]["commanded_total_s"].get<double>());
+  EXPECT_GT(slow["executed"]["slow_steps"], 10);
+  EXPECT_EQ(slow["inputs"].back()["role"], "machine");
+  const ProgramResult text = inputs.run({"simulate", "plan", "--machine", "slow.toml"});
+  expect_has(text.out, "executed  ");
+  expect_has(text.out, "if every move had its speed from end to end");
+}
+
+TEST(MachineCommand, SaysWhatAProgramAsksBeyondTheMachine) {
+  const SmallInputs inputs;
+  ASSERT_EQ(inputs.run(SmallInputs::plan(kTurning)).exit_code, 0);
+  inputs.folder.file("small.toml", "max_feed_mm_per_min = 30\n[x]\nlowest_mm = 0\nhighest_mm = 3\n");
+  const ProgramResult result = inputs.run({"simulate", "plan", "--machine", "small.toml"});
+  EXPECT_EQ(result.exit_code, 3) << result.err;
+  expect_has(result.err, "leave the machine's travel of x from 0 to 3 mm: the first is step ");
+  expect_has(result.err, "are faster than the machine: the first is step ");
+  inputs.folder.file("wrong.toml", "path_acceleration = 3\n");
+  const ProgramResult refused = inputs.run({"simulate", "plan", "--machine", "wrong.toml"});
+  EXPECT_EQ(refused.exit_code, 2);
+  expect_has(refused.err, "wrong.toml: line 1: path_acceleration: unknown field; accepted: ");
+}
+
+TEST(MachineCommand, HasItsFieldsInTheDocuments) {
+  const std::string text = read_whole_file(DWELL_SOURCE_DIR "/docs/motion.md");
+  for (const MachineField& field : machine_fields()) expect_has(text, "`" + field.key + "`");
+}
+
+}  // namespace
+}  // namespace dwell
