@@ -70,7 +70,6 @@ double acceleration_limit(const Machine& machine, Point along) {
 void validate(const Machine& machine) {
   check_axis("x", machine.x);
   check_axis("y", machine.y);
-  check_axis("z", machine.z);
   check_positive("max_feed", machine.max_feed, "mm/s");
   check_positive("path_acceleration", machine.path_acceleration, "mm/s^2");
   check_positive("junction_deviation", machine.junction_deviation, "mm");

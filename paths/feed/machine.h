@@ -25,10 +25,10 @@ enum class CornerRule {
 
 std::string_view to_string(CornerRule rule);
 
-/// A machine with two axes in the part's plane and one along the tool, as far as its motion decides what is removed.
+/// A machine with two axes in the part's plane, as far as its motion decides what is removed.
 /// Infinite limits do not bind. A default machine has none and is what a plan without a machine takes for granted.
 struct Machine {
-  MachineAxis x{}, y{}, z{};
+  MachineAxis x{}, y{};
   double max_feed = std::numeric_limits<double>::infinity();           // along the path [mm/s], > 0
   double path_acceleration = std::numeric_limits<double>::infinity();  // along the path [mm/s^2], > 0
   CornerRule corner = CornerRule::ExactStop;

@@ -33,7 +33,6 @@ Program program_of(const ToolPath& path, const std::vector<double>& dwell_s, Mot
     throw InputError(fmt::format("maximum feed = {} mm/s; required finite and > 0", max_feed_mm_per_s));
   }
   const StrokeMoves moves = stroke_moves(path, motion);
-  const std::vector<Stroke> strokes = strokes_of(path, motion);
   Program program;
   program.steps.reserve(moves.size());
   program.fastest_feed = max_feed_mm_per_s;
@@ -45,7 +44,7 @@ Program program_of(const ToolPath& path, const std::vector<double>& dwell_s, Mot
       step.seconds = step.length() / max_feed_mm_per_s;
     } else {
       const auto j = static_cast<std::size_t>(moves.stroke[i]);
-      step.seconds = moves.share[i] * dwell_within_feed(j + 1, strokes[j].length(), dwell_s[j], max_feed_mm_per_s);
+      step.seconds = moves.share[i] * dwell_within_feed(j + 1, moves.length[j], dwell_s[j], max_feed_mm_per_s);
     }
     if (step.removes && step.start == step.finish && !(step.seconds > 0.0)) continue;
     program.steps.push_back(step);

@@ -53,6 +53,7 @@ StrokeMoves stroke_moves(const ToolPath& path, Motion motion) {
     } else if (j > 0 && motion == Motion::Stop && strokes[j - 1].finish != strokes[j].start) {
       add(moves, strokes[j - 1].finish, strokes[j].start, true, StrokeMoves::kNoStroke, 0.0);
     }
+    moves.length.push_back(strokes[j].length());
     add_stroke(moves, strokes[j], static_cast<Index>(j));
   }
   return moves;

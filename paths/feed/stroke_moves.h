@@ -17,6 +17,7 @@ struct StrokeMoves {
   std::vector<ProgramStep> steps;  // seconds are left at 0
   std::vector<Index> stroke;       // of each step; kNoStroke for moves between stops and lifted ones
   std::vector<double> share;       // of its stroke's length (of its time, at one speed); 1 for halts, 0 without stroke
+  std::vector<double> length;      // of each stroke [mm]
   Index strokes = 0;
 
   std::size_t size() const { return steps.size(); }

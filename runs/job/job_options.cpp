@@ -265,9 +265,8 @@ std::vector<JobOptionRecord> make_table() {
        [](const Options& o) { return to_string(o.time_worth); }},
       {"certify", "certify", "SHARE",
        "go on until the plan's objective is proven to be no more than so much above the optimum: 1% or another share "
-       "in per cent, or off (with smoothness and time price above 0 100% all the same; the proven bound is shown in "
-       "any "
-       "case)",
+       "in per cent, or off (a plan with smoothness and time price above 0 goes on to 100% all the same; the proven "
+       "bound is shown in any case)",
        false, false, [](Options& o, const std::string& t) { o.certify = proof_share(t); },
        [](const Options& o) { return proof_text(o.certify); }},
       {"solver", "solver", "NAME", "auto, or another of " + solver_words(), false, false,

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 #include <toml++/toml.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -11,13 +12,14 @@
 #include <utility>
 
 #include "core/base/errors.h"
+#include "core/base/units.h"
 #include "core/base/version.h"
 #include "core/base/whole_file.h"
 
 namespace dwell {
 namespace {
 
-constexpr double kPerMinute = 1.0 / 60.0;
+constexpr double kPerMinute = units::mm_per_s(1.0);
 constexpr double kAny = -std::numeric_limits<double>::infinity();
 constexpr std::array<CornerRule, 3> kRules{CornerRule::ExactStop, CornerRule::JunctionDeviation, CornerRule::Free};
 
@@ -52,7 +54,14 @@ std::vector<MachineField> make_fields() {
   return fields;
 }
 
-std::string sections() { return "corner, x, y"; }
+/// "corner, x, y": those of the fields, in their order.
+std::vector<std::string> sections() {
+  std::vector<std::string> names;
+  for (const MachineField& field : machine_fields()) {
+    if (!field.section.empty() && (names.empty() || names.back() != field.section)) names.push_back(field.section);
+  }
+  return names;
+}
 
 std::string keys_of(const std::string& section) {
   std::vector<std::string> keys;
@@ -119,8 +128,9 @@ class Reader {
 
  private:
   void read_section(const std::string& section, const toml::table& table) {
-    if (section != "corner" && section != "x" && section != "y")
-      throw InputError(fmt::format("{}: unknown section [{}]; accepted: {}", file_, section, sections()));
+    const std::vector<std::string> known = sections();
+    if (std::find(known.begin(), known.end(), section) == known.end())
+      throw InputError(fmt::format("{}: unknown section [{}]; accepted: {}", file_, section, fmt::join(known, ", ")));
     for (const auto& [key, node] : table) read_field(section, std::string(key.str()), node);
   }
 

@@ -351,8 +351,9 @@ class GcodeInterpreter {
     }
     if (!program_.path_modes.empty()) {
       program_.notes.emplace_back(
-          "G61, G61.1, G64: kept, but they do not change this simulation: moves are taken as written, their corners "
-          "neither rounded nor slowed down");
+          "G61, G61.1, G64: kept; without a machine (--machine) moves are taken as written, their corners neither "
+          "rounded "
+          "nor slowed down");
     }
   }
 

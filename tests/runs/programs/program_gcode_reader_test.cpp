@@ -176,8 +176,8 @@ TEST(GcodeReader, ReadsAFrameAndWordsThatMoveNothing) {
       (std::vector<std::string>{
           "G54: the offset of its origin, which the program does not say, is taken as zero: X and Y are the map's",
           "T, M6: the tool's offset is taken as zero, and the removal function as this tool's",
-          "G61, G61.1, G64: kept, but they do not change this simulation: moves are taken as written, their "
-          "corners neither rounded nor slowed down"}));
+          "G61, G61.1, G64: kept; without a machine (--machine) moves are taken as written, their corners neither "
+          "rounded nor slowed down"}));
   EXPECT_EQ(read("G0 X0 Y0 Z0\nG1 X1 F60\nM2\n").notes,
             std::vector<std::string>{"the program names no unit (G21): read as millimetres"});
   const auto message = [](const std::string& text) { return input_error([&] { read(text); }); };
