@@ -72,7 +72,10 @@ std::vector<const JobOptionRecord*> JobArguments::given() const {
 }
 
 std::vector<ReadFile> JobArguments::files_read(const JobOptions& options) const {
-  std::vector<ReadFile> read{{"the job file", job_}, {"the map", options.map}, {"the removal function", options.tif}};
+  std::vector<ReadFile> read{{"the job file", job_},
+                             {"the map", options.map},
+                             {"the removal function", options.tif},
+                             {"the machine", options.machine}};
   if (const auto* path = options.path.get_if<PathFromFile>()) read.push_back({"the path", path->file.string()});
   for (const std::string* steps : {&options.map_steps, &options.tif_steps}) {
     for (const std::string& file : map_step_files(*steps)) read.push_back({"a map of a step", file});

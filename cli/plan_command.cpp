@@ -16,6 +16,7 @@
 #include "runs/reports/aim.h"
 #include "runs/reports/anatomy_lines.h"
 #include "runs/reports/exact_lines.h"
+#include "runs/reports/machine_report.h"
 #include "runs/reports/map_line.h"
 #include "runs/reports/plan_costs.h"
 #include "runs/reports/plan_files.h"
@@ -34,6 +35,20 @@ struct PlanArguments {
   ResultFolder folder;
   bool write_job = false;
 };
+
+/// What the machine makes of the plan; empty without one.
+std::string motion_lines(const PlannedJob& plan) {
+  if (!plan.dwell.motion) return "";
+  const MotionPlan& m = *plan.dwell.motion;
+  const double planned = plan.dwell.residual.rms_about_zero();
+  return machine_lines(*plan.job.machine) +
+         fmt::format(
+             "motion    {:.4g} nm RMS executed, {:.3f} times the planned; {:.4g} nm without correction, {} of "
+             "{}\n",
+             m.executed(), m.executed() / planned, m.one_shot(), m.best, counted(m.rounds.size() - 1, "round")) +
+         fmt::format("          {} of {} strokes as fast as the machine can, {} that it cannot run in their time\n",
+                     m.at_least, plan.laid.path.size(), m.schedule.too_short);
+}
 
 /// The text for people.
 std::string plan_text(const PlannedJob& plan, const WrittenPlan& written) {
@@ -61,7 +76,9 @@ std::string plan_text(const PlannedJob& plan, const WrittenPlan& written) {
       "predicted {} by the solver, on a lattice of {}{}\n", rms_in_words(plan.dwell.residual),
       lattice_words(plan.dwell.lattice.kernel),
       plan.dwell.lattices > 1 ? fmt::format(" (solved {}, each finer)", counted(plan.dwell.lattices, "time")) : "");
-  text += fmt::format("program   {} by simulating program.nc as read back\n", in_words(written.exact.statistics));
+  text += motion_lines(plan);
+  text += fmt::format("program   {} by simulating program.nc as read back{}\n", in_words(written.exact.statistics),
+                      plan.dwell.motion ? ", executed on the machine" : "");
   text += exact_lines(written.exact);
   text += anatomy_lines(written.anatomy, written.exact.statistics) + left_out_line(plan.dwell) + cost_line(plan);
   text += fmt::format("help      {}\n", written.advice) + surface_lines(written.surface);

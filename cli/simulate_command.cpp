@@ -35,7 +35,7 @@ namespace {
 
 struct SimulateArguments {
   std::unique_ptr<JobArguments> job;
-  std::string plan, program, machine, gcode, g4, residual, png;
+  std::string plan, program, gcode, g4, residual, png;
   JsonOption json;
   bool exact = false;
   OtherInputs other;
@@ -83,7 +83,7 @@ SimulationRequest request_of_plan(const SimulateArguments& a) {
     flags.insert(record->flag);
     if (record->flag == "threads" || record->flag == "max-pixels") continue;  // change no result
     const std::string now = record->get(request.options), then = record->get(plan.options);
-    const bool file = record->flag == "map" || record->flag == "tif";
+    const bool file = record->flag == "map" || record->flag == "tif" || record->flag == "machine";
     if (file && !are_same_file(now, then)) {
       request.source.given.push_back(given_file_sentence(record->flag, now, then));
     } else if (!file && now != then) {
@@ -120,7 +120,6 @@ SimulationRequest request_of(const SimulateArguments& a) {
 void check_outputs(const SimulateArguments& a, const JobOptions& options, const std::string& program) {
   std::vector<ReadFile> read = a.job->files_read(options);
   read.push_back({"the program", program});
-  read.push_back({"the machine", a.machine});
   if (!a.plan.empty())
     read.push_back({"the plan's summary", (std::filesystem::path(a.plan) / "summary.json").string()});
   check_output_files(
@@ -200,8 +199,7 @@ int run_simulate(const SimulateArguments& arguments) {
   const SimulateArguments& a = arguments;
   if (!a.gcode.empty()) reading.dialect = of_option("--gcode", [&a] { return parse_gcode_dialect(a.gcode); });
   if (!a.g4.empty()) reading.halts = of_option("--g4", [&a] { return parse_halt_unit(a.g4); });
-  SimulationRequest request = request_of(arguments);
-  request.source.machine = a.machine;
+  const SimulationRequest request = request_of(arguments);
   check_outputs(arguments, request.options, request.program);
   const Progress progress = terminal_progress();
   const Simulation s = simulated(arguments, request, reading, progress);
@@ -229,7 +227,7 @@ void add_simulate_command(CLI::App& program, int& exit_code) {
       "map",       "map-pixel", "map-unit", "wavelength", "wave-scale",     "map-origin", "map-no-data",  "map-max-pv",
       "map-table", "map-rows",  "map-grid", "map-steps",  "max-pixels",     "tif",        "tif-pixel",    "tif-no-data",
       "tif-table", "tif-rows",  "tif-grid", "tif-unit",   "tif-dwell-time", "tif-steps",  "tif-pedestal", "tif-centre",
-      "tif-angle", "tif-flip",  "remove",   "aperture",   "threads"};
+      "tif-angle", "tif-flip",  "remove",   "aperture",   "machine",        "threads"};
   command
       ->add_option("plan", arguments->plan,
                    "folder of a plan: its program, with the map, the removal function and all options that it was made "
@@ -237,12 +235,6 @@ void add_simulate_command(CLI::App& program, int& exit_code) {
       ->type_name("PLAN");
   command->add_option("--program", arguments->program, program_files() + ": a program alone")->type_name("FILE");
   arguments->job = std::make_unique<JobArguments>(*command, flags, false);
-  command
-      ->add_option(
-          "--machine", arguments->machine,
-          "machine file (docs/motion.md): execute the program as this machine does, with its accelerations and "
-          "corners, instead of at the commanded speeds")
-      ->type_name("FILE");
   command
       ->add_option("--gcode", arguments->gcode,
                    "what F means in a G93 program that does not say so: g93-per-minute or g93-seconds")

@@ -75,8 +75,10 @@ void refuse_blending(const Program& program) {
 
 }  // namespace
 
-KinematicPath kinematic_path(const std::vector<ProgramStep>& steps, const Machine& machine) {
-  return make_path(steps, machine, [&machine](std::size_t) { return EndRule{machine.corner, false}; });
+KinematicPath kinematic_path(const std::vector<ProgramStep>& steps, const Machine& machine, double max_feed) {
+  KinematicPath path = make_path(steps, machine, [&machine](std::size_t) { return EndRule{machine.corner, false}; });
+  for (KinematicMove& move : path.moves) move.max_speed = std::min(move.max_speed, max_feed);
+  return path;
 }
 
 KinematicPath kinematic_path(const Program& program, const Machine& machine) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "core/motion/program.h"
@@ -27,7 +28,9 @@ struct KinematicPath {
 /// lifted or lowered. Between two moves that turn by more than rounding explains, the squared speed is at most a d s /
 /// (1 - s) with a the lesser acceleration, d the junction deviation and s the sine of half the angle between the moves
 /// (Jeon 2011, "Improving Grbl: cornering algorithm"), 0 for an exact stop. Cost O(steps).
-KinematicPath kinematic_path(const std::vector<ProgramStep>& steps, const Machine& machine);
+/// `max_feed`: of the program [mm/s], where it is less than the machine's.
+KinematicPath kinematic_path(const std::vector<ProgramStep>& steps, const Machine& machine,
+                             double max_feed = std::numeric_limits<double>::infinity());
 
 /// The same for a program, whose path modes come before the machine's corner rule: with an exact path (G61) it rests
 /// where two moves meet at an angle, with exact stops (G61.1) at the end of every move. Throws InputError for a path

@@ -36,7 +36,7 @@ HeightMap load_map_of(const JobOptions& options, std::vector<InputFile>& inputs,
 }  // namespace
 
 DwellOptions dwell_options(const JobOptions& o) {
-  DwellOptions options{{o.min_dwell_s, o.max_feed_mm_per_min},
+  DwellOptions options{{o.min_dwell_s, o.max_feed_mm_per_min, std::nullopt},
                        o.smoothness,
                        o.time_price_nm2_per_s,
                        o.time_worth,
@@ -44,12 +44,23 @@ DwellOptions dwell_options(const JobOptions& o) {
                        o.max_solve_s};
   options.certify = o.certify;
   options.fraction = o.fraction;
+  options.rounds = o.rounds;
+  return options;
+}
+
+DwellOptions dwell_options(const Job& job) {
+  DwellOptions options = dwell_options(job.options);
+  if (job.machine) options.machine.machine = job.machine->machine;
   return options;
 }
 
 Job load_job(const JobOptions& options, const Progress& progress) {
   Job job;
   job.options = options;
+  if (!options.machine.empty()) {
+    job.machine = read_machine_file(options.machine);
+    job.inputs.push_back({"machine", options.machine, sha256_of_file(options.machine)});
+  }
   HeightMap map = load_map_of(options, job.inputs, progress);
   job.map_pixels = map.valid_pixels();
   map = within(std::move(map), options.aperture, progress);
@@ -61,7 +72,7 @@ Job load_job(const JobOptions& options, const Progress& progress) {
 }
 
 JobPath lay_job_path(const Job& job, double used_seconds, const Progress& progress) {
-  DwellOptions options = dwell_options(job.options);
+  DwellOptions options = dwell_options(job);
   options.used_seconds = used_seconds;
   const PathSpec& spec = required_path(job.options);
   if (pitch_is_searched(spec)) {

@@ -6,6 +6,7 @@
 
 #include "runs/base/input_file.h"
 #include "runs/job/job_options.h"
+#include "runs/machine/machine_file.h"
 #include "runs/plan/dwell_options.h"
 #include "runs/plan/dwell_plan.h"
 #include "runs/plan/laid_path.h"
@@ -19,6 +20,7 @@ struct Job {
   std::vector<InputFile> inputs;  // all files read
   Index map_pixels = 0;           // valid pixels of the map before the aperture
   std::shared_ptr<const Part> part;
+  std::optional<NamedMachine> machine;
 };
 
 /// Reads map and removal function and makes the part; the path is not looked at. Throws InputError naming flag or file,
@@ -37,7 +39,9 @@ JobPath lay_job_path(const Job& job, double used_seconds = 0.0, const Progress& 
 /// The file that the path of these options comes from, if it does, with its hash.
 std::optional<InputFile> path_input(const JobOptions& options);
 
-/// What of the options the dwell and the machine depend on.
+/// What of the options the dwell and the machine depend on; without the machine of a file.
 DwellOptions dwell_options(const JobOptions& options);
+/// The same with the machine of the job.
+DwellOptions dwell_options(const Job& job);
 
 }  // namespace dwell

@@ -246,6 +246,16 @@ std::vector<JobOptionRecord> make_table() {
       {"max-feed", "max_feed_mm_per_min", "MM/MIN", "fastest feed of the machine in mm/min", false, true,
        [](Options& o, const std::string& t) { o.max_feed_mm_per_min = number(t, ranges::kFeed); },
        [](const Options& o) { return shown(o.max_feed_mm_per_min); }},
+      {"machine", "machine", "FILE",
+       "machine file (docs/motion.md): the plan keeps within its accelerations and corners, its feeds make up for "
+       "them, and "
+       "what is left is of its motion; none: they are not considered",
+       true, false, [](Options& o, const std::string& t) { o.machine = t == "none" ? "" : t; },
+       [](const Options& o) { return o.machine; }},
+      {"rounds", "rounds", "N",
+       "with --machine: how often at most the plan is corrected for what the machine's motion makes of it", false, true,
+       [](Options& o, const std::string& t) { o.rounds = whole(t); },
+       [](const Options& o) { return fmt::format("{}", o.rounds); }},
       {"smoothness", "smoothness", "WEIGHT",
        "weight of smooth feed against residual: auto (from tool and path: waves of dwell of 9/8 of the tool's FWHM are "
        "held back by half), a number without unit (0 = none), corner (of the L-curve), step<=S (RMS change of dwell "

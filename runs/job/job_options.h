@@ -64,6 +64,8 @@ struct JobOptions {
   WeightGoal smoothness{0.0, GoalKind::Auto};
   WeightGoal time_price_nm2_per_s{0.0, GoalKind::Auto};
   TimeWorth time_worth;
+  std::string machine;   // file of the machine; empty: accelerations and corners are not considered
+  int rounds = 5;        // of correction for its motion, at most
   double certify = 0.0;  // share by which the objective may be above the optimum, to be proven; 0 = not asked for
   SolverKind solver = SolverKind::Auto;
   BlemishHandling blemishes = BlemishHandling::Report;

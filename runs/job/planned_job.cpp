@@ -20,7 +20,7 @@ namespace {
 
 /// `used` went of the time limit before [s].
 PlannedJob plan_loaded(Job job, JobPath path, double used, const Progress& progress) {
-  DwellOptions options = dwell_options(job.options);
+  DwellOptions options = dwell_options(job);
   options.used_seconds = used;
   PlannedJob planned;
   planned.job = std::move(job);

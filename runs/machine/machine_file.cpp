@@ -198,7 +198,7 @@ std::string machine_text(const NamedMachine& machine) {
   std::ostringstream name;
   name << toml::value<std::string>(machine.name);
   std::string text = fmt::format(
-      "# Machine file of dwell {}: dwell simulate --machine THIS.toml\n"
+      "# Machine file of dwell {}: dwell plan --machine THIS.toml, dwell simulate --machine THIS.toml\n"
       "# What is left out has no limit.\n\nschema = 1\nname = {}\n",
       version(), name.str());
   std::string section;

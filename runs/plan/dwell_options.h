@@ -18,6 +18,7 @@ struct DwellOptions {
   double max_seconds = 3600.0;  // wall clock for the set-up and all solves together [s]; > 0
   double used_seconds = 0.0;    // of these, before find_dwell was called: by reading the input, planning the path
   double certify = 0.0;         // share of the optimum that the objective may be above it, proven; 0 = not asked for
+  int rounds = 5;               // of correction for the motion of the machine, at most; >= 0
   double fraction = 1.0;        // of the error, form terms aside, that is to be removed; > 0, <= 1
 };
 

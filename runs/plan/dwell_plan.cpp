@@ -95,6 +95,9 @@ DwellPlan find_dwell_on(const LatticeChoice& lattice, const Part& part, const La
   plan.residual = map_statistics(left, part.form, part.threads);
   plan.exact = predict_dwell(part, laid, plan.seconds, left, options.machine.feed_limits().max_feed, check,
                              progress.of_part("exact residual"));
+  if (options.machine.machine) {
+    plan.motion = plan_motion(problem, part, laid, lattice.kernel, options, plan.weights, plan.seconds, progress);
+  }
   collect_limits(plan, options);
   return plan;
 }

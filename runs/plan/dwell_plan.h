@@ -10,6 +10,7 @@
 #include "runs/plan/laid_path.h"
 #include "runs/plan/lattice_choice.h"
 #include "runs/plan/left_out.h"
+#include "runs/plan/motion_plan.h"
 #include "runs/plan/part.h"
 #include "runs/plan/weight_trials.h"
 #include "solvers/problem/certificate.h"
@@ -30,12 +31,13 @@ struct DwellPlan {
   double seconds_before_solve = 0.0;   // wall clock of the phases before, as far as the time limit counts them [s]
   SolverSummary solver;
   Certificate certificate;
-  LatticeChoice lattice;            // of the removal operator
-  int lattices = 1;                 // that were solved on, each finer than the one before
-  MapStatistics residual;           // as the solver predicts on its lattice, form terms removed
-  ExactResidual exact;              // from the removal function itself, by the check that was asked for
-  std::optional<LeftOut> left_out;  // of the fit, where blemishes are to be
-  std::vector<std::string> limits;  // that were reached, one sentence each
+  LatticeChoice lattice;             // of the removal operator
+  int lattices = 1;                  // that were solved on, each finer than the one before
+  MapStatistics residual;            // as the solver predicts on its lattice, form terms removed
+  ExactResidual exact;               // from the removal function itself, by the check that was asked for
+  std::optional<MotionPlan> motion;  // what the machine makes of it, where there is one
+  std::optional<LeftOut> left_out;   // of the fit, where blemishes are to be
+  std::vector<std::string> limits;   // that were reached, one sentence each
 };
 
 /// Solves the dwell problem of a part and a path laid on it, on a lattice that holds the removal function; where the

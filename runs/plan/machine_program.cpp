@@ -14,10 +14,15 @@ MachineProgram make_machine_program(const LaidPath& laid, const DwellPlan& dwell
                                     const Progress& progress) {
   MachineProgram program;
   const FeedLimits limits = machine.feed_limits();
-  program.feed = feed_schedule(laid.strokes, dwell.seconds, limits);
+  Vector commanded_s = dwell.seconds;
+  if (dwell.motion) {
+    const std::vector<double>& commanded = dwell.motion->commanded;
+    commanded_s = Vector::Map(commanded.data(), static_cast<Index>(commanded.size()));
+  }
+  program.feed = feed_schedule(laid.strokes, commanded_s, limits);
   // Halts have no length; the machine moves between them at maximum feed.
   if (laid.motion == Motion::Stop) program.feed.min_speed = program.feed.max_speed = limits.max_feed;
-  program.table = feed_table_of(laid.path, {dwell.seconds.begin(), dwell.seconds.end()}, laid.motion,
+  program.table = feed_table_of(laid.path, {commanded_s.begin(), commanded_s.end()}, laid.motion,
                                 machine.max_feed_mm_per_min, progress);
   const bool idle = std::all_of(program.table.dwell_s.begin(), program.table.dwell_s.end(),
                                 [](double seconds) { return seconds == 0.0; });

@@ -15,7 +15,7 @@ namespace dwell {
 /// values of a plan; program_of(table) gives its steps.
 struct MachineProgram {
   FeedTable table;
-  FeedSchedule feed;                // as the dwell times ask for it, before rounding
+  FeedSchedule feed;                // as it is commanded, before rounding
   std::vector<std::string> limits;  // that were reached, one sentence each
 };
 

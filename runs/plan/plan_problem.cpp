@@ -13,6 +13,7 @@
 #include "core/removal/removal_geometry.h"
 #include "core/removal/simulate.h"
 #include "paths/feed/plan_program.h"
+#include "runs/plan/least_dwell_of.h"
 #include "solvers/matched/time_price.h"
 #include "solvers/proof.h"
 #include "solvers/solver_catalogue.h"
@@ -73,6 +74,7 @@ PlanProblem::PlanProblem(const Part& part, const LaidPath& laid, const RemovalKe
   progress.step("setting up the target");
   problem_.removal = removal_.get();
   problem_.target = target_of(part, laid, pixels_, kernel, limits.max_feed, options.fraction);
+  target_ = problem_.target;
   progress.step("setting up the form terms");
   problem_.form = form_basis(grid_, pixels_, part.form, {}, part.threads);
   spared_ = spared_of(part.map, pixels_, options.fraction);
@@ -82,7 +84,7 @@ PlanProblem::PlanProblem(const Part& part, const LaidPath& laid, const RemovalKe
   }
   progress.step("setting up the smoothness along the path");
   problem_.parts = {{geometry_, path_smoothness(laid.path, laid.strokes, part.threads)}};
-  problem_.lower = minimum_dwell(laid.strokes, limits);
+  problem_.lower = least_dwell_of(laid, options.machine);
 }
 
 const DwellProblem& PlanProblem::with(const Weights& weights) {
@@ -148,6 +150,13 @@ double PlanProblem::highest_price() {
   return price > 0.0 ? price : 1.0;
 }
 
+void PlanProblem::spare_target(const HeightMap& removal) {
+  problem_.target = target_;
+  if (removal.values.empty()) return;
+  for (std::size_t i = 0; i < pixels_.size(); ++i)
+    problem_.target[static_cast<Index>(i)] -= removal.values[static_cast<std::size_t>(pixels_[i])];
+}
+
 HeightMap PlanProblem::left_by(const Vector& dwell) const {
   Vector removed;
   removal_->apply(dwell, removed);
@@ -155,7 +164,7 @@ HeightMap PlanProblem::left_by(const Vector& dwell) const {
   for (std::size_t i = 0; i < pixels_.size(); ++i) {
     const auto k = static_cast<Index>(i);
     left.values[static_cast<std::size_t>(pixels_[i])] =
-        problem_.target[k] - removed[k] + (spared_.size() > 0 ? spared_[k] : 0.0);
+        target_[k] - removed[k] + (spared_.size() > 0 ? spared_[k] : 0.0);
   }
   return left;
 }

@@ -59,6 +59,9 @@ class PlanProblem {
 
   /// The problem with the weights set.
   const DwellProblem& with(const Weights& weights);
+  /// Leaves a removal [nm] to what is not the dwell's: the next solves have the target without it. An empty map: none.
+  /// Each call starts from the part's own target.
+  void spare_target(const HeightMap& removal);
   /// The surface that a dwell leaves of the part, form terms included [nm].
   HeightMap left_by(const Vector& dwell) const;
 
@@ -73,6 +76,7 @@ class PlanProblem {
   std::shared_ptr<const RemovalGeometry> geometry_;
   std::unique_ptr<RemovalOperator> removal_;
   DwellProblem problem_;
+  Vector target_;         // of the part
   Vector spared_;         // of the map, what the target leaves out on purpose [nm]; empty: nothing
   Vector spared_figure_;  // the same without the form terms
 };

@@ -16,6 +16,8 @@
 #include "core/form/robust_pv.h"
 #include "core/formats/map_io.h"
 #include "core/formats/npy.h"
+#include "paths/feed/execution.h"
+#include "paths/feed/machine_check.h"
 #include "runs/job/option_flags.h"
 #include "runs/plan/program_prediction.h"
 #include "runs/programs/program_formats.h"
@@ -64,6 +66,11 @@ Program read_back(const OutputFolder& folder, const std::string& name, const Pro
   }
 }
 
+/// A program as the job's machine runs it; as it is without a machine.
+Program run_of(const PlannedJob& plan, const Program& program, const Progress& progress) {
+  return plan.job.machine ? execute(program, plan.job.machine->machine, progress).motion : program;
+}
+
 bool differs(double a, double b, double tolerance) {
   return !(std::abs(a - b) <= tolerance * std::max(std::abs(a), std::abs(b)));
 }
@@ -75,7 +82,8 @@ void compare_with_table(const PlannedJob& plan, const Program& program, const Pr
   written.table_has_same_steps =
       same_removing_steps(program, table, units::mm_per_s(plan.job.options.max_feed_mm_per_min));
   if (written.table_has_same_steps) return;
-  const ExactResidual from_table = predict_program(plan.part(), table, plan.dwell.lattice.kernel, progress);
+  const ExactResidual from_table =
+      predict_program(plan.part(), run_of(plan, table, progress), plan.dwell.lattice.kernel, progress);
   const double left = written.exact.statistics.rms_about_zero(), by_table = from_table.statistics.rms_about_zero();
   if (differs(left, by_table, std::max(1e-3, 3.0 * written.exact.standard_error / left))) {
     written.limits.push_back(fmt::format("program.nc leaves {:.6g} nm RMS{} but feed.csv {:.6g} nm", left,
@@ -85,10 +93,12 @@ void compare_with_table(const PlannedJob& plan, const Program& program, const Pr
 
 /// About zero, since a piston counts where it is not removed.
 void compare_with_solver(const PlannedJob& plan, WrittenPlan& written) {
-  const double left = written.exact.lattice_rms, expected = plan.dwell.residual.rms_about_zero();
+  const double left = written.exact.lattice_rms;
+  const double expected = plan.dwell.motion ? plan.dwell.motion->executed() : plan.dwell.residual.rms_about_zero();
   if (differs(left, expected, kSimulationTolerance)) {
-    written.limits.push_back(fmt::format("the simulated program leaves {:.4g} nm RMS{}, the solver expected {:.4g} nm",
-                                         left, about_zero_in_words(plan.dwell.residual), expected));
+    written.limits.push_back(fmt::format("the simulated program leaves {:.4g} nm RMS{}, the {} expected {:.4g} nm",
+                                         left, about_zero_in_words(plan.dwell.residual),
+                                         plan.dwell.motion ? "schedule" : "solver", expected));
   }
   if (auto limit = more_than_before(written.exact, plan.part().before)) written.limits.push_back(std::move(*limit));
 }
@@ -117,6 +127,12 @@ void study_surface(const PlannedJob& plan, WrittenPlan& written, const Progress&
   written.advice = residual_advice(written.anatomy, advice_facts(plan));
 }
 
+/// The time that every point gets: with a machine what its motion takes, else what the feed table says.
+std::vector<double> dwell_to_write(const PlannedJob& plan) {
+  if (!plan.dwell.motion) return plan.program.table.dwell_s;
+  return {plan.dwell.motion->seconds.begin(), plan.dwell.motion->seconds.end()};
+}
+
 }  // namespace
 
 WrittenPlan write_plan(const PlannedJob& plan, const OutputFolder& folder, const Progress& progress) {
@@ -128,13 +144,18 @@ WrittenPlan write_plan(const PlannedJob& plan, const OutputFolder& folder, const
   const Program program = read_back(folder, "program.nc", progress);
   WrittenPlan written;
   written.limits = plan.limits();
-  written.exact = predict_program(plan.part(), program, plan.dwell.lattice.kernel, progress);
+  const Program run = run_of(plan, program, progress);
+  written.exact = predict_program(plan.part(), run, plan.dwell.lattice.kernel, progress);
+  if (plan.job.machine) {
+    for (std::string& fault : beyond_machine(program, plan.job.machine->machine))
+      written.limits.push_back(std::move(fault));
+  }
   Program table;
   study_surface(plan, written, progress,
                 [&](const Progress& beside) { table = read_back(folder, "feed.csv", beside); });
-  const DwellOptions options = dwell_options(plan.job.options);
+  const DwellOptions options = dwell_options(plan.job);
   const double max_feed = options.machine.feed_limits().max_feed;
-  written.run_seconds = program.run_seconds(max_feed);
+  written.run_seconds = run.run_seconds(max_feed);
   written.warnings = plan.job.options.notes;
   written.travel = travel_times(plan.laid, plan.job.options.lift_height_mm, options.machine);
   written.travel.lifted = program.rapid_seconds(max_feed);  // as simulate reads it
@@ -155,7 +176,7 @@ WrittenPlan write_plan(const PlannedJob& plan, const OutputFolder& folder, const
   progress.report("write: pictures and arrays");
   write_plan_pictures(plan, written, folder, progress);
   write_map(folder.path("residual.npy"), written.exact.surface);
-  folder.write("dwell.npy", npy_bytes(std::span<const double>(plan.program.table.dwell_s)));
+  folder.write("dwell.npy", npy_bytes(std::span<const double>(dwell_to_write(plan))));
   if (plan.dwell.search) folder.write("search.csv", write_trials(*plan.dwell.search));
   written.summary = plan_summary_text(plan, written);
   folder.write("summary.json", written.summary);

@@ -12,6 +12,7 @@
 #include "core/base/utf8_text.h"
 #include "runs/base/inputs_json.h"
 #include "runs/reports/aim.h"
+#include "runs/reports/machine_report.h"
 #include "runs/reports/options_json.h"
 #include "runs/reports/plan_blocks.h"
 #include "runs/reports/plan_costs.h"
@@ -63,6 +64,19 @@ Json feed_json(const FeedSchedule& feed, Motion motion) {
           {"segments_infeasible", feed.segments_infeasible}};
 }
 
+/// What the machine makes of the dwell.
+Json motion_json(const MotionPlan& motion, double planned) {
+  return {{"schedule", "constant"},
+          {"planned_rms_nm", planned},
+          {"one_shot_rms_nm", motion.one_shot()},
+          {"executed_rms_nm", motion.executed()},
+          {"rounds_rms_nm", motion.rounds},
+          {"best_round", motion.best},
+          {"dwell_s", motion.seconds.sum()},
+          {"strokes_at_least", motion.at_least},
+          {"strokes_too_short", motion.schedule.too_short}};
+}
+
 /// The program as read back, and how feed.csv was compared with it.
 Json program_json(const WrittenPlan& written) {
   Json program = program_block(written.program);
@@ -108,6 +122,10 @@ std::string plan_summary_text(const PlannedJob& plan, const WrittenPlan& written
                   {"options", options_json(plan.job)},
                   {"names_from", names_from(plan)},
                   {"inputs", inputs_json(plan.job.inputs)}});
+  if (plan.dwell.motion) {
+    summary["machine"] = machine_block(*plan.job.machine);
+    summary["motion"] = motion_json(*plan.dwell.motion, plan.dwell.residual.rms_about_zero());
+  }
   return json_text(std::move(summary));
 }
 

@@ -65,7 +65,7 @@ bool is_formula(const std::string& tif) { return is_removal_model(split_kind(tif
 std::vector<InputFile> inputs_of(const std::vector<InputFile>& inputs, bool tif) {
   std::vector<InputFile> some;
   for (const InputFile& input : inputs) {
-    if (input.role != "path" && (input.role == "tif") == tif) some.push_back(input);
+    if (input.role != "path" && input.role != "machine" && (input.role == "tif") == tif) some.push_back(input);
   }
   return some;
 }

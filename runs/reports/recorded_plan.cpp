@@ -102,7 +102,9 @@ JobOptions options_of(const nlohmann::json& summary, const std::string& file, co
   return options;
 }
 
-std::string flag_of_role(const std::string& role) { return role == "map" || role == "tif" ? role : "map-steps"; }
+std::string flag_of_role(const std::string& role) {
+  return role == "map" || role == "tif" || role == "machine" ? role : "map-steps";
+}
 
 }  // namespace
 

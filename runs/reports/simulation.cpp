@@ -81,7 +81,7 @@ Simulation simulate_file(const std::filesystem::path& program, const GcodeReadin
   const Job job = load_job(options, progress);
   const Part& part = *job.part;
   s.plan = source.plan;
-  if (!s.plan.empty()) s.max_feed = dwell_options(options).machine.feed_limits().max_feed;
+  if (!s.plan.empty()) s.max_feed = dwell_options(job).machine.feed_limits().max_feed;
   s.differences = source.given;
   for (std::string& difference :
        differences_from_record(read_program_record(program), program.string(), job, source.other, s.plan.empty())) {
@@ -96,10 +96,7 @@ Simulation simulate_file(const std::filesystem::path& program, const GcodeReadin
   s.volume_factor = part.kernel.volume_factor;
   check_steps(s.program, part);
   std::optional<Program> motion;
-  if (!source.machine.empty()) {
-    s.inputs.push_back({"machine", source.machine, sha256_of_file(source.machine)});
-    motion = executed_on(read_machine_file(source.machine), s.program, s.executed.emplace(), s.limits, progress);
-  }
+  if (job.machine) motion = executed_on(*job.machine, s.program, s.executed.emplace(), s.limits, progress);
   const Program& run = motion ? *motion : s.program;
   const Progress simulating = progress.of_part(fmt::format("simulate {}", counted(s.program.steps.size(), "step")));
   LatticeChoice lattice = choose_lattice(part, removing_steps(run).strokes, simulating);

@@ -25,7 +25,6 @@ struct SimulationSource {
   std::string plan;                // folder of the plan whose options these are; empty: the program stands alone
   std::vector<std::string> given;  // a sentence for each option that is given in the place of the plan's
   OtherInputs other;               // inputs that are meant to be others than the program's header says
-  std::string machine{};           // file of the machine that executes the program; empty: none, as commanded
 };
 
 /// What a program would leave if every move had its commanded speed from end to end.

@@ -58,7 +58,7 @@ TEST(MachineCommand, ExecutesAProgramAndSaysWhatThatCosts) {
   EXPECT_NEAR(slow["executed"]["commanded_rms_nm"].get<double>(), rms, 1e-9);
   EXPECT_GT(slow["executed"]["total_s"].get<double>(), 1.1 * slow["executed"]["commanded_total_s"].get<double>());
   EXPECT_GT(slow["executed"]["slow_steps"], 10);
-  EXPECT_EQ(slow["inputs"].back()["role"], "machine");
+  EXPECT_EQ(slow["inputs"][1]["role"], "machine");
   const ProgramResult text = inputs.run({"simulate", "plan", "--machine", "slow.toml"});
   expect_has(text.out, "executed  ");
   expect_has(text.out, "if every move had its speed from end to end");
@@ -76,6 +76,36 @@ TEST(MachineCommand, SaysWhatAProgramAsksBeyondTheMachine) {
   const ProgramResult refused = inputs.run({"simulate", "plan", "--machine", "wrong.toml"});
   EXPECT_EQ(refused.exit_code, 2);
   expect_has(refused.err, "wrong.toml: line 1: path_acceleration: unknown field; accepted: ");
+}
+
+TEST(MachineCommand, PlansForAMachineAndSimulatesThePlanOnIt) {
+  const SmallInputs inputs;
+  inputs.folder.file("slow.toml", "path_acceleration_mm_per_s2 = 40\nname = \"the slow one\"\n");
+  std::vector<std::string> words = kTurning;
+  words.insert(words.end(), {"--machine", "slow.toml", "--smoothness", "0.1"});
+  const ProgramResult plan = inputs.run(SmallInputs::plan(words));
+  ASSERT_EQ(plan.exit_code, 0) << plan.err;
+  expect_has(plan.out, "machine   the slow one");
+  expect_has(plan.out, "nm RMS executed, ");
+  expect_has(plan.out, "by simulating program.nc as read back, executed on the machine");
+  const json summary = json::parse(read_whole_file(inputs / "plan/summary.json"));
+  const double rms = summary["program"]["residual_rms_nm"];
+  EXPECT_LE(summary["motion"]["executed_rms_nm"].get<double>(),
+            1.1 * summary["motion"]["planned_rms_nm"].get<double>());
+  // The plan's folder knows its machine.
+  const ProgramResult again = inputs.run({"simulate", "plan", "--json"});
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_NEAR(json::parse(again.out)["program"]["residual_rms_nm"].get<double>(), rms, 1e-9);
+  EXPECT_NEAR(json::parse(again.out)["executed"]["total_s"].get<double>(), summary["total_s"].get<double>(), 1e-6);
+  const ProgramResult commanded = inputs.run({"simulate", "plan", "--machine", "none", "--json"});
+  ASSERT_EQ(commanded.exit_code, 0) << commanded.err;
+  EXPECT_FALSE(json::parse(commanded.out).contains("executed"));
+  EXPECT_GT(json::parse(commanded.out)["program"]["residual_rms_nm"].get<double>(), 1.5 * rms);
+  // Another file in its place is said, a changed one is refused.
+  inputs.folder.file("slow.toml", "path_acceleration_mm_per_s2 = 41\n");
+  const ProgramResult changed = inputs.run({"simulate", "plan"});
+  EXPECT_EQ(changed.exit_code, 2);
+  expect_has(changed.err, "slow.toml: has changed since the plan");
 }
 
 TEST(MachineCommand, HasItsFieldsInTheDocuments) {

@@ -54,6 +54,8 @@ JobOptions unusual() {
   o.fraction = 0.8;
   o.min_dwell_s = 1.0 / 7.0;
   o.max_feed_mm_per_min = 1e7;
+  o.machine = "/data/machine.toml";
+  o.rounds = 7;
   o.smoothness = {1e-9};
   o.time_price_nm2_per_s = {1.0 / 3.0, GoalKind::TotalAtMost};
   o.solver = SolverKind::DenseNnls;

@@ -1,0 +1,110 @@
+#include "runs/plan/motion_plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "core/form/map_statistics.h"
+#include "core/removal/simulate.h"
+#include "paths/feed/execution.h"
+#include "paths/feed/kinematic_path.h"
+#include "paths/feed/stroke_moves.h"
+#include "runs/plan/least_dwell_of.h"
+
+namespace dwell {
+namespace {
+
+constexpr double kGainsLittle = 0.002;  // a round that lowers what is left by no more than this share is the last
+constexpr double kAtLeast = 1e-9;       // of the least dwell
+
+class Loop {
+ public:
+  Loop(const Part& part, const LaidPath& laid, const RemovalKernel& kernel, const DwellOptions& options)
+      : part_(part),
+        kernel_(kernel),
+        machine_(*options.machine.machine),
+        max_feed_(options.machine.feed_limits().max_feed),
+        moves_(stroke_moves(laid.path, laid.motion)),
+        path_(kinematic_path(moves_.steps, machine_, max_feed_)),
+        strokes_(laid.strokes) {}
+
+  /// Feeds for a dwell, and the surface that the machine leaves with them.
+  HeightMap execute_dwell(const Eigen::VectorXd& dwell, MotionPlan& plan, const Progress& progress) const {
+    plan.schedule = schedule_constant(moves_, path_, machine_, dwell);
+    plan.seconds = plan.schedule.seconds;
+    plan.commanded.assign(dwell.data(), dwell.data() + dwell.size());
+    for (std::size_t j = 0; j < plan.commanded.size(); ++j) {
+      if (plan.schedule.feed[j] > 0.0) plan.commanded[j] = strokes_[j].length() / plan.schedule.feed[j];
+    }
+    Program program;
+    program.fastest_feed = max_feed_;
+    for (std::size_t i = 0; i < moves_.size(); ++i) {
+      ProgramStep step = moves_.steps[i];
+      if (moves_.stroke[i] != StrokeMoves::kNoStroke) {
+        step.seconds = moves_.share[i] * plan.commanded[static_cast<std::size_t>(moves_.stroke[i])];
+      } else if (step.removes) {
+        step.seconds = step.length() / max_feed_;
+      }
+      program.steps.push_back(step);
+    }
+    const Execution run = execute(program, machine_, progress);
+    return surface_after(part_.map, simulate(run.motion, part_.map, kernel_, part_.threads));
+  }
+
+  double rms_of(const HeightMap& left) const {
+    return map_statistics(left, part_.form, part_.threads).rms_about_zero();
+  }
+
+ private:
+  const Part& part_;
+  const RemovalKernel& kernel_;
+  const Machine& machine_;
+  double max_feed_;
+  StrokeMoves moves_;
+  KinematicPath path_;
+  const std::vector<Stroke>& strokes_;
+};
+
+Index count_at_least(const Eigen::VectorXd& dwell, const Eigen::VectorXd& least) {
+  Index count = 0;
+  for (Index j = 0; j < dwell.size(); ++j) count += static_cast<Index>(dwell[j] <= least[j] * (1.0 + kAtLeast));
+  return count;
+}
+
+}  // namespace
+
+MotionPlan plan_motion(PlanProblem& problem, const Part& part, const LaidPath& laid, const RemovalKernel& kernel,
+                       const DwellOptions& options, const Weights& weights, const Eigen::VectorXd& dwell,
+                       const Progress& progress) {
+  const Loop loop(part, laid, kernel, options);
+  MotionPlan best;
+  best.at_least = count_at_least(dwell, least_dwell_of(laid, options.machine));
+  std::vector<double> rounds;
+  Eigen::VectorXd corrected = dwell;
+  for (int round = 0;; ++round) {
+    progress.report(fmt::format("motion: round {}", round));
+    MotionPlan now;
+    const HeightMap left = loop.execute_dwell(corrected, now, progress);
+    rounds.push_back(loop.rms_of(left));
+    const double before = round == 0 ? 0.0 : best.executed();
+    if (round == 0 || rounds.back() < before) {
+      now.at_least = best.at_least;
+      now.best = round;
+      best = std::move(now);
+    }
+    best.rounds = rounds;
+    if (round == options.rounds || (round > 0 && rounds.back() > (1.0 - kGainsLittle) * before)) break;
+    // What the dwell leaves less what its motion leaves is what the motion removes beyond it.
+    HeightMap defect = problem.left_by(corrected);
+    for (std::size_t i = 0; i < defect.values.size(); ++i) defect.values[i] -= left.values[i];
+    problem.spare_target(defect);
+    corrected =
+        problem.solve(weights, corrected, options.max_seconds, fmt::format("motion, round {}", round + 1), progress)
+            .dwell;
+  }
+  problem.spare_target({});
+  return best;
+}
+
+}  // namespace dwell

@@ -1,0 +1,92 @@
+/// A plan for a machine: within what it can do, and with the motion that it makes left out of no figure.
+
+#include "runs/plan/motion_plan.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/removal/simulate.h"
+#include "paths/feed/execution.h"
+#include "runs/job/planned_job.h"
+#include "runs/plan/least_dwell_of.h"
+#include "runs/reports/plan_files.h"
+#include "runs/reports/plan_output.h"
+#include "runs/reports/simulation.h"
+#include "tests/runs/plan/small_job.h"
+
+namespace dwell {
+namespace {
+
+/// A path that turns at every point, on a machine with weak drives, the one along y weaker.
+struct TurningJob : test::SmallJob {
+  TurningJob() {
+    options.path = parse_path_spec("random:pitch=1.2,overrun=2,seed=5");
+    options.smoothness = {0.1};
+    options.max_feed_mm_per_min = 600.0;
+    NamedMachine slow{"slow", {}};
+    slow.machine.x.max_acceleration = 60.0;
+    slow.machine.y.max_acceleration = 40.0;
+    slow.machine.path_acceleration = 50.0;
+    slow.machine.corner_delay = 0.003;
+    options.machine = folder.file("machine.toml", machine_text(slow)).string();
+  }
+};
+
+double rms_of_motion(const PlannedJob& plan, const Program& program) {
+  const Execution run = execute(program, plan.job.machine->machine);
+  const HeightMap left = surface_after(
+      plan.part().map, simulate(run.motion, plan.part().map, plan.dwell.lattice.kernel, plan.part().threads));
+  return map_statistics(left, plan.part().form, plan.part().threads).rms_about_zero();
+}
+
+TEST(MotionPlan, LeavesWhatThePlanSaysWhenTheMachineExecutesIt) {
+  const TurningJob job;
+  const PlannedJob plan = plan_job(job.options);
+  ASSERT_TRUE(plan.dwell.motion);
+  const MotionPlan& motion = *plan.dwell.motion;
+  const double planned = plan.dwell.residual.rms_about_zero();
+  EXPECT_LE(motion.executed(), 1.05 * planned);
+  EXPECT_LE(motion.executed(), motion.one_shot());
+  // The program as exported, executed, and one whose feeds know nothing of the machine.
+  EXPECT_NEAR(rms_of_motion(plan, program_of(plan.program.table)), motion.executed(), 1e-3 * motion.executed());
+  JobOptions without = job.options;
+  without.machine.clear();
+  PlannedJob naive = plan_job(without);
+  naive.job.machine = plan.job.machine;
+  EXPECT_GT(rms_of_motion(naive, program_of(naive.program.table)), 2.0 * motion.executed());
+}
+
+TEST(MotionPlan, KeepsEveryStrokeWithinWhatTheMachineCan) {
+  const TurningJob job;
+  const PlannedJob plan = plan_job(job.options);
+  const Eigen::VectorXd least = least_dwell_of(plan.laid, dwell_options(plan.job).machine);
+  EXPECT_GE((plan.dwell.seconds - least).minCoeff(), -1e-12);
+  const Eigen::VectorXd by_feed = minimum_dwell(plan.laid.strokes, dwell_options(plan.job).machine.feed_limits());
+  EXPECT_GT(least.sum(), 1.5 * by_feed.sum());  // corners cost
+  EXPECT_GT(plan.dwell.motion->at_least, 0);
+}
+
+TEST(MotionPlan, NoRoundsLeaveTheFeedsForTheSolversDwell) {
+  TurningJob job;
+  job.options.rounds = 0;
+  const PlannedJob plan = plan_job(job.options);
+  EXPECT_EQ(plan.dwell.motion->rounds.size(), 1U);
+  EXPECT_EQ(plan.dwell.motion->best, 0);
+}
+
+TEST(MotionPlan, IsStatedByTheMotionOfTheProgramOnDisk) {
+  const TurningJob job;
+  const PlannedJob plan = plan_job(job.options);
+  OutputFolder folder(job.options.out, plan_files());
+  const WrittenPlan written = write_plan(plan, folder, {});
+  EXPECT_TRUE(written.limits.empty()) << written.limits.front();
+  EXPECT_NEAR(written.exact.lattice_rms, plan.dwell.motion->executed(), 2e-3 * plan.dwell.motion->executed());
+  const Simulation s = simulate_file(folder.path("program.nc"), {}, job.options, {});
+  ASSERT_TRUE(s.executed);
+  EXPECT_NEAR(s.after.statistics.rms, written.exact.statistics.rms, 1e-9);
+  EXPECT_GT(s.executed->commanded.residual.rms, 1.5 * s.after.statistics.rms);  // made for the machine, not without it
+}
+
+}  // namespace
+}  // namespace dwell
