@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "paths/feed/least_dwell.h"
 #include "paths/feed/trapezoid.h"
@@ -34,7 +35,7 @@ std::vector<Range> moves_of_strokes(const StrokeMoves& moves) {
 class Scheduling {
  public:
   Scheduling(const StrokeMoves& moves, const KinematicPath& path, const Eigen::VectorXd& wanted)
-      : path_(path), wanted_(wanted), ranges_(moves_of_strokes(moves)) {
+      : path_(path), wanted_(wanted), ranges_(moves_of_strokes(moves)), at_rest_(ranges_.size(), 0) {
     for (const KinematicMove& move : path.moves) feed_.push_back(move.max_speed);
     for (std::size_t j = 0; j < ranges_.size(); ++j) {
       const double length = length_of(j);
@@ -44,15 +45,17 @@ class Scheduling {
 
   int run() {
     for (int round = 1; round <= kMostRounds; ++round) {
-      u_ = node_speeds_squared(path_, feed_);
+      const std::vector<double> before = std::exchange(u_, node_speeds_squared(path_, feed_));
       double change = 0.0;
       for (std::size_t j = 0; j < ranges_.size(); ++j) {
-        if (!(length_of(j) > 0.0)) continue;
+        if (!(length_of(j) > 0.0) || (at_rest_[j] != 0 && same_ends(j, before))) continue;
         const double was = feed_[ranges_[j].first];
         double next = feed_for_time(trapezoids(j), seconds(j), most(j));
         if (round > kUndampedRounds) next = 0.5 * (was + next);
         set_feed(j, next);
-        change = std::max(change, std::abs(next - was) / next);
+        const double moved = std::abs(next - was) / next;
+        at_rest_[j] = static_cast<char>(moved <= kAtRest);
+        change = std::max(change, moved);
       }
       if (change <= kAtRest) return round;
     }
@@ -84,6 +87,12 @@ class Scheduling {
 
  private:
   double seconds(std::size_t j) const { return wanted_[static_cast<Index>(j)]; }
+  /// Whether the speeds at a stroke's nodes are those of the round before.
+  bool same_ends(std::size_t j, const std::vector<double>& before) const {
+    return std::equal(u_.begin() + static_cast<std::ptrdiff_t>(ranges_[j].first),
+                      u_.begin() + static_cast<std::ptrdiff_t>(ranges_[j].last) + 1,
+                      before.begin() + static_cast<std::ptrdiff_t>(ranges_[j].first));
+  }
   double length_of(std::size_t j) const {
     double sum = 0.0;
     for (std::size_t i = ranges_[j].first; i < ranges_[j].last; ++i) sum += path_.moves[i].length;
@@ -108,6 +117,7 @@ class Scheduling {
   const KinematicPath& path_;
   const Eigen::VectorXd& wanted_;
   std::vector<Range> ranges_;
+  std::vector<char> at_rest_;        // strokes whose feed no longer changes
   std::vector<double> feed_, u_;  // of every move, of every node
   std::vector<Trapezoid> scratch_;
 };

@@ -39,6 +39,21 @@ double slope_of_all(const std::vector<Trapezoid>& moves, double feed) {
   return sum;
 }
 
+/// The feed that takes a time if no move's peak is below it: the lesser root of sum(1/a) F^2 - (sum((in + out) / a) + t)
+/// F + sum(L + (in^2 + out^2) / 2 a) = 0. Infinite if there is none.
+double feed_below_peaks(const std::vector<Trapezoid>& moves, double seconds) {
+  double a = 0.0, b = seconds, c = 0.0, peak = std::numeric_limits<double>::infinity();
+  for (const Trapezoid& m : moves) {
+    a += 1.0 / m.acceleration;
+    b += (m.speed_in + m.speed_out) / m.acceleration;
+    c += m.length + (squared(m.speed_in) + squared(m.speed_out)) / (2.0 * m.acceleration);
+    peak = std::min(peak, peak_speed(m));
+  }
+  const double discriminant = b * b - 4.0 * a * c;
+  const double feed = discriminant >= 0.0 ? 2.0 * c / (b + std::sqrt(discriminant)) : std::numeric_limits<double>::infinity();
+  return feed <= peak ? feed : std::numeric_limits<double>::infinity();
+}
+
 }  // namespace
 
 double peak_speed(const Trapezoid& move) {
@@ -56,6 +71,8 @@ double time_at_feed(const Trapezoid& move, double feed) {
 }
 
 double feed_for_time(const std::vector<Trapezoid>& moves, double seconds, double most) {
+  const double direct = feed_below_peaks(moves, seconds);
+  if (std::isfinite(direct)) return std::min(direct, most);
   if (!(time_of_all(moves, most) < seconds)) return most;
   double length = 0.0;
   for (const Trapezoid& m : moves) length += m.length;
