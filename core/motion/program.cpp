@@ -7,7 +7,13 @@ namespace dwell {
 namespace {
 
 bool same_step(const ProgramStep& a, const ProgramStep& b, double max_feed) {
-  constexpr double kPlace = 1e-6, kDuration = 1e-6, kLength = 4e-6;  // [mm], relative, [mm]: see dwell_within_feed
+  constexpr double kPlace = 1e-6, kDuration = 1e-6, kLength = 4e-6,
+                   kSpeed = 1e-6;  // [mm], relative, [mm]: see dwell_within_feed
+  if (a.speeds.has_value() != b.speeds.has_value()) return false;
+  if (a.speeds && !(distance(a.speeds->in, b.speeds->in) <= kSpeed * max_feed &&
+                    distance(a.speeds->out, b.speeds->out) <= kSpeed * max_feed)) {
+    return false;
+  }
   return std::abs(a.seconds - b.seconds) <= kDuration * std::min(a.seconds, b.seconds) + kLength / max_feed &&
          distance(a.start, b.start) <= kPlace && distance(a.finish, b.finish) <= kPlace;
 }

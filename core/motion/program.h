@@ -9,13 +9,22 @@
 
 namespace dwell {
 
+/// Velocities at the ends of a step [mm/s].
+struct EndSpeeds {
+  Point in, out;
+
+  bool operator==(const EndSpeeds&) const = default;
+};
+
 /// One step of a machine program as the machine runs it: a straight move at constant speed (start != finish) or a halt
-/// (start == finish). It takes `seconds`. `removes` is false for lifted moves.
+/// (start == finish), or with `speeds` the cubic of time through its ends with these velocities (CubicMove). It takes
+/// `seconds`. `removes` is false for lifted moves.
 struct ProgramStep {
   Point start;
   Point finish;
   double seconds = 0.0;
   bool removes = true;
+  std::optional<EndSpeeds> speeds{};
 
   double length() const { return distance(start, finish); }
 };

@@ -1,10 +1,14 @@
 #include "core/removal/simulate.h"
 
+#include "core/motion/cubic_move.h"
 #include "core/removal/inner_lattice.h"
 #include "core/removal/removal_once.h"
 
 namespace dwell {
 namespace {
+
+// A step whose speed changes is cut into so many parts if it begins or ends at rest (places_on).
+constexpr double kPartsFromRest = 12.0;
 
 /// A map from the values of its finite pixels, NaN elsewhere.
 HeightMap on_pixels(const Grid& grid, const std::vector<Index>& pixels, const Vector& values) {
@@ -18,10 +22,20 @@ HeightMap on_pixels(const Grid& grid, const std::vector<Index>& pixels, const Ve
 
 RemovingSteps removing_steps(const Program& program) {
   RemovingSteps removing;
+  const auto add = [&removing](Point start, Point finish, double seconds) {
+    removing.strokes.push_back({start, midpoint(start, finish), finish});
+    removing.seconds.push_back(seconds);
+  };
   for (const ProgramStep& step : program.steps) {
     if (!step.removes) continue;
-    removing.strokes.push_back({step.start, midpoint(step.start, step.finish), step.finish});
-    removing.seconds.push_back(step.seconds);
+    if (!step.speeds) {
+      add(step.start, step.finish, step.seconds);
+      continue;
+    }
+    const std::vector<Point> places =
+        places_on({step.start, step.finish, step.speeds->in, step.speeds->out, step.seconds}, kPartsFromRest);
+    for (std::size_t k = 1; k < places.size(); ++k)
+      add(places[k - 1], places[k], step.seconds / static_cast<double>(places.size() - 1));
   }
   return removing;
 }

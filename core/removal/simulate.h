@@ -7,7 +7,8 @@
 
 namespace dwell {
 
-/// The strokes and times with which a program removes: every removing move at its constant speed, and every halt.
+/// The strokes and times with which a program removes: every removing move at its constant speed, and every halt. A
+/// step whose speed changes is cut into parts, each with its exact time and ends.
 struct RemovingSteps {
   std::vector<Stroke> strokes;
   std::vector<double> seconds;

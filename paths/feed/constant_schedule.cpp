@@ -117,7 +117,7 @@ class Scheduling {
   const KinematicPath& path_;
   const Eigen::VectorXd& wanted_;
   std::vector<Range> ranges_;
-  std::vector<char> at_rest_;        // strokes whose feed no longer changes
+  std::vector<char> at_rest_;     // strokes whose feed no longer changes
   std::vector<double> feed_, u_;  // of every move, of every node
   std::vector<Trapezoid> scratch_;
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/poll.h"
+#include "core/motion/cubic_move.h"
 #include "paths/feed/kinematic_path.h"
 #include "paths/feed/trapezoid.h"
 
@@ -107,9 +108,30 @@ class Runner {
   Execution result_;
 };
 
+/// Whether a program says the speeds at the ends of its steps, as tables of position, velocity and time do.
+bool says_speeds(const Program& program) {
+  return std::any_of(program.steps.begin(), program.steps.end(),
+                     [](const auto& step) { return step.speeds.has_value(); });
+}
+
+Execution run_as_it_stands(const Program& program) {
+  Execution run;
+  run.motion = program;
+  for (const ProgramStep& step : program.steps) {
+    run.seconds.push_back(step.seconds);
+    if (!step.speeds || !step.removes) continue;
+    const CubicMove move{step.start, step.finish, step.speeds->in, step.speeds->out, step.seconds};
+    run.max_speed = std::max(run.max_speed, length(largest_speed(move)));
+    run.max_acceleration =
+        std::max({run.max_acceleration, length(move.acceleration(0.0)), length(move.acceleration(step.seconds))});
+  }
+  return run;
+}
+
 }  // namespace
 
 Execution execute(const Program& program, const Machine& machine, const Progress& progress) {
+  if (says_speeds(program)) return run_as_it_stands(program);
   return Runner(program, machine).run(progress);
 }
 

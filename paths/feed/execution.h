@@ -21,7 +21,8 @@ struct Execution {
 
 /// Runs a program's steps on a machine: each as a trapezoid of speed from its entry to its exit with the commanded feed
 /// = length / seconds between (of rapids, which say none, the machine's maximum, or else the program's fastest), the
-/// speeds at the nodes as node_speeds_squared looks ahead, corners and delays as the machine takes them. Throws
+/// speeds at the nodes as node_speeds_squared looks ahead, corners and delays as the machine takes them. A program
+/// that says the speeds at the ends of its steps is run as it stands. Throws
 /// InputError as kinematic_path, Interrupted. Cost O(steps).
 Execution execute(const Program& program, const Machine& machine, const Progress& progress = {});
 

@@ -39,8 +39,8 @@ double slope_of_all(const std::vector<Trapezoid>& moves, double feed) {
   return sum;
 }
 
-/// The feed that takes a time if no move's peak is below it: the lesser root of sum(1/a) F^2 - (sum((in + out) / a) + t)
-/// F + sum(L + (in^2 + out^2) / 2 a) = 0. Infinite if there is none.
+/// The feed that takes a time if no move's peak is below it: the lesser root of sum(1/a) F^2 - (sum((in + out) / a) +
+/// t) F + sum(L + (in^2 + out^2) / 2 a) = 0. Infinite if there is none.
 double feed_below_peaks(const std::vector<Trapezoid>& moves, double seconds) {
   double a = 0.0, b = seconds, c = 0.0, peak = std::numeric_limits<double>::infinity();
   for (const Trapezoid& m : moves) {
@@ -50,7 +50,8 @@ double feed_below_peaks(const std::vector<Trapezoid>& moves, double seconds) {
     peak = std::min(peak, peak_speed(m));
   }
   const double discriminant = b * b - 4.0 * a * c;
-  const double feed = discriminant >= 0.0 ? 2.0 * c / (b + std::sqrt(discriminant)) : std::numeric_limits<double>::infinity();
+  const double feed =
+      discriminant >= 0.0 ? 2.0 * c / (b + std::sqrt(discriminant)) : std::numeric_limits<double>::infinity();
   return feed <= peak ? feed : std::numeric_limits<double>::infinity();
 }
 

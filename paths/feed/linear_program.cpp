@@ -1,0 +1,55 @@
+#include "paths/feed/linear_program.h"
+
+#include <algorithm>
+
+#include "paths/feed/trapezoid.h"
+
+namespace dwell {
+namespace {
+
+/// A straight step of constant acceleration.
+ProgramStep accelerated(Point start, Point finish, double speed_in, double speed_out, bool removes) {
+  const Point along = (1.0 / distance(start, finish)) * (finish - start);
+  return {start, finish, 2.0 * distance(start, finish) / (speed_in + speed_out), removes,
+          EndSpeeds{speed_in * along, speed_out * along}};
+}
+
+void add_fast_move(Program& program, const ProgramStep& step, const KinematicMove& move, double speed_in,
+                   double speed_out) {
+  Point from = step.start;
+  double travelled = 0.0;
+  for (const MotionPiece& piece :
+       pieces_at_feed({move.length, move.acceleration, speed_in, speed_out}, move.max_speed)) {
+    travelled += piece.length;
+    const Point to = step.start + std::min(1.0, travelled / move.length) * (step.finish - step.start);
+    program.steps.push_back(accelerated(from, to, piece.speed_in, piece.speed_out, step.removes));
+    from = to;
+  }
+}
+
+}  // namespace
+
+Program linear_program(const StrokeMoves& moves, const KinematicPath& path, const LinearSchedule& schedule,
+                       const Machine& machine) {
+  Program program;
+  program.fastest_feed = machine.max_feed;
+  for (std::size_t i = 0; i < moves.size(); ++i) {
+    ProgramStep step = moves.steps[i];
+    const double in = schedule.speed[2 * i], middle = schedule.speed[2 * i + 1], out = schedule.speed[2 * i + 2];
+    if (!(path.moves[i].length > 0.0)) {
+      if (moves.stroke[i] != StrokeMoves::kNoStroke) step.seconds = schedule.seconds[moves.stroke[i]];
+      if (step.seconds > 0.0) program.steps.push_back(step);
+    } else if (moves.stroke[i] == StrokeMoves::kNoStroke) {
+      add_fast_move(program, step, path.moves[i], in, out);
+    } else {
+      const Point half = midpoint(step.start, step.finish);
+      program.steps.push_back(accelerated(step.start, half, in, middle, true));
+      program.steps.push_back(accelerated(half, step.finish, middle, out, true));
+    }
+    if (path.stops[i + 1] != 0 && machine.corner_delay > 0.0)
+      program.steps.push_back({step.finish, step.finish, machine.corner_delay, true});
+  }
+  return program;
+}
+
+}  // namespace dwell
