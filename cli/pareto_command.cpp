@@ -81,7 +81,7 @@ std::vector<std::string> swept_flags() {
   std::vector<std::string> flags = every_flag();
   std::erase_if(flags, [](const std::string& f) {
     return f == "smoothness" || f == "time-price" || f == "time-worth" || f == "certify" || f == "blemishes" ||
-           f == "gcode" || f == "machine" || f == "rounds";
+           f == "gcode" || f == "machine" || f == "rounds" || f == "export";
   });
   return flags;
 }

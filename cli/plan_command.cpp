@@ -50,6 +50,18 @@ std::string motion_lines(const PlannedJob& plan) {
                      m.at_least, plan.laid.path.size(), m.schedule.too_short);
 }
 
+/// The programs besides feed.csv and program.nc; empty without any.
+std::string export_lines(const WrittenPlan& written) {
+  std::string lines;
+  for (const WrittenExport& e : written.exports) {
+    lines += fmt::format("{}{}{}: {} by simulating it as read back, {} in {:.2f} s\n",
+                         lines.empty() ? "export    " : "          ", e.file,
+                         e.files > 1 ? fmt::format(" and {}", counted(e.files - 1, "file")) : "", in_words(e.residual),
+                         counted(e.steps, "step"), e.total_s);
+  }
+  return lines;
+}
+
 /// The text for people.
 std::string plan_text(const PlannedJob& plan, const WrittenPlan& written) {
   std::string text = map_line(plan.part().map.grid, plan.part().before.valid_pixels);
@@ -79,7 +91,7 @@ std::string plan_text(const PlannedJob& plan, const WrittenPlan& written) {
   text += motion_lines(plan);
   text += fmt::format("program   {} by simulating program.nc as read back{}\n", in_words(written.exact.statistics),
                       plan.dwell.motion ? ", executed on the machine" : "");
-  text += exact_lines(written.exact);
+  text += export_lines(written) + exact_lines(written.exact);
   text += anatomy_lines(written.anatomy, written.exact.statistics) + left_out_line(plan.dwell) + cost_line(plan);
   text += fmt::format("help      {}\n", written.advice) + surface_lines(written.surface);
   text += fmt::format("time      {} for the run: dwell {:.2f} s, {}\n", duration_text(written.run_seconds),

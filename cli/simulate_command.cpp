@@ -21,6 +21,7 @@
 #include "core/formats/map_formats.h"
 #include "runs/drawing/picture.h"
 #include "runs/job/option_flags.h"
+#include "runs/job/place_option.h"
 #include "runs/programs/program_formats.h"
 #include "runs/reports/anatomy_lines.h"
 #include "runs/reports/exact_lines.h"
@@ -35,7 +36,7 @@ namespace {
 
 struct SimulateArguments {
   std::unique_ptr<JobArguments> job;
-  std::string plan, program, gcode, g4, residual, png;
+  std::string plan, program, gcode, g4, start, residual, png;
   JsonOption json;
   bool exact = false;
   OtherInputs other;
@@ -44,7 +45,9 @@ struct SimulateArguments {
 /// "feed.csv or program.nc".
 std::string program_files() {
   std::string names;
-  for (const ProgramFormat& format : program_formats()) names += (names.empty() ? "" : " or ") + format.file;
+  for (const ProgramFormat& format : program_formats()) {
+    if (!format.file.empty()) names += (names.empty() ? "" : " or ") + format.file;
+  }
   return names;
 }
 
@@ -199,6 +202,7 @@ int run_simulate(const SimulateArguments& arguments) {
   const SimulateArguments& a = arguments;
   if (!a.gcode.empty()) reading.dialect = of_option("--gcode", [&a] { return parse_gcode_dialect(a.gcode); });
   if (!a.g4.empty()) reading.halts = of_option("--g4", [&a] { return parse_halt_unit(a.g4); });
+  if (!a.start.empty()) reading.start = of_option("--start", [&a] { return parse_point(a.start); });
   const SimulationRequest request = request_of(arguments);
   check_outputs(arguments, request.options, request.program);
   const Progress progress = terminal_progress();
@@ -244,6 +248,10 @@ void add_simulate_command(CLI::App& program, int& exit_code) {
                    "unit of P in G4 of a program that does not say so: s or ms (default: P with a decimal point is in "
                    "seconds, a whole number is refused)")
       ->type_name("UNIT");
+  command
+      ->add_option("--start", arguments->start,
+                   "where an XPS trajectory begins, which is relative, or a PMAC program that does not say so, in mm")
+      ->type_name("X,Y");
   command->add_option("--residual", arguments->residual, "write the residual map [nm]: " + written_map_extensions())
       ->type_name("FILE");
   command->add_option("--png", arguments->png, "draw the residual map: .png, .svg or .pdf")->type_name("FILE");

@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "core/base/counted.h"
 #include "core/base/units.h"
+#include "paths/feed/cubic_check.h"
 
 namespace dwell {
 namespace {
@@ -52,7 +55,7 @@ std::vector<std::string> beyond_machine(const Program& program, const Machine& m
   Found fast, slow;
   for (std::size_t i = 0; i < program.steps.size(); ++i) {
     const ProgramStep& step = program.steps[i];
-    if (!step.removes || !(step.length() > 0.0)) continue;
+    if (!step.removes || step.speeds || !(step.length() > 0.0)) continue;
     const double feed = step.length() / step.seconds;
     if (feed > speed_limit(machine, step.finish - step.start) * (1.0 + kRoundingOfFeeds)) fast.add(i);
     if (feed < machine.min_feed * (1.0 - kRoundingOfFeeds)) slow.add(i);
@@ -69,6 +72,7 @@ std::vector<std::string> beyond_machine(const Program& program, const Machine& m
   const ProgramStep* first = fast.count > 0 ? &program.steps[fast.first] : nullptr;
   say(fast, "faster", first != nullptr ? speed_limit(machine, first->finish - first->start) : 0.0);
   say(slow, "slower", machine.min_feed);
+  for (std::string& fault : cubics_beyond_machine(program, machine)) faults.push_back(std::move(fault));
   return faults;
 }
 

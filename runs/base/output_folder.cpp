@@ -75,6 +75,11 @@ void check_target(const fs::path& target, const fs::path& shown, const ResultFil
 }  // namespace
 
 bool ResultFiles::has(std::string_view name) const {
+  for (const auto& [begin, end] : numbered) {
+    if (name.size() <= begin.size() + end.size() || !name.starts_with(begin) || !name.ends_with(end)) continue;
+    const std::string_view number = name.substr(begin.size(), name.size() - begin.size() - end.size());
+    if (number.find_first_not_of("0123456789") == std::string_view::npos) return true;
+  }
   if (name == always || std::find(others.begin(), others.end(), name) != others.end()) return true;
   const std::size_t dot = std::min(name.rfind('.'), name.size());
   const std::string_view extension = name.substr(dot);

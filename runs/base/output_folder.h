@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/base/descriptor.h"
@@ -20,6 +21,8 @@ struct ResultFiles {
   std::vector<std::string_view> others;
   std::vector<std::string_view> figures;    // without their extensions, which are .png, .svg or .pdf
   const ResultFiles* in_folders = nullptr;  // what folders in it may hold, of any name: a result of this kind each
+  /// Beginnings and ends of names with a number between: program_001.trj.
+  std::vector<std::pair<std::string_view, std::string_view>> numbered{};
 
   bool has(std::string_view name) const;
 };

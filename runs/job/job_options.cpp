@@ -21,6 +21,7 @@
 #include "runs/job/scatter_option.h"
 #include "runs/map_steps/map_steps.h"
 #include "runs/programs/gcode_dialect.h"
+#include "runs/programs/program_formats.h"
 #include "solvers/solver_catalogue.h"
 #include "solvers/weights/weight_option.h"
 
@@ -299,6 +300,11 @@ std::vector<JobOptionRecord> make_table() {
       {"lift-height", "lift_height_mm", "MM", "Z of lifted moves in program.nc in mm", false, true,
        [](Options& o, const std::string& t) { o.lift_height_mm = number(t, ranges::kSize); },
        [](const Options& o) { return shown(o.lift_height_mm); }},
+      {"export", "export", "FORMATS",
+       "programs to write besides feed.csv and program.nc, separated by commas: " + export_words() +
+           "; or none. They are positions, velocities and times, and take --machine",
+       false, false, [](Options& o, const std::string& t) { o.exports = parse_exports(t); },
+       [](const Options& o) { return exports_text(o.exports); }},
       {"figures", "figures", "FORMATS", "formats of the figures, separated by commas: png, svg, pdf", false, false,
        [](Options& o, const std::string& t) { o.figures = parse_figure_formats(t); },
        [](const Options& o) { return to_string(o.figures); }},

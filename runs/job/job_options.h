@@ -73,6 +73,7 @@ struct JobOptions {
   int threads = 0;
   GcodeDialect gcode = GcodeDialect::G94;
   double lift_height_mm = 10.0;
+  std::vector<std::string> exports;  // formats besides feed.csv and program.nc, by their words
   std::vector<FigureFormat> figures{FigureFormat::Png};
   FigureRange figure_range = FigureRange::Shared;
   std::string out;

@@ -1,11 +1,16 @@
 #include "runs/job/planned_job.h"
 
+#include <fmt/format.h>
+
+#include <optional>
 #include <utility>
 
 #include "core/base/errors.h"
 #include "core/base/time_limit.h"
+#include "paths/feed/exported_motion.h"
 #include "runs/job/option_flags.h"
 #include "runs/plan/leave_out.h"
+#include "runs/programs/program_formats.h"
 
 namespace dwell {
 
@@ -17,6 +22,19 @@ std::vector<std::string> PlannedJob::limits() const {
 }
 
 namespace {
+
+/// Throws before any work for exports that the plan cannot have.
+void check_exports(const JobOptions& options, const std::optional<NamedMachine>* machine) {
+  const std::string word = export_that_needs_motion(options.exports);
+  if (word.empty()) return;
+  if (options.machine.empty()) {
+    throw InputError(fmt::format(
+        "`export` = {}: such a program is the motion of a machine; required a `machine` file (dwell machine --example "
+        "prints one)",
+        word));
+  }
+  if (machine != nullptr && *machine) check_exported_motion((*machine)->machine);
+}
 
 /// `used` went of the time limit before [s].
 PlannedJob plan_loaded(Job job, JobPath path, double used, const Progress& progress) {
@@ -32,6 +50,11 @@ PlannedJob plan_loaded(Job job, JobPath path, double used, const Progress& progr
     planned.dwell = leave_out_blemishes(planned.part(), planned.laid, std::move(planned.dwell), options, progress);
   }
   planned.program = make_machine_program(planned.laid, planned.dwell, options.machine, progress);
+  if (!export_that_needs_motion(planned.job.options.exports).empty() && planned.dwell.motion) {
+    planned.program.motion =
+        exported_motion(planned.program.table.path, planned.laid.motion, planned.job.machine->machine,
+                        options.machine.feed_limits().max_feed, planned.dwell.motion->seconds, progress);
+  }
   return planned;
 }
 
@@ -39,8 +62,10 @@ PlannedJob plan_loaded(Job job, JobPath path, double used, const Progress& progr
 
 PlannedJob plan_job(const JobOptions& options, const Progress& progress) {
   check_weights(dwell_options(options));
+  check_exports(options, nullptr);
   const TimeLimit limit = time_limit(options.max_solve_s);
   Job job = limit.run(progress, [&](const Progress& limited) { return load_job(options, limited); });
+  check_exports(options, &job.machine);
   JobPath path = lay_job_path(job, limit.used(), progress);
   return plan_loaded(std::move(job), std::move(path), limit.used(), progress);
 }

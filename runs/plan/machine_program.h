@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "core/motion/program.h"
 #include "paths/feed/feed.h"
 #include "runs/plan/dwell_plan.h"
 #include "runs/plan/laid_path.h"
@@ -16,6 +18,7 @@ namespace dwell {
 struct MachineProgram {
   FeedTable table;
   FeedSchedule feed;                // as it is commanded, before rounding
+  std::optional<Program> motion;    // as it is scheduled, where a format asks for it (ProgramToWrite)
   std::vector<std::string> limits;  // that were reached, one sentence each
 };
 

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "core/base/point.h"
 #include "runs/programs/gcode_dialect.h"
 
 namespace dwell {
@@ -15,11 +16,13 @@ enum class HaltUnit { Seconds, Milliseconds };
 HaltUnit parse_halt_unit(const std::string& text);
 std::string to_string(HaltUnit unit);
 
-/// What a G-code program may leave to its controller, as the user says it. What a program says itself, in its comment
-/// "(dwell: gcode=..., g4=...)", must agree.
+/// What a program may leave to its controller, as the user says it. What a program says itself, in its comment
+/// "(dwell: gcode=..., g4=...)", must agree. `dialect` and `halts` are of G-code, `start` is of other programs.
 struct GcodeReading {
   std::optional<GcodeDialect> dialect = {};  // what F means after G93
   std::optional<HaltUnit> halts = {};
+  /// Where a program begins that says relative places alone, or none before its first move [mm].
+  std::optional<Point> start = {};
 };
 
 }  // namespace dwell

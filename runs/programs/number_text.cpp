@@ -74,6 +74,12 @@ std::string coordinate_text(double mm) {
   return text;
 }
 
+std::string seconds_text(double s) {
+  check_finite(s);
+  if (!(s >= 0.0)) throw std::logic_error(fmt::format("time {} s cannot be exported; required >= 0", s));
+  return fixed_text(s, 9);
+}
+
 std::string digits_nearest(double value) {
   const int decimals = decimals_for(value);
   return fixed_text(value, decimals);

@@ -10,6 +10,7 @@ namespace dwell {
 inline constexpr int kExportDigits = 9;  // significant digits of dwell, feed and duration
 
 std::string coordinate_text(double mm);      // to 1e-6 mm, nearest
+std::string seconds_text(double s);          // to 1e-9 s, nearest; >= 0
 std::string digits_nearest(double value);    // to kExportDigits significant digits
 std::string digits_not_above(double value);  // the same, but what is read back is never above the value
 std::string digits_not_below(double value);  // ... never below the value

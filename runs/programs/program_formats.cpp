@@ -1,9 +1,26 @@
 #include "runs/programs/program_formats.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <filesystem>
+#include <stdexcept>
+#include <utility>
+
+#include "core/base/errors.h"
+#include "core/base/number_text.h"
 #include "core/base/side_by_side.h"
 #include "core/base/text_lines.h"
+#include "core/base/whole_file.h"
+#include "core/base/word_list.h"
+#include "core/formats/hdf5_map.h"
 #include "runs/programs/gcode.h"
 #include "runs/programs/gcode_reader.h"
+#include "runs/programs/pmac_program.h"
+#include "runs/programs/pvt_csv.h"
+#include "runs/programs/pvt_hdf5.h"
+#include "runs/programs/pvt_json.h"
+#include "runs/programs/xps_trajectory.h"
 
 namespace dwell {
 namespace {
@@ -19,13 +36,14 @@ Program read_table(std::string_view text, const std::string& file, const GcodeRe
   return program;
 }
 
-std::string write_table(const FeedTable& table, const ProgramWriting&, const Progress& progress) {
-  return feed_table_text(table, progress);
+std::vector<WrittenProgram> write_table(const ProgramToWrite& program, const ProgramWriting&,
+                                        const Progress& progress) {
+  return {{"feed.csv", feed_table_text(program.table, progress)}};
 }
 
 /// Whether a text begins with a comment, a % or a word: a letter and a number.
 bool is_gcode(std::string_view text) {
-  if (text.empty()) return false;
+  if (text.empty() || is_pmac_program(text)) return false;
   if (std::string_view("%(;/").find(text.front()) != std::string_view::npos) return true;
   const std::size_t number = text.find_first_not_of(" \t", 1);
   const bool letter = (text.front() >= 'A' && text.front() <= 'Z') || (text.front() >= 'a' && text.front() <= 'z');
@@ -33,13 +51,76 @@ bool is_gcode(std::string_view text) {
          std::string_view("0123456789.+-").find(text[number]) != std::string_view::npos;
 }
 
-std::string write_gcode(const FeedTable& table, const ProgramWriting& writing, const Progress& progress) {
+std::vector<WrittenProgram> write_gcode(const ProgramToWrite& program, const ProgramWriting& writing,
+                                        const Progress& progress) {
   GcodeOptions options;
   options.dialect = writing.dialect;
   options.lift_height_mm = writing.lift_height_mm;
-  options.max_feed_mm_per_min = table.max_feed_mm_per_min;
+  options.max_feed_mm_per_min = program.table.max_feed_mm_per_min;
   options.header = writing.header;
-  return gcode_text(program_of(table), options, progress);
+  return {{"program.nc", gcode_text(program_of(program.table), options, progress)}};
+}
+
+PvtTable table_of_motion(const ProgramToWrite& program, const Progress& progress) {
+  if (!program.motion) throw std::logic_error("a program of positions, velocities and times needs the motion");
+  return pvt_table_of(*program.motion, progress);
+}
+
+Program read_csv(std::string_view text, const std::string& file, const GcodeReading&, const Progress& progress) {
+  return program_of(parse_pvt_csv(text, file, progress), file);
+}
+
+std::vector<WrittenProgram> write_csv(const ProgramToWrite& program, const ProgramWriting&, const Progress& progress) {
+  return {{"pvt.csv", pvt_csv_text(table_of_motion(program, progress), program.table, progress)}};
+}
+
+Program read_json(std::string_view text, const std::string& file, const GcodeReading&, const Progress& progress) {
+  return program_of(parse_pvt_json(text, file, progress), file);
+}
+
+std::vector<WrittenProgram> write_json(const ProgramToWrite& program, const ProgramWriting&, const Progress& progress) {
+  return {{"pvt.json", pvt_json_text(table_of_motion(program, progress), program.table, progress)}};
+}
+
+Program read_hdf5(std::string_view text, const std::string& file, const GcodeReading&, const Progress& progress) {
+  return program_of(parse_pvt_hdf5(text, file, progress), file);
+}
+
+std::vector<WrittenProgram> write_hdf5(const ProgramToWrite& program, const ProgramWriting&, const Progress& progress) {
+  return {{"pvt.h5", pvt_hdf5_bytes(table_of_motion(program, progress), program.table)}};
+}
+
+template <StretchKind kind>
+bool is_list(std::string_view text) {
+  return is_stretch_list(text, kind);
+}
+
+template <StretchKind kind>
+Program read_list(std::string_view text, const std::string& file, const GcodeReading&, const Progress& progress) {
+  const ReadBeside beside = [&file](const std::string& name) {
+    return read_whole_file(std::filesystem::path(file).parent_path() / name);
+  };
+  return program_of(parse_stretch_list(text, file, kind, beside, progress), file);
+}
+
+template <StretchKind kind>
+std::vector<WrittenProgram> write_list(const ProgramToWrite& program, const ProgramWriting&, const Progress& progress) {
+  return written_stretches(kind, table_of_motion(program, progress), program.table, progress);
+}
+
+Program read_xps(std::string_view text, const std::string& file, const GcodeReading& reading,
+                 const Progress& progress) {
+  return program_of(parse_xps_trajectory(text, file, reading.start, progress), file);
+}
+
+Program read_pmac(std::string_view text, const std::string& file, const GcodeReading& reading,
+                  const Progress& progress) {
+  return program_of(parse_pmac_program(text, file, reading.start, progress), file);
+}
+
+/// Whether a plan with these exports has the format.
+bool is_written(const ProgramFormat& format, const std::vector<std::string>& exports) {
+  return format.write != nullptr && (format.word.empty() || is_among(format.word, exports));
 }
 
 }  // namespace
@@ -47,9 +128,26 @@ std::string write_gcode(const FeedTable& table, const ProgramWriting& writing, c
 const std::vector<ProgramFormat>& program_formats() {
   static const std::vector<ProgramFormat> kFormats{
       {"a feed table (first line \"# dwell ...\")", "feed.csv", "the dwell points in order, each with dwell and feed",
-       "feed_table", false, is_feed_table, read_table, write_table},
-      {"G-code (comments and words such as G1 X1.5)", "program.nc", "the same as G-code", "gcode", true, is_gcode,
-       read_gcode, write_gcode},
+       "feed_table", false, "", false, false, is_feed_table, read_table, write_table},
+      {"G-code (comments and words such as G1 X1.5)", "program.nc", "the same as G-code", "gcode", true, "", false,
+       false, is_gcode, read_gcode, write_gcode},
+      {"a PVT table (first line \"# pvt: ...\")", "pvt.csv", "times, places and velocities as text", "pvt_csv", false,
+       "pvt-csv", true, false, is_pvt_csv, read_csv, write_csv},
+      {"a PVT table as JSON (an object with \"pvt\")", "pvt.json", "times, places and velocities as JSON", "pvt_json",
+       false, "pvt-json", true, false, is_pvt_json, read_json, write_json},
+      {"a PVT table as HDF5 (data set /pvt)", "pvt.h5", "times, places and velocities as HDF5", "pvt_hdf5", false,
+       "pvt-hdf5", true, false, is_hdf5, read_hdf5, write_hdf5},
+      {"a list of XPS trajectories (first line \"# xps: ...\")", "xps.csv",
+       "Newport XPS trajectories program_001.trj, ... and their list", "stretches", false, "xps-trj", true, false,
+       is_list<StretchKind::XpsTrajectory>, read_list<StretchKind::XpsTrajectory>,
+       write_list<StretchKind::XpsTrajectory>},
+      {"a list of PMAC programs (first line \"# pmac: ...\")", "pmac.csv",
+       "PMAC programs in PVT mode program_001.pmc, ... and their list", "stretches", false, "pmac", true, false,
+       is_list<StretchKind::PmacProgram>, read_list<StretchKind::PmacProgram>, write_list<StretchKind::PmacProgram>},
+      {"an XPS trajectory (lines dt, dx, vx, dy, vy)", "", "one stretch of work", "xps_trajectory", false, "", true,
+       true, is_xps_trajectory, read_xps, nullptr},
+      {"a PMAC program in PVT mode", "", "one stretch of work", "pmac_program", false, "", true, true, is_pmac_program,
+       read_pmac, nullptr},
   };
   return kFormats;
 }
@@ -64,14 +162,58 @@ const ProgramFormat* program_format_of(std::string_view text) {
   return nullptr;
 }
 
-std::vector<WrittenProgram> written_programs(const FeedTable& table, const ProgramWriting& writing, int threads,
+std::string export_words() {
+  std::string words;
+  for (const ProgramFormat& format : program_formats()) {
+    if (!format.word.empty()) words += (words.empty() ? "" : ", ") + format.word;
+  }
+  return words;
+}
+
+std::vector<std::string> parse_exports(std::string_view text) {
+  std::vector<std::string> wanted, exports;
+  if (trim(text) != "none") {
+    for (const std::string_view part : split(text, ',')) wanted.emplace_back(trim(part));
+  }
+  for (const ProgramFormat& format : program_formats()) {
+    if (!format.word.empty() && is_among(format.word, wanted)) exports.push_back(format.word);
+  }
+  for (const std::string& word : wanted) {
+    if (is_among(word, exports)) continue;
+    throw InputError(fmt::format("'{}': '{}' is no format; accepted: {}, several separated by commas, or none", text,
+                                 word, export_words()));
+  }
+  return exports;
+}
+
+std::string exports_text(const std::vector<std::string>& exports) { return fmt::format("{}", fmt::join(exports, ",")); }
+
+std::string export_that_needs_motion(const std::vector<std::string>& exports) {
+  for (const ProgramFormat& format : program_formats()) {
+    if (format.needs_motion && is_among(format.word, exports)) return format.word;
+  }
+  return "";
+}
+
+std::vector<WrittenProgram> written_programs(const ProgramToWrite& program, const ProgramWriting& writing,
+                                             const std::vector<std::string>& exports, int threads,
                                              const Progress& progress) {
-  const std::vector<ProgramFormat>& formats = program_formats();
-  std::vector<WrittenProgram> programs(formats.size());
+  std::vector<const ProgramFormat*> formats;
+  for (const ProgramFormat& format : program_formats()) {
+    if (is_written(format, exports)) formats.push_back(&format);
+  }
+  std::vector<std::vector<WrittenProgram>> written(formats.size());
   run_side_by_side(threads, progress, formats.size(), [&](std::size_t k, const Progress& shared) {
-    shared.step("write: " + formats[k].file);
-    programs[k] = {formats[k].file, formats[k].write(table, writing, shared)};
+    shared.step("write: " + formats[k]->file);
+    written[k] = formats[k]->write(program, writing, shared);
   });
+  std::vector<WrittenProgram> programs;
+  for (std::size_t k = 0; k < formats.size(); ++k) {
+    for (WrittenProgram& file : written[k]) {
+      file.word = formats[k]->word;
+      programs.push_back(std::move(file));
+    }
+  }
   return programs;
 }
 

@@ -34,6 +34,10 @@ Program read_program(const std::filesystem::path& file, const GcodeReading& read
                                              : fmt::format("a unit of P in G4 ({})", to_string(*reading.halts));
     throw InputError(fmt::format("{}: is {}, for which {} has no meaning", file.string(), kind, what));
   }
+  if (!format->takes_start && reading.start) {
+    throw InputError(fmt::format("{}: is {}, which says where it begins; `start` has no meaning for it", file.string(),
+                                 format->name.substr(0, format->name.find(" ("))));
+  }
   return format->read(text, file.string(), reading, progress);
 }
 

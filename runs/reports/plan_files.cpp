@@ -11,7 +11,10 @@ ResultFiles make_plan_files() {
                     {"residual.npy", "residual.npy.json", "dwell.npy", "search.csv"},
                     {"before", "after", "residual", "dwell", "path", "path_detail"},
                     nullptr};
-  for (const ProgramFormat& format : program_formats()) files.others.emplace_back(format.file);
+  for (const ProgramFormat& format : program_formats()) {
+    if (!format.file.empty()) files.others.emplace_back(format.file);
+  }
+  files.numbered = {{"program_", ".trj"}, {"program_", ".pmc"}};
   return files;
 }
 

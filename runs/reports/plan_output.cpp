@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <utility>
 
 #include "core/base/counted.h"
@@ -13,6 +14,7 @@
 #include "core/base/units.h"
 #include "core/base/version.h"
 #include "core/base/whole_file.h"
+#include "core/base/word_list.h"
 #include "core/form/robust_pv.h"
 #include "core/formats/map_io.h"
 #include "core/formats/npy.h"
@@ -34,8 +36,10 @@
 namespace dwell {
 namespace {
 
-void write_program(const PlannedJob& plan, const OutputFolder& folder, const Progress& progress) {
-  FeedTable table = plan.program.table;
+std::vector<WrittenProgram> write_program(const PlannedJob& plan, const OutputFolder& folder,
+                                          const Progress& progress) {
+  ProgramToWrite to_write{plan.program.table, plan.program.motion};
+  FeedTable& table = to_write.table;
   table.version = version();
   std::vector<std::string> header = {fmt::format("dwell {}", version())};
   for (const InputFile& input : plan.job.inputs) {
@@ -45,10 +49,10 @@ void write_program(const PlannedJob& plan, const OutputFolder& folder, const Pro
   const JobOptions& options = plan.job.options;
   table.options = options_of_record(options);
   for (const auto& [key, value] : table.options) header.push_back(fmt::format("option: {} = {}", key, value));
-  for (const WrittenProgram& program :
-       written_programs(table, {options.gcode, options.lift_height_mm, header}, plan.part().threads, progress)) {
-    folder.write(program.file, program.bytes);
-  }
+  std::vector<WrittenProgram> programs = written_programs(to_write, {options.gcode, options.lift_height_mm, header},
+                                                          options.exports, plan.part().threads, progress);
+  for (const WrittenProgram& program : programs) folder.write(program.file, program.bytes);
+  return programs;
 }
 
 /// Reads a program of the plan back from disk. It is called by its own name in all messages, and not by the temporary
@@ -127,6 +131,39 @@ void study_surface(const PlannedJob& plan, WrittenPlan& written, const Progress&
   written.advice = residual_advice(written.anatomy, advice_facts(plan));
 }
 
+/// Reads the other programs back from disk: each must keep the machine's limits as it stands in its file, and leave
+/// what program.nc leaves.
+void check_exports(const PlannedJob& plan, const OutputFolder& folder, const std::vector<WrittenProgram>& programs,
+                   WrittenPlan& written, const Progress& progress) {
+  std::optional<Program> first;
+  for (const ProgramFormat& format : program_formats()) {
+    if (format.word.empty() || !is_among(format.word, plan.job.options.exports)) continue;
+    progress.report("simulate: " + format.file + " as read back from disk");
+    Program program = read_back(folder, format.file, progress);
+    WrittenExport now;
+    now.word = format.word;
+    now.file = format.file;
+    now.sha256 = sha256_of_file(folder.path(format.file));
+    now.files = static_cast<std::size_t>(
+        std::count_if(programs.begin(), programs.end(), [&](const auto& file) { return file.word == format.word; }));
+    now.steps = program.steps.size();
+    now.total_s = program.total_seconds();
+    for (const std::string& fault : beyond_machine(program, plan.job.machine->machine))
+      written.limits.push_back(fmt::format("{}: {}", format.file, fault));
+    const bool same =
+        first && same_removing_steps(program, *first, units::mm_per_s(plan.job.options.max_feed_mm_per_min));
+    now.residual = same ? written.exports.front().residual
+                        : predict_program(plan.part(), program, plan.dwell.lattice.kernel, progress).statistics;
+    const double left = written.exact.statistics.rms_about_zero(), by_file = now.residual.rms_about_zero();
+    if (differs(left, by_file, std::max(kSimulationTolerance, 3.0 * written.exact.standard_error / left))) {
+      written.limits.push_back(fmt::format("{} leaves {:.6g} nm RMS{} but program.nc on the machine {:.6g} nm",
+                                           format.file, by_file, about_zero_in_words(now.residual), left));
+    }
+    if (!first) first = std::move(program);
+    written.exports.push_back(std::move(now));
+  }
+}
+
 /// The time that every point gets: with a machine what its motion takes, else what the feed table says.
 std::vector<double> dwell_to_write(const PlannedJob& plan) {
   if (!plan.dwell.motion) return plan.program.table.dwell_s;
@@ -137,7 +174,7 @@ std::vector<double> dwell_to_write(const PlannedJob& plan) {
 
 WrittenPlan write_plan(const PlannedJob& plan, const OutputFolder& folder, const Progress& progress) {
   progress.report("write: feed table and program");
-  write_program(plan, folder, progress);
+  const std::vector<WrittenProgram> programs = write_program(plan, folder, progress);
   progress.check();
 
   progress.report("simulate: the program as read back from disk");
@@ -171,6 +208,7 @@ WrittenPlan write_plan(const PlannedJob& plan, const OutputFolder& folder, const
   written.program_sha256 = sha256_of_file(folder.path("program.nc"));
   compare_with_solver(plan, written);
   compare_with_table(plan, program, table, written, progress);
+  check_exports(plan, folder, programs, written, progress);
   progress.check();
 
   progress.report("write: pictures and arrays");

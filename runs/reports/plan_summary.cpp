@@ -85,6 +85,21 @@ Json program_json(const WrittenPlan& written) {
   return program;
 }
 
+/// The programs besides feed.csv and program.nc.
+Json exports_json(const WrittenPlan& written) {
+  Json exports = Json::array();
+  for (const WrittenExport& e : written.exports) {
+    exports.push_back({{"format", e.word},
+                       {"file", e.file},
+                       {"files", e.files},
+                       {"sha256", e.sha256},
+                       {"steps", e.steps},
+                       {"total_s", e.total_s},
+                       {"rms_nm", e.residual.rms}});
+  }
+  return exports;
+}
+
 /// The way from the plan's folder to the current one, from which the names of files are seen. A way and no place: it
 /// stays right where both are moved together.
 std::string names_from(const PlannedJob& plan) {
@@ -124,6 +139,7 @@ std::string plan_summary_text(const PlannedJob& plan, const WrittenPlan& written
                   {"inputs", inputs_json(plan.job.inputs)}});
   if (plan.dwell.motion) {
     summary["machine"] = machine_block(*plan.job.machine);
+    if (!written.exports.empty()) summary["exports"] = exports_json(written);
     summary["motion"] = motion_json(*plan.dwell.motion, plan.dwell.residual.rms_about_zero());
   }
   return json_text(std::move(summary));

@@ -1,6 +1,7 @@
 #include "runs/reports/program_record.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <optional>
@@ -111,6 +112,14 @@ ProgramRecord read_program_record(const std::filesystem::path& program) {
   const std::string text = read_whole_file(program);
   std::string_view rest = without_byte_order_mark(text);
   ProgramRecord record;
+  if (rest.starts_with('{')) {  // pvt.json
+    const nlohmann::json json = nlohmann::json::parse(rest.begin(), rest.end(), nullptr, false);
+    if (!json.is_object() || !json.contains("made") || !json["made"].is_array()) return record;
+    for (const nlohmann::json& line : json["made"]) {
+      if (line.is_string()) take_comment(line.get_ref<const std::string&>(), program.string(), record);
+    }
+    return record;
+  }
   while (!rest.empty()) {
     const std::size_t newline = rest.find('\n');
     const std::string_view line = rest.substr(0, newline);

@@ -1,15 +1,28 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
 #include "core/anatomy/residual_anatomy.h"
+#include "core/form/map_statistics.h"
 #include "core/removal/exact_residual.h"
 #include "runs/base/json_blocks.h"
 #include "runs/plan/machine_program.h"
 #include "runs/reports/surface_sheet.h"
 
 namespace dwell {
+
+/// A program that was asked for besides feed.csv and program.nc, as read back.
+struct WrittenExport {
+  std::string word;       // as --export names it
+  std::string file;       // the first, or the list of the others
+  std::size_t files = 1;  // with it
+  std::string sha256;     // of the first
+  std::size_t steps = 0;
+  double total_s = 0.0;    // of all steps
+  MapStatistics residual;  // that it leaves
+};
 
 /// What was written, and the surface that the program on disk leaves.
 struct WrittenPlan {
@@ -24,6 +37,7 @@ struct WrittenPlan {
   std::string program_sha256;
   /// Whether feed.csv, read back, removes with the steps of program.nc; if not, it is simulated too.
   bool table_has_same_steps = false;
+  std::vector<WrittenExport> exports;
   std::vector<std::string> limits;  // of the plan, and those that reading its files back has shown; a sentence each
   std::string summary;              // the text of summary.json
 };

@@ -80,7 +80,7 @@ std::map<std::string, std::vector<Words>> runs_of_commands() {
        {SmallInputs::plan({"--out", "a", "--time-price", "auto"}),
         SmallInputs::plan({"--out", "a", "--smoothness", "step<=0.05", "--tif-pedestal", "taper"}),
         SmallInputs::plan({"--map", "specked.csv", "--out", "a", "--blemishes", "leave-out"}),
-        SmallInputs::plan({"--out", "a", "--machine", "machine.toml"})}},
+        SmallInputs::plan({"--out", "a", "--machine", "machine.toml", "--export", "pvt-csv,xps-trj"})}},
       {"paths",
        {{"paths", "--map", "wide.csv", "--tif", "gaussian:peak=10,fwhm=3,radius=4", "--threads", "1", "--paths",
          "raster:pitch=2;nearest:critical=1e9", "--out", "b"},

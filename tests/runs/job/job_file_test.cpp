@@ -66,6 +66,7 @@ JobOptions unusual() {
   o.threads = 2;
   o.gcode = GcodeDialect::G93PerMinute;
   o.lift_height_mm = 3.0;
+  o.exports = {"pvt-csv", "pmac"};
   o.figures = {FigureFormat::Svg, FigureFormat::Pdf};
   o.figure_range = FigureRange::Own;
   o.out = "/tmp/plan";

@@ -1,0 +1,93 @@
+#include "paths/feed/cubic_check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "core/base/counted.h"
+#include "core/motion/cubic_move.h"
+
+namespace dwell {
+namespace {
+
+constexpr double kCubicTolerance = 1e-6;
+constexpr double kSameSpeed = 1e-6;  // [mm/s] the last digit of files
+constexpr int kSamples = 32;         // of a bent cubic, for its speed along the path
+
+/// One kind of limit: the steps that are beyond it.
+struct Beyond {
+  const char* what;
+  const char* unit;
+  double limit;
+  std::size_t first = 0, count = 0;
+  double reached = 0.0;  // the most, of all steps
+
+  void check(std::size_t step, double value) {
+    if (value <= limit * (1.0 + kCubicTolerance)) return;
+    if (count == 0) first = step;
+    ++count;
+    reached = count == 1 || !(value <= reached) ? value : reached;
+  }
+
+  std::string sentence() const {
+    return fmt::format(
+        "{} of the program {} the machine's {}: the first is step {}, the most {:.6g} {} where the "
+        "limit is {:.6g} {}",
+        counted(count, "step"), count == 1 ? "exceeds" : "exceed", what, first + 1, reached, unit, limit, unit);
+  }
+};
+
+/// The largest speed along the path; `bound` if that is within the limit anyhow.
+double path_speed(const CubicMove& move, double bound, double limit) {
+  if (bound <= limit) return bound;
+  double most = std::max(length(move.speed_in), length(move.speed_out));
+  for (int k = 1; k < kSamples; ++k) most = std::max(most, length(move.speed(move.seconds * k / kSamples)));
+  return most;
+}
+
+}  // namespace
+
+std::vector<std::string> cubics_beyond_machine(const Program& program, const Machine& machine) {
+  Beyond all[] = {{"speed of x", "mm/s", machine.x.max_speed},
+                  {"speed of y", "mm/s", machine.y.max_speed},
+                  {"speed along the path", "mm/s", machine.max_feed},
+                  {"acceleration of x", "mm/s^2", machine.x.max_acceleration},
+                  {"acceleration of y", "mm/s^2", machine.y.max_acceleration},
+                  {"acceleration along the path", "mm/s^2", machine.path_acceleration},
+                  {"continuous velocity (a jump)", "mm/s", kSameSpeed}};
+  std::optional<Point> speed;  // before the step; nothing where a step does not say it
+  bool any = false;
+  for (std::size_t i = 0; i < program.steps.size(); ++i) {
+    const ProgramStep& step = program.steps[i];
+    const bool rests = !step.speeds && step.start == step.finish;
+    if (!step.speeds && !rests) {
+      speed.reset();
+      continue;
+    }
+    const EndSpeeds ends = step.speeds.value_or(EndSpeeds{});
+    if (speed || i == 0) all[6].check(i, distance(speed.value_or(Point{}), ends.in));
+    speed = ends.out;
+    if (!step.speeds) continue;
+    any = true;
+    const CubicMove move{step.start, step.finish, ends.in, ends.out, step.seconds};
+    const Point v = largest_speed(move), a = largest_acceleration(move);
+    all[0].check(i, v.x);
+    all[1].check(i, v.y);
+    all[2].check(i, path_speed(move, length(v), machine.max_feed));
+    all[3].check(i, a.x);
+    all[4].check(i, a.y);
+    all[5].check(i, std::max(length(move.acceleration(0.0)), length(move.acceleration(step.seconds))));
+  }
+  if (any && speed) all[6].check(program.steps.size() - 1, length(*speed));
+  std::vector<std::string> faults;
+  if (!any) return faults;
+  for (const Beyond& beyond : all) {
+    if (beyond.count > 0) faults.push_back(beyond.sentence());
+  }
+  return faults;
+}
+
+}  // namespace dwell

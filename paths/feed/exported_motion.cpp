@@ -1,0 +1,109 @@
+#include "paths/feed/exported_motion.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/errors.h"
+#include "paths/feed/constant_schedule.h"
+#include "paths/feed/kinematic_path.h"
+#include "paths/feed/stroke_moves.h"
+#include "paths/feed/trapezoid_program.h"
+
+namespace dwell {
+namespace {
+
+constexpr double kAccelerationMargin = 0.995, kSpeedMargin = 0.999;
+constexpr double kRoundedPlace = 1.5e-6;  // [mm] both ends of a step, in both axes
+constexpr double kLeastPiece = 1e-3;      // [s]
+constexpr int kRounds = 3;                // of schedules
+
+double least_acceleration(const Machine& machine) {
+  return std::min({machine.path_acceleration, machine.x.max_acceleration, machine.y.max_acceleration});
+}
+
+/// The program that a schedule commands.
+Program commanded(const StrokeMoves& moves, const ConstantSchedule& schedule, const Eigen::VectorXd& halts,
+                  double max_feed) {
+  Program program;
+  program.fastest_feed = max_feed;
+  for (std::size_t i = 0; i < moves.size(); ++i) {
+    ProgramStep step = moves.steps[i];
+    const Index j = moves.stroke[i];
+    if (j == StrokeMoves::kNoStroke) {
+      if (step.removes) step.seconds = step.length() / max_feed;
+    } else {
+      const double feed = schedule.feed[static_cast<std::size_t>(j)];
+      step.seconds = step.length() > 0.0 && feed > 0.0 ? step.length() / feed : halts[j];
+    }
+    program.steps.push_back(step);
+  }
+  return program;
+}
+
+}  // namespace
+
+void check_exported_motion(const Machine& machine) {
+  for (const Point along : {Point{1.0, 0.0}, Point{0.0, 1.0}}) {
+    if (std::isfinite(acceleration_limit(machine, along))) continue;
+    throw InputError(fmt::format(
+        "`export`: the `machine` has no limit of acceleration along {}, and its speed then jumps, which no table of "
+        "positions, velocities and times can say; required max_acceleration_mm_per_s2 of both axes, or "
+        "path_acceleration_mm_per_s2",
+        along.x > 0.0 ? "x" : "y"));
+  }
+  if (machine.corner == CornerRule::ExactStop) return;
+  throw InputError(fmt::format(
+      "`export`: the `machine` has the corner rule {}, by which its velocity jumps at corners, which no table of "
+      "positions, velocities and times can say; required exact-stop",
+      to_string(machine.corner)));
+}
+
+Machine with_margins(const Machine& machine) {
+  Machine tight = machine;
+  for (MachineAxis* axis : {&tight.x, &tight.y}) {
+    axis->max_acceleration *= kAccelerationMargin;
+    axis->max_speed *= kSpeedMargin;
+  }
+  tight.path_acceleration *= kAccelerationMargin;
+  tight.max_feed *= kSpeedMargin;
+  return tight;
+}
+
+double least_piece_seconds(const Machine& machine) {
+  // A place that is off by d changes the accelerations at the ends of a cubic of T by 6 d / T^2.
+  const double margin = 0.5 * (1.0 - kAccelerationMargin) * least_acceleration(machine);
+  return std::max(kLeastPiece, std::sqrt(6.0 * kRoundedPlace / margin));
+}
+
+Program exported_motion(const ToolPath& path, Motion motion, const Machine& machine, double max_feed,
+                        const Eigen::VectorXd& seconds, const Progress& progress) {
+  check_exported_motion(machine);
+  const Machine tight = with_margins(machine);
+  const double least = least_piece_seconds(machine), most = kSpeedMargin * max_feed;
+  const StrokeMoves moves = stroke_moves(path, motion);
+  const KinematicPath kinematic = kinematic_path(moves.steps, tight, most);
+  Eigen::VectorXd aimed = seconds;
+  TrapezoidProgram made;
+  for (int round = 0; round < kRounds; ++round) {
+    progress.check();
+    made = trapezoid_program(commanded(moves, schedule_constant(moves, kinematic, tight, aimed), seconds, most), tight,
+                             least);
+    Eigen::VectorXd taken = Eigen::VectorXd::Zero(seconds.size());
+    std::vector<char> moving(static_cast<std::size_t>(seconds.size()), 0);
+    for (std::size_t i = 0; i < moves.size(); ++i) {
+      if (moves.stroke[i] == StrokeMoves::kNoStroke) continue;
+      taken[moves.stroke[i]] += made.seconds[i];
+      if (moves.steps[i].length() > 0.0) moving[static_cast<std::size_t>(moves.stroke[i])] = 1;
+    }
+    for (Index j = 0; j < aimed.size(); ++j) {
+      if (moving[static_cast<std::size_t>(j)] != 0) aimed[j] = std::max(0.0, aimed[j] + seconds[j] - taken[j]);
+    }
+  }
+  std::erase_if(made.motion.steps,
+                [](const ProgramStep& step) { return step.start == step.finish && !(step.seconds > 0.0); });
+  return std::move(made.motion);
+}
+
+}  // namespace dwell

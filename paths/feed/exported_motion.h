@@ -1,0 +1,33 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "core/base/progress.h"
+#include "core/motion/motion.h"
+#include "core/motion/program.h"
+#include "core/motion/tool_path.h"
+#include "paths/feed/machine.h"
+
+namespace dwell {
+
+/// What a table of positions, velocities and times needs of a machine that runs plain feeds. Throws InputError naming
+/// `export`, the field of the machine and what is required: a limit of acceleration in every direction, and exact stops
+/// at corners, since a velocity that jumps cannot be said.
+void check_exported_motion(const Machine& machine);
+
+/// The machine with its accelerations at 0.995 and its speeds at 0.999, so that what is scheduled for it keeps the
+/// limits of the machine itself after its numbers were rounded to 1e-6 mm and 1e-6 mm/s.
+Machine with_margins(const Machine& machine);
+
+/// The shortest piece of which rounding by 1e-6 mm changes the acceleration by no more than half of that margin, at
+/// least 1 ms, as controllers take such tables [s].
+double least_piece_seconds(const Machine& machine);
+
+/// The motion of a plan with one feed a stroke, as pieces of constant acceleration within the machine's margins: every
+/// stroke takes the time that it has in the plan's own motion (`seconds`, one a stroke), so that it removes the same.
+/// Feeds are made for these times (schedule_constant) and corrected twice for what short pieces change. Throws
+/// InputError as check_exported_motion and trapezoid_program, Interrupted. Cost: three schedules.
+Program exported_motion(const ToolPath& path, Motion motion, const Machine& machine, double max_feed,
+                        const Eigen::VectorXd& seconds, const Progress& progress = {});
+
+}  // namespace dwell

@@ -1,0 +1,124 @@
+#include "paths/feed/trapezoid_program.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/errors.h"
+#include "paths/feed/kinematic_path.h"
+#include "paths/feed/trapezoid.h"
+
+namespace dwell {
+namespace {
+
+/// The acceleration with which a change of speed takes at least so long.
+double gentle(double acceleration, double change, double least_seconds) {
+  return least_seconds > 0.0 ? std::min(acceleration, std::abs(change) / least_seconds) : acceleration;
+}
+
+/// The length of a change of speed, 0 where there is none.
+double ramp_length(double from, double to, double acceleration) {
+  return from == to ? 0.0 : std::abs(to * to - from * from) / (2.0 * acceleration);
+}
+
+/// The pieces of a move at a feed, none shorter than `least_seconds` where there is room.
+std::vector<MotionPiece> lasting_pieces(const Trapezoid& move, double feed, double least_seconds) {
+  if (!(least_seconds > 0.0)) return pieces_at_feed(move, feed);
+  const double v = std::clamp(feed, std::max(move.speed_in, move.speed_out), peak_speed(move));
+  const double up = ramp_length(move.speed_in, v, gentle(move.acceleration, v - move.speed_in, least_seconds));
+  const double down = ramp_length(move.speed_out, v, gentle(move.acceleration, v - move.speed_out, least_seconds));
+  std::vector<MotionPiece> pieces = pieces_at_feed(move, feed);
+  if (up + down <= move.length && v > 0.0) {
+    pieces.clear();
+    if (up > 0.0) pieces.push_back({up, move.speed_in, v});
+    if (move.length - up - down > 0.0) pieces.push_back({move.length - up - down, v, v});
+    if (down > 0.0) pieces.push_back({down, v, move.speed_out});
+  }
+  // A short stretch at one speed goes to the pieces beside it, which then accelerate less.
+  for (std::size_t k = 0; k < pieces.size() && pieces.size() > 1; ++k) {
+    if (pieces[k].speed_in != pieces[k].speed_out || pieces[k].seconds() >= least_seconds) continue;
+    const double length = pieces[k].length;
+    const bool before = k > 0, after = k + 1 < pieces.size();
+    if (before) pieces[k - 1].length += before && after ? 0.5 * length : length;
+    if (after) pieces[k + 1].length += before && after ? 0.5 * length : length;
+    pieces.erase(pieces.begin() + static_cast<std::ptrdiff_t>(k));
+    break;
+  }
+  return pieces;
+}
+
+class Pieces {
+ public:
+  Pieces(const Program& program, const Machine& machine, double least_seconds)
+      : program_(program), machine_(machine), least_(least_seconds), path_(kinematic_path(program, machine)) {
+    for (std::size_t i = 0; i < program.steps.size(); ++i) feed_.push_back(commanded_feed(i));
+    u_ = node_speeds_squared(path_, feed_);
+    result_.motion.file = program.file;
+    result_.motion.fastest_feed = std::isfinite(machine.max_feed) ? machine.max_feed : program.fastest_feed;
+  }
+
+  TrapezoidProgram run() {
+    for (std::size_t i = 0; i < program_.steps.size(); ++i) {
+      result_.seconds.push_back(run_step(i) + half_rest(i) + half_rest(i + 1));
+      const Point end = program_.steps[i].finish;
+      if (path_.stops[i + 1] != 0 && machine_.corner_delay > 0.0)
+        result_.motion.steps.push_back({end, end, machine_.corner_delay, true});
+    }
+    return std::move(result_);
+  }
+
+ private:
+  double commanded_feed(std::size_t i) const {
+    const ProgramStep& step = program_.steps[i];
+    const double most = path_.moves[i].max_speed;
+    if (step.seconds > 0.0) return std::min(most, step.length() / step.seconds);
+    return std::isfinite(most) || !(program_.fastest_feed > 0.0) ? most : program_.fastest_feed;
+  }
+
+  double half_rest(std::size_t node) const { return path_.stops[node] != 0 ? 0.5 * machine_.corner_delay : 0.0; }
+
+  double run_step(std::size_t i) {
+    const ProgramStep& step = program_.steps[i];
+    const KinematicMove& move = path_.moves[i];
+    if (!(move.length > 0.0)) {
+      result_.motion.steps.push_back(step);
+      return step.seconds;
+    }
+    if (!std::isfinite(move.acceleration)) {
+      throw InputError(fmt::format(
+          "machine: no acceleration is limited along step {}, where the speed then jumps; required max_acceleration of "
+          "both axes, or path_acceleration, for a program of positions, velocities and times",
+          i + 1));
+    }
+    const Point along = (1.0 / move.length) * (step.finish - step.start);
+    Point from = step.start;
+    double travelled = 0.0, seconds = 0.0;
+    for (const MotionPiece& piece :
+         lasting_pieces({move.length, move.acceleration, std::sqrt(u_[i]), std::sqrt(u_[i + 1])}, feed_[i], least_)) {
+      travelled += piece.length;
+      const Point to = step.start + std::min(move.length, travelled) * along;
+      result_.motion.steps.push_back(
+          {from, to, piece.seconds(), step.removes, EndSpeeds{piece.speed_in * along, piece.speed_out * along}});
+      seconds += piece.seconds();
+      from = to;
+    }
+    result_.motion.steps.back().finish = step.finish;  // chained exactly
+    return seconds;
+  }
+
+  const Program& program_;
+  const Machine& machine_;
+  double least_;
+  KinematicPath path_;
+  std::vector<double> feed_, u_;
+  TrapezoidProgram result_;
+};
+
+}  // namespace
+
+TrapezoidProgram trapezoid_program(const Program& program, const Machine& machine, double least_seconds) {
+  return Pieces(program, machine, least_seconds).run();
+}
+
+}  // namespace dwell

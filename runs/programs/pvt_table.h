@@ -1,0 +1,43 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/progress.h"
+#include "core/motion/program.h"
+
+namespace dwell {
+
+/// A place that the tool passes, with when and how fast.
+struct PvtRow {
+  double seconds = 0.0;  // from the beginning of the program
+  Point place;           // [mm]
+  Point speed;           // [mm/s]
+  bool lifted = true;    // the way here is made with the tool lifted; of the first row it says nothing
+};
+
+/// A program as positions, velocities and times: between two rows the tool runs along the cubic of time through both
+/// (core/motion/cubic_move.h). The numbers are what every file of it holds: times on PMAC's grid of 1/4096 ms, to
+/// 1e-9 s; places to 1e-6 mm, velocities to 1e-6 mm/s.
+struct PvtTable {
+  std::vector<PvtRow> rows;
+
+  double seconds() const { return rows.empty() ? 0.0 : rows.back().seconds; }
+};
+
+/// What the columns of files of these tables are in.
+inline constexpr std::string_view kPvtUnits = "t s, x and y mm, vx and vy mm/s";
+
+/// The table of a motion whose every step takes time. A time that is rounded to the grid takes its place along, so that
+/// the velocities still fit. Throws InputError naming the step where the velocity jumps (by more than 0.2 %, which is
+/// what a direction that is rounded explains), or that takes no time.
+PvtTable pvt_table_of(const Program& motion, const Progress& progress = {});
+
+/// The steps between the rows, each with its velocities; without, where the tool rests at one place.
+Program program_of(const PvtTable& table, const std::string& file);
+
+/// The table with rows between, on the same cubics, so that no step takes longer than `most` [s].
+PvtTable with_steps_of_at_most(double most, const PvtTable& table);
+
+}  // namespace dwell

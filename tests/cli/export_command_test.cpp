@@ -1,0 +1,86 @@
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <set>
+#include <string>
+
+#include "core/base/whole_file.h"
+#include "tests/cli/small_inputs.h"
+
+namespace dwell {
+namespace {
+
+using nlohmann::json;
+using test::expect_has;
+using test::ProgramResult;
+using test::SmallInputs;
+
+const char* const kMachine = "max_feed_mm_per_min = 3000\npath_acceleration_mm_per_s2 = 100\n";
+
+TEST(ExportCommand, WritesEveryFormatAndReadsEachBack) {
+  const SmallInputs inputs;
+  inputs.folder.file("m.toml", kMachine);
+  const ProgramResult plan = inputs.run(SmallInputs::plan(
+      {"--machine", "m.toml", "--max-feed", "600", "--export", "pmac,xps-trj,pvt-hdf5,pvt-json,pvt-csv"}));
+  ASSERT_EQ(plan.exit_code, 0) << plan.err;
+  expect_has(plan.out, "export    pvt.csv: RMS ");
+  expect_has(plan.out, "xps.csv and 1 file: RMS ");
+  const json summary = json::parse(read_whole_file(inputs / "plan/summary.json"));
+  ASSERT_EQ(summary["exports"].size(), 5U);
+  EXPECT_EQ(summary["options"]["export"], "pvt-csv,pvt-json,pvt-hdf5,xps-trj,pmac");
+  const double planned = summary["program"]["residual_rms_nm"];
+  const auto names = test::names_in(inputs / "plan");
+  for (const json& written : summary["exports"]) {
+    const std::string file = written["file"];
+    EXPECT_NEAR(written["rms_nm"].get<double>(), planned, 0.01 * planned) << file;
+    EXPECT_EQ(written["sha256"], sha256_of_file(inputs / ("plan/" + file)));
+    EXPECT_TRUE(names.contains(file)) << file;
+    const ProgramResult simulated =
+        inputs.run({"simulate", "--program", "plan/" + file, "--map", "map.csv", "--map-pixel", "0.5", "--tif",
+                    "tif.csv", "--tif-pixel", "0.5", "--machine", "m.toml", "--json"});
+    ASSERT_EQ(simulated.exit_code, 0) << file << simulated.err;
+    const json found = json::parse(simulated.out);
+    EXPECT_NEAR(found["program"]["residual_rms_nm"].get<double>(), written["rms_nm"].get<double>(), 1e-3 * planned)
+        << file;
+    EXPECT_NEAR(found["program"]["total_s"].get<double>(), written["total_s"].get<double>(), 1e-6) << file;
+  }
+  // A stretch alone says no beginning; the list does, and another map is refused by what it says of the plan's.
+  const std::vector<std::string> stretch{
+      "simulate", "--program", "plan/program_001.trj", "--map", "map.csv", "--map-pixel", "0.5",
+      "--tif",    "tif.csv",   "--tif-pixel",          "0.5"};
+  const ProgramResult without = inputs.run(stretch);
+  EXPECT_EQ(without.exit_code, 2);
+  expect_has(without.err, "required --start X,Y in mm");
+  EXPECT_EQ(inputs.run(test::with(stretch, {"--start", "-2,0"})).exit_code, 0);
+  EXPECT_EQ(inputs.run(test::with(stretch, {"--start", "-2"})).exit_code, 2);
+  for (const char* file : {"plan/pvt.csv", "plan/pvt.json", "plan/xps.csv"}) {
+    const ProgramResult other = inputs.run({"simulate", "--program", file, "--map", "tif.csv", "--map-pixel", "0.5",
+                                            "--tif", "tif.csv", "--tif-pixel", "0.5"});
+    EXPECT_EQ(other.exit_code, 2) << file;
+    expect_has(other.err, "--other-map");
+  }
+  // The next plan without exports takes the place of this one.
+  EXPECT_EQ(inputs.run(SmallInputs::plan()).exit_code, 0);
+  EXPECT_FALSE(test::names_in(inputs / "plan").contains("program_001.trj"));
+}
+
+TEST(ExportCommand, SaysWhatItNeeds) {
+  const SmallInputs inputs;
+  inputs.folder.file("m.toml", kMachine);
+  inputs.folder.file("free.toml", std::string(kMachine) + "[corner]\nrule = \"free\"\n");
+  inputs.folder.file("any.toml", "max_feed_mm_per_min = 3000\n[x]\nmax_acceleration_mm_per_s2 = 100\n");
+  const auto refused = [&inputs](const std::vector<std::string>& more, const std::string& says) {
+    const ProgramResult result = inputs.run(SmallInputs::plan(more));
+    EXPECT_EQ(result.exit_code, 2) << result.err;
+    expect_has(result.err, says);
+  };
+  refused({"--export", "pvt-csv"},
+          "--export = pvt-csv: such a program is the motion of a machine; required a --machine");
+  refused({"--export", "csv"}, "accepted: pvt-csv, pvt-json, pvt-hdf5, xps-trj, pmac");
+  refused({"--export", "pmac", "--machine", "free.toml"}, "--export: the --machine has the corner rule free");
+  refused({"--export", "pmac", "--machine", "any.toml"}, "has no limit of acceleration along y");
+  EXPECT_EQ(inputs.run(SmallInputs::plan({"--export", "none"})).exit_code, 0);
+}
+
+}  // namespace
+}  // namespace dwell

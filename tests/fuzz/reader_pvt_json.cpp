@@ -1,0 +1,8 @@
+#include "runs/programs/pvt_json.h"
+#include "tests/fuzz/fuzz_reader.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  return dwell::fuzz::read(data, size, [](std::string_view bytes) {
+    dwell::program_of(dwell::parse_pvt_json(bytes, "pvt.json"), "pvt.json");
+  });
+}
