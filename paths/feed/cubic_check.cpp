@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 #include "core/base/counted.h"
 #include "core/motion/cubic_move.h"
@@ -58,18 +57,20 @@ std::vector<std::string> cubics_beyond_machine(const Program& program, const Mac
                   {"acceleration of y", "mm/s^2", machine.y.max_acceleration},
                   {"acceleration along the path", "mm/s^2", machine.path_acceleration},
                   {"continuous velocity (a jump)", "mm/s", kSameSpeed}};
-  std::optional<Point> speed;  // before the step; nothing where a step does not say it
+  Point speed;        // before the step
+  bool known = true;  // unless a step does not say it
   bool any = false;
   for (std::size_t i = 0; i < program.steps.size(); ++i) {
     const ProgramStep& step = program.steps[i];
     const bool rests = !step.speeds && step.start == step.finish;
     if (!step.speeds && !rests) {
-      speed.reset();
+      known = false;
       continue;
     }
     const EndSpeeds ends = step.speeds.value_or(EndSpeeds{});
-    if (speed || i == 0) all[6].check(i, distance(speed.value_or(Point{}), ends.in));
+    if (known) all[6].check(i, distance(speed, ends.in));
     speed = ends.out;
+    known = true;
     if (!step.speeds) continue;
     any = true;
     const CubicMove move{step.start, step.finish, ends.in, ends.out, step.seconds};
@@ -81,7 +82,7 @@ std::vector<std::string> cubics_beyond_machine(const Program& program, const Mac
     all[4].check(i, a.y);
     all[5].check(i, std::max(length(move.acceleration(0.0)), length(move.acceleration(step.seconds))));
   }
-  if (any && speed) all[6].check(program.steps.size() - 1, length(*speed));
+  if (any && known) all[6].check(program.steps.size() - 1, length(speed));
   std::vector<std::string> faults;
   if (!any) return faults;
   for (const Beyond& beyond : all) {

@@ -31,7 +31,7 @@ using pvt_cases::made_by;
 using pvt_cases::slow_machine;
 
 /// The program of a plan in one format, written into a folder and read from there.
-Program through_files(const std::string& word, const Program& motion, const TemporaryFolder& folder) {
+Program through_files(const std::string& word, const Program& motion, const test::TemporaryFolder& folder) {
   std::string first;
   for (const WrittenProgram& file : written_programs({made_by(), motion}, {}, {word})) {
     if (file.word != word) continue;
@@ -47,7 +47,7 @@ TEST(PvtFormats, EachReadsBackTheMotionWithinTheLimits) {
   EXPECT_NEAR(table.total_seconds(), motion.total_seconds(), 1e-6);
   for (const ProgramFormat& format : program_formats()) {
     if (format.word.empty()) continue;
-    const TemporaryFolder folder;
+    const test::TemporaryFolder folder;
     const Program read = through_files(format.word, motion, folder);
     EXPECT_EQ(read.file, (folder.path() / format.file).string());
     EXPECT_NEAR(read.total_seconds(), table.total_seconds(), 1e-6) << format.word;
@@ -259,7 +259,7 @@ TEST(PvtHdf5, RefusesWhatItWouldMisread) {
 }
 
 TEST(StretchList, RefusesFilesThatAreNotTheOnesItWasMadeWith) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   through_files("xps-trj", lifted_motion(), folder);
   const auto list = folder.path() / "xps.csv";
   const std::string text = read_whole_file(list);

@@ -130,7 +130,7 @@ TEST(PvtRemoval, LeavesWhatTheGcodeLeavesOnTheMachine) {
   const Program motion = trapezoid_program(program_of(table), slow_machine()).motion;
   for (const ProgramFormat& format : program_formats()) {
     if (format.word.empty()) continue;
-    const TemporaryFolder folder;
+    const test::TemporaryFolder folder;
     for (const WrittenProgram& file : written_programs({table, motion}, {}, {format.word}))
       folder.file(file.file, file.bytes);
     const HeightMap left = left_by(read_program(folder.path() / format.file));
