@@ -64,7 +64,8 @@ std::vector<std::string> cubics_beyond_machine(const Program& program, const Mac
     const ProgramStep& step = program.steps[i];
     const bool rests = !step.speeds && step.start == step.finish;
     if (!step.speeds && !rests) {
-      known = false;
+      known = !step.removes;  // at the ends of a lifted way the tool rests
+      speed = {};
       continue;
     }
     const EndSpeeds ends = step.speeds.value_or(EndSpeeds{});

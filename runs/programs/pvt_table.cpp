@@ -85,8 +85,8 @@ Program program_of(const PvtTable& table, const std::string& file) {
     const PvtRow &from = table.rows[i - 1], &to = table.rows[i];
     ProgramStep step{from.place, to.place, to.seconds - from.seconds, !to.lifted, EndSpeeds{from.speed, to.speed}};
     const bool rests = from.place == to.place && from.speed == Point{} && to.speed == Point{};
-    if (rests) step.speeds.reset();
-    if (!rests) {
+    if (rests || to.untold) step.speeds.reset();
+    if (step.speeds) {
       const Point most = largest_speed(cubic_of(from, to));
       program.fastest_feed = std::max(program.fastest_feed, length(most));
     }

@@ -15,6 +15,7 @@ struct PvtRow {
   Point place;           // [mm]
   Point speed;           // [mm/s]
   bool lifted = true;    // the way here is made with the tool lifted; of the first row it says nothing
+  bool untold = false;   // how the tool runs on that way is not told, only how long; it rests at both ends
 };
 
 /// A program as positions, velocities and times: between two rows the tool runs along the cubic of time through both

@@ -123,7 +123,7 @@ class StretchReader {
     if (table_.rows.empty()) {
       table_.rows.push_back({0.0, start, {}, true});
     } else if (way > 0.0) {
-      at_.add(table_, {table_.rows.back().seconds + way, start, {}, true});
+      at_.add(table_, {table_.rows.back().seconds + way, start, {}, true, true});
     } else if (distance(table_.rows.back().place, start) > 1e-9) {
       at_.fail("way_s = 0 s from another place; required > 0");
     }

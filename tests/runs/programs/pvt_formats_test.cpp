@@ -41,6 +41,14 @@ Program through_files(const std::string& word, const Program& motion, const test
   return read_program(folder.path() / first);
 }
 
+std::vector<ProgramStep> at_work(const Program& program) {
+  std::vector<ProgramStep> steps;
+  for (const ProgramStep& step : program.steps) {
+    if (step.removes) steps.push_back(step);
+  }
+  return steps;
+}
+
 TEST(PvtFormats, EachReadsBackTheMotionWithinTheLimits) {
   const Program motion = lifted_motion();
   const Program table = program_of(pvt_table_of(motion), "");
@@ -52,15 +60,16 @@ TEST(PvtFormats, EachReadsBackTheMotionWithinTheLimits) {
     EXPECT_EQ(read.file, (folder.path() / format.file).string());
     EXPECT_NEAR(read.total_seconds(), table.total_seconds(), 1e-6) << format.word;
     const auto faults = cubics_beyond_machine(read, slow_machine());
-    EXPECT_TRUE(faults.empty()) << format.word << ": " << faults[0];
+    EXPECT_TRUE(faults.empty()) << format.word << ": " << (faults.empty() ? "" : faults[0]);
     if (format.word == "pmac") continue;  // cuts long halts
-    ASSERT_EQ(read.steps.size(), table.steps.size()) << format.word;
-    for (std::size_t i = 0; i < read.steps.size(); ++i) {
-      EXPECT_NEAR(distance(read.steps[i].finish, table.steps[i].finish), 0.0, 1e-9) << format.word << i;
-      EXPECT_NEAR(read.steps[i].seconds, table.steps[i].seconds, 2e-9) << format.word << i;
-      EXPECT_EQ(read.steps[i].removes, table.steps[i].removes) << format.word << i;
-      EXPECT_EQ(read.steps[i].speeds.has_value(), table.steps[i].speeds.has_value()) << format.word << i;
+    const auto i = at_work(read), j = at_work(table);
+    ASSERT_EQ(i.size(), j.size()) << format.word;
+    for (std::size_t k = 0; k < i.size(); ++k) {
+      EXPECT_NEAR(distance(i[k].finish, j[k].finish), 0.0, 1e-9) << format.word << k;
+      EXPECT_NEAR(i[k].seconds, j[k].seconds, 2e-9) << format.word << k;
+      EXPECT_EQ(i[k].speeds, j[k].speeds) << format.word << k;
     }
+    EXPECT_NE(i.size(), read.steps.size()) << "no lifted way";
   }
 }
 

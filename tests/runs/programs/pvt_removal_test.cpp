@@ -35,7 +35,7 @@ using pvt_cases::lifted_motion;
 using pvt_cases::made_by;
 using pvt_cases::slow_machine;
 
-constexpr double kSigma = 0.9, kRadius = 2.4;
+const RemovalFunction kTool = gaussian_removal(1.0, 1.4, 3.2);
 
 /// Without symmetry, unequal pitches, an origin off zero, a corner missing.
 HeightMap crooked_map() {
@@ -50,8 +50,7 @@ HeightMap crooked_map() {
 
 HeightMap left_by(const Program& program) {
   const HeightMap map = crooked_map();
-  const RemovalFunction tool = gaussian_removal(1.0, kSigma, kRadius);
-  return surface_after(map, simulate(program, map, removal_kernel(tool, map.grid.pitch_x, map.grid.pitch_y), 1));
+  return surface_after(map, simulate(program, map, removal_kernel(kTool, map.grid.pitch_x, map.grid.pitch_y), 1));
 }
 
 double rms(const HeightMap& map) {
@@ -91,7 +90,8 @@ std::vector<double> stepped_removal(const std::string& csv, const HeightMap& map
         for (std::size_t i = 0; i < removal.size(); ++i) {
           const Point d = map.grid.centre(static_cast<Index>(i)) - at;
           const double r2 = d.x * d.x + d.y * d.y;
-          if (r2 < kRadius * kRadius) removal[i] += seconds / parts * std::exp(-0.5 * r2 / (kSigma * kSigma));
+          if (r2 < kTool.radius * kTool.radius)
+            removal[i] += seconds / parts * std::exp(-0.5 * r2 / (kTool.sigma * kTool.sigma));
         }
       }
     }
@@ -118,7 +118,7 @@ TEST(PvtRemoval, IsThatOfStepsOfTime) {
   }
   EXPECT_GT(most, 1.0);
   EXPECT_LE(off, 1e-3 * most);
-  EXPECT_GE(even, 1e-2 * most);
+  EXPECT_GE(even, 4e-3 * most);
 }
 
 TEST(PvtRemoval, LeavesWhatTheGcodeLeavesOnTheMachine) {
@@ -185,7 +185,7 @@ TEST(PvtRemoval, NoRandomPlanLeavesTheLimitsInItsFile) {
     const std::string csv = pvt_csv_text(pvt_table_of(motion), made);
     const Program read = program_of(parse_pvt_csv(csv, "f"), "f");
     const auto faults = cubics_beyond_machine(read, plan.machine);
-    EXPECT_TRUE(faults.empty()) << "seed " << seed << ": " << faults[0];
+    EXPECT_TRUE(faults.empty()) << "seed " << seed << ": " << (faults.empty() ? "" : faults[0]);
     double removing = 0.0;
     for (const ProgramStep& step : read.steps) removing += step.removes ? step.seconds : 0.0;
     worst = std::max(worst, std::abs(removing / plan.seconds.sum() - 1.0));
