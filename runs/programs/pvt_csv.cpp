@@ -165,7 +165,13 @@ std::string pvt_csv_text(const PvtTable& table, const FeedTable& made, const Pro
 }
 
 bool is_pvt_csv(std::string_view text) {
-  return text.starts_with("# pvt") || text.starts_with(kPvtColumns) || text.starts_with(kBarePvtColumns);
+  if (text.starts_with("# pvt")) return true;
+  for (TextLines lines(text); lines.next();) {
+    const std::string_view line = trim(lines.line());
+    if (line.empty() || line.front() == '#') continue;
+    return line.starts_with(kPvtColumns) || line.starts_with(kBarePvtColumns);
+  }
+  return false;
 }
 
 PvtTable parse_pvt_csv(std::string_view text, const std::string& file, const Progress& progress) {

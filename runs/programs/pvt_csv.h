@@ -12,7 +12,8 @@ namespace dwell {
 /// The text of pvt.csv (docs/formats.md). `made` says version, inputs and options for the header.
 std::string pvt_csv_text(const PvtTable& table, const FeedTable& made, const Progress& progress = {});
 
-/// Whether a text is such a table: it begins with "# pvt", or with its column line.
+/// Whether a text is such a table: it begins with "# pvt", or its first line that is no comment is a column line of
+/// one.
 bool is_pvt_csv(std::string_view text);
 
 /// Reads one, of other origin too: the columns t_s,x_mm,vx_mm_per_s,y_mm,vy_mm_per_s and, or without, lift; or the same

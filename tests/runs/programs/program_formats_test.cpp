@@ -44,15 +44,14 @@ TEST(ProgramFormats, AreWrittenOnlyWhereTheyAreAskedFor) {
   for (const ProgramFormat& format : program_formats()) {
     EXPECT_FALSE(format.name.empty() || format.about.empty() || format.fuzz.empty());
     EXPECT_EQ(format.file.empty(), format.write == nullptr) << format.name;
-    if (!format.file.empty()) EXPECT_TRUE(files.insert(format.file).second) << format.file;
-    if (!format.word.empty()) EXPECT_TRUE(words.insert(format.word).second) << format.word;
+    EXPECT_TRUE(format.file.empty() || files.insert(format.file).second) << format.file;
+    EXPECT_TRUE(format.word.empty() || words.insert(format.word).second) << format.word;
   }
 }
 
 TEST(ProgramFormats, ArePartOfEveryPlan) {
-  for (const ProgramFormat& format : program_formats()) {
-    if (!format.file.empty()) EXPECT_TRUE(plan_files().has(format.file)) << format.file;
-  }
+  for (const ProgramFormat& format : program_formats())
+    EXPECT_TRUE(format.file.empty() || plan_files().has(format.file)) << format.file;
   for (const char* name : {"program_001.trj", "program_12345.pmc"}) EXPECT_TRUE(plan_files().has(name)) << name;
   for (const char* name : {"program_.trj", "program_1a.trj", "program_001.txt", "other_001.trj"})
     EXPECT_FALSE(plan_files().has(name)) << name;
