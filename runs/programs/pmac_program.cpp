@@ -6,6 +6,7 @@
 #include <iterator>
 #include <vector>
 
+#include "core/base/counted.h"
 #include "core/base/number_text.h"
 #include "core/base/poll.h"
 #include "core/base/text_lines.h"
@@ -54,7 +55,7 @@ std::string_view take_number(std::string_view& rest) {
 class PmacReader {
  public:
   PmacReader(std::string_view text, const std::string& file, std::optional<Point> start, const Progress& progress)
-      : lines_(text), start_(start), poll_(progress) {
+      : lines_(text), start_(start), ends_with_line_(text.ends_with('\n')), poll_(progress) {
     at_.file = file;
   }
 
@@ -67,17 +68,30 @@ class PmacReader {
       read_code(line.code);
     }
     at_.number = 0;
-    at_.check_end(table_);
+    check_end();
     return std::move(table_);
   }
 
  private:
+  void check_end() {
+    at_.check_end(table_);
+    const auto steps = static_cast<double>(table_.rows.size() - 1);
+    if (steps_ && (*steps_ != steps || !ends_with_line_)) {
+      at_.fail(
+          fmt::format("{}, but its comment says steps: {}; required the same, and the end of the last line "
+                      "(truncated or edited?)",
+                      counted(table_.rows.size() - 1, "step"), *steps_));
+    }
+  }
+
   void read_comment(std::string_view comment) {
-    constexpr std::string_view kStart = "start:", kUnits = "units:";
+    constexpr std::string_view kStart = "start:", kUnits = "units:", kSteps = "steps:";
     if (comment.starts_with(kStart)) {
       const auto stated = stated_start(comment.substr(kStart.size()));
       if (!stated) at_.fail(fmt::format("\"{}\"; required start: X<mm> Y<mm>", with_escaped_bytes(comment)));
       take_start(*stated);
+    } else if (comment.starts_with(kSteps)) {
+      steps_ = at_.within("steps", comment.substr(kSteps.size()), {1.0, 1e12, ""});
     } else if (const auto unit = time_unit_of(comment)) {
       take_time_unit(*unit);
     } else if (!comment.starts_with(kUnits) || trim(comment.substr(kUnits.size())) != kPvtUnits) {
@@ -200,11 +214,12 @@ class PmacReader {
 
   TextLines lines_;
   std::optional<Point> start_;
+  bool ends_with_line_;
   Poll poll_;
   PvtPlace at_;
   PvtTable table_;
   std::optional<bool> incremental_;
-  std::optional<double> milliseconds_, time_unit_;
+  std::optional<double> milliseconds_, time_unit_, steps_;
 };
 
 }  // namespace
@@ -216,8 +231,8 @@ std::string pmac_program_text(const PvtTable& table, std::size_t first, std::siz
   stretch = with_steps_of_at_most(kWrittenStep, stretch);
   fmt::memory_buffer text;
   const auto out = std::back_inserter(text);
-  fmt::format_to(out, "; dwell {}\n; units: {}\n; Isx90 = 1000\n; start: {}\nABS\n", made.version, kPvtUnits,
-                 start_text(stretch.rows.front().place));
+  fmt::format_to(out, "; dwell {}\n; units: {}\n; Isx90 = 1000\n; steps: {}\n; start: {}\nABS\n", made.version,
+                 kPvtUnits, stretch.rows.size() - 1, start_text(stretch.rows.front().place));
   std::string time;
   for (std::size_t i = 1; i < stretch.rows.size(); ++i) {
     const PvtRow& row = stretch.rows[i];

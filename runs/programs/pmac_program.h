@@ -23,7 +23,8 @@ bool is_pmac_program(std::string_view text);
 /// `start`, which must agree; and Isx90, by "Isx90 = N", in a comment or not. Units are honoured: a velocity counts for
 /// Isx90 ms. A velocity that is left out is 0, as the controller takes it. Throws InputError naming file, line and what
 /// is accepted: any other word, a step without X or Y, a step before ABS or INC and PVT, times <= 0 or above 4096 ms,
-/// a last velocity that is not 0.
+/// a last velocity that is not 0, another number
+/// of steps than its comment "steps: N" says.
 PvtTable parse_pmac_program(std::string_view text, const std::string& file, std::optional<Point> start,
                             const Progress& progress = {});
 
