@@ -210,6 +210,10 @@ TEST(PmacProgram, RefusesWhatItWouldMisread) {
   refused("X3:0 Y-3", "X3:1 Y-3", "ends at a velocity of (1, 0)");
   refused("ABS", "I5190=1", "Isx90 = 1, but was 1000 before");
   refused("ABS", "; (places in inch)\nABS", "looks like another unit");
+  refused("ABS", "; steps: 3\nABS", "f.pmc: 2 steps, but its comment says steps: 3");
+  // A number that is cut short would read as another.
+  const std::string cut = replaced(replaced(kPmac, "ABS", "; steps: 2\nABS"), "Y-3\n", "Y-3");
+  expect_contains(input_error([&] { parse_pmac_program(cut, "f.pmc", {}); }), "the end of the last line");
   expect_contains(input_error([] {
                     parse_pmac_program(kPmac, "f.pmc", Point{0.0, 0.0});
                   }),
