@@ -42,7 +42,7 @@ std::string pareto_json_text(const ParetoSweep& sweep) {
   }
   Json options = options_json(sweep.job);
   for (const char* unused :
-       {"smoothness", "time_price_nm2_per_s", "time_worth", "certify", "gcode", "machine", "rounds"})
+       {"smoothness", "time_price_nm2_per_s", "time_worth", "certify", "gcode", "machine", "rounds", "export"})
     options.erase(unused);
   Json summary = json_of_command("pareto");
   summary.update({{"map", plan_map_block(sweep.job)},

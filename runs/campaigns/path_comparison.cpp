@@ -134,6 +134,7 @@ PathComparison compare_paths(const JobOptions& options, const std::string& list,
     throw InputError(fmt::format("--pitch: {}; required {}", *pitch, ranges::kPitch.text()));
   }
   check_weights(dwell_options(options));
+  check_exports(options);
   parse_path_list(list, pitch.value_or(1.0));  // refuses a wrong list before any work is done
   PathComparison comparison;
   comparison.job = time_limit(options.max_solve_s).run(progress, [&](const Progress& limited) {

@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <optional>
 #include <utility>
 
 #include "core/base/errors.h"
 #include "core/base/time_limit.h"
 #include "paths/feed/exported_motion.h"
 #include "runs/job/option_flags.h"
+#include "runs/machine/machine_file.h"
 #include "runs/plan/leave_out.h"
 #include "runs/programs/program_formats.h"
 
@@ -21,10 +21,7 @@ std::vector<std::string> PlannedJob::limits() const {
   return all;
 }
 
-namespace {
-
-/// Throws before any work for exports that the plan cannot have.
-void check_exports(const JobOptions& options, const std::optional<NamedMachine>* machine) {
+void check_exports(const JobOptions& options) {
   const std::string word = export_that_needs_motion(options.exports);
   if (word.empty()) return;
   if (options.machine.empty()) {
@@ -33,8 +30,10 @@ void check_exports(const JobOptions& options, const std::optional<NamedMachine>*
         "prints one)",
         word));
   }
-  if (machine != nullptr && *machine) check_exported_motion((*machine)->machine);
+  check_exported_motion(read_machine_file(options.machine).machine);
 }
+
+namespace {
 
 /// `used` went of the time limit before [s].
 PlannedJob plan_loaded(Job job, JobPath path, double used, const Progress& progress) {
@@ -62,10 +61,9 @@ PlannedJob plan_loaded(Job job, JobPath path, double used, const Progress& progr
 
 PlannedJob plan_job(const JobOptions& options, const Progress& progress) {
   check_weights(dwell_options(options));
-  check_exports(options, nullptr);
+  check_exports(options);
   const TimeLimit limit = time_limit(options.max_solve_s);
   Job job = limit.run(progress, [&](const Progress& limited) { return load_job(options, limited); });
-  check_exports(options, &job.machine);
   JobPath path = lay_job_path(job, limit.used(), progress);
   return plan_loaded(std::move(job), std::move(path), limit.used(), progress);
 }

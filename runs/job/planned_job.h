@@ -22,6 +22,10 @@ struct PlannedJob {
   std::vector<std::string> limits() const;
 };
 
+/// Throws InputError before any work for programs (`export`) that a plan with these options cannot have: without a
+/// machine, and with one whose velocity jumps.
+void check_exports(const JobOptions& options);
+
 /// Plans a job. Throws InputError for anything the user gave that cannot be used, Interrupted. Cost: the solver's
 /// operator applications dominate (docs/math.md).
 PlannedJob plan_job(const JobOptions& options, const Progress& progress = {});

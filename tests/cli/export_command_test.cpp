@@ -80,6 +80,12 @@ TEST(ExportCommand, SaysWhatItNeeds) {
   refused({"--export", "pmac", "--machine", "free.toml"}, "--export: the --machine has the corner rule free");
   refused({"--export", "pmac", "--machine", "any.toml"}, "has no limit of acceleration along y");
   EXPECT_EQ(inputs.run(SmallInputs::plan({"--export", "none"})).exit_code, 0);
+  // The comparison of paths writes plans, too.
+  const std::vector<std::string> paths{"paths",          "--map",       "map.csv",  "--map-pixel", "0.5",    "--tif",
+                                       "tif.csv",        "--tif-pixel", "0.5",      "--threads",   "1",      "--paths",
+                                       "raster:pitch=2", "--out",       "compared", "--export",    "pvt-csv"};
+  EXPECT_EQ(inputs.run(paths).exit_code, 2);
+  EXPECT_EQ(inputs.run(test::with(paths, {"--machine", "m.toml", "--time-price", "0"})).exit_code, 0);
 }
 
 }  // namespace
