@@ -133,8 +133,9 @@ void study_surface(const PlannedJob& plan, WrittenPlan& written, const Progress&
 
 /// Reads the other programs back from disk: each must keep the machine's limits as it stands in its file, and leave
 /// what program.nc leaves.
-void check_exports(const PlannedJob& plan, const OutputFolder& folder, const std::vector<WrittenProgram>& programs,
-                   WrittenPlan& written, const Progress& progress) {
+void check_written_exports(const PlannedJob& plan, const OutputFolder& folder,
+                           const std::vector<WrittenProgram>& programs, WrittenPlan& written,
+                           const Progress& progress) {
   std::optional<Program> first;
   for (const ProgramFormat& format : program_formats()) {
     if (format.word.empty() || !is_among(format.word, plan.job.options.exports)) continue;
@@ -208,7 +209,7 @@ WrittenPlan write_plan(const PlannedJob& plan, const OutputFolder& folder, const
   written.program_sha256 = sha256_of_file(folder.path("program.nc"));
   compare_with_solver(plan, written);
   compare_with_table(plan, program, table, written, progress);
-  check_exports(plan, folder, programs, written, progress);
+  check_written_exports(plan, folder, programs, written, progress);
   progress.check();
 
   progress.report("write: pictures and arrays");
