@@ -12,6 +12,8 @@ void add_simulate_command(CLI::App& program, int& exit_code);
 void add_map_command(CLI::App& program, int& exit_code);
 void add_tif_command(CLI::App& program, int& exit_code);
 void add_machine_command(CLI::App& program, int& exit_code);
+/// Its subcommand `fit`.
+void add_machine_fit_command(CLI::App& machine, int& exit_code);
 void add_example_command(CLI::App& program, int& exit_code);
 
 }  // namespace dwell::cli

@@ -36,15 +36,20 @@ int run_machine(const MachineArguments& a) {
 }  // namespace
 
 void add_machine_command(CLI::App& program, int& exit_code) {
-  CLI::App* command = program.add_subcommand("machine", "what a machine can do: check its file, or begin one");
+  CLI::App* command = program.add_subcommand("machine",
+                                             "what a machine can do: check its file, begin one, or learn one "
+                                             "from a controller's log (fit)");
   auto arguments = std::make_shared<MachineArguments>();
   command->add_option("machine", arguments->file, "machine file (docs/motion.md)")->type_name("MACHINE");
   command->add_flag("--example", arguments->example, "print a machine file with comments to begin with");
   arguments->json.add_to(*command);
   command->footer(
-      "Example:\n  dwell machine --example\n  dwell machine machine.toml\n  dwell simulate plan/ "
-      "--machine machine.toml");
-  command->callback([arguments, &exit_code] { exit_code = run_machine(*arguments); });
+      "Example:\n  dwell machine --example\n  dwell machine machine.toml\n  dwell machine fit run.csv --program "
+      "plan/program.nc --out fitted.toml\n  dwell simulate plan/ --machine machine.toml");
+  add_machine_fit_command(*command, exit_code);
+  command->callback([arguments, command, &exit_code] {
+    if (command->get_subcommands().empty()) exit_code = run_machine(*arguments);
+  });
 }
 
 }  // namespace dwell::cli

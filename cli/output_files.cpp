@@ -47,6 +47,8 @@ void check_extension(const OutputFile& output) {
       return require(extension == ".png" || extension == ".svg" || extension == ".pdf", figure_extensions());
     case OutputFile::Kind::Json:
       return require(extension == ".json", ".json");
+    case OutputFile::Kind::Machine:
+      return require(extension == ".toml", ".toml");
     case OutputFile::Kind::Map:
       return require(map_writer_of(extension) != nullptr, written_map_extensions());
   }

@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cli/commands.h"
 #include "cli/job_arguments.h"
 #include "cli/json_option.h"
+#include "cli/log_arguments.h"
 #include "cli/named_option.h"
 #include "cli/output_files.h"
 #include "cli/progress_line.h"
@@ -19,12 +22,14 @@
 #include "core/base/errors.h"
 #include "core/base/whole_file.h"
 #include "core/formats/map_formats.h"
+#include "core/formats/map_name.h"
 #include "runs/drawing/picture.h"
 #include "runs/job/option_flags.h"
 #include "runs/job/place_option.h"
 #include "runs/programs/program_formats.h"
 #include "runs/reports/anatomy_lines.h"
 #include "runs/reports/exact_lines.h"
+#include "runs/reports/log_report.h"
 #include "runs/reports/machine_report.h"
 #include "runs/reports/map_line.h"
 #include "runs/reports/recorded_plan.h"
@@ -36,7 +41,8 @@ namespace {
 
 struct SimulateArguments {
   std::unique_ptr<JobArguments> job;
-  std::string plan, program, gcode, g4, start, residual, png;
+  std::string plan, program, gcode, g4, start, residual, png, log, log_png;
+  LogArguments log_reading;
   JsonOption json;
   bool exact = false;
   OtherInputs other;
@@ -81,7 +87,7 @@ std::string given_file_sentence(const std::string& flag, const std::string& now,
 SimulationRequest request_of_plan(const SimulateArguments& a) {
   const RecordedPlan plan = read_recorded_plan(a.plan);
   std::set<std::string> flags;
-  SimulationRequest request{plan.program().string(), a.job->options_over(plan.options), {a.plan, {}, a.other}};
+  SimulationRequest request{plan.program().string(), a.job->options_over(plan.options), {a.plan, {}, a.other, {}}};
   for (const JobOptionRecord* record : a.job->given()) {
     flags.insert(record->flag);
     if (record->flag == "threads" || record->flag == "max-pixels") continue;  // change no result
@@ -109,7 +115,15 @@ SimulationRequest request_of_plan(const SimulateArguments& a) {
   return request;
 }
 
-SimulationRequest request_of(const SimulateArguments& a) {
+/// The log that is given; nothing without one.
+std::optional<LogSource> log_source(const SimulateArguments& a) {
+  if (!a.log.empty()) return LogSource{a.log, a.log_reading.reading(), a.log_reading.tolerance()};
+  const std::string flag = a.log_png.empty() ? a.log_reading.given() : "--log-png";
+  if (!flag.empty()) throw InputError(flag + ": of a log; --log FILE is required beside it");
+  return std::nullopt;
+}
+
+SimulationRequest program_request(const SimulateArguments& a) {
   if (!a.plan.empty()) return request_of_plan(a);
   if (a.program.empty()) {
     throw InputError("PLAN or --program: required; the folder of a plan, or a program alone (" + program_files() +
@@ -117,17 +131,27 @@ SimulationRequest request_of(const SimulateArguments& a) {
   }
   const JobOptions options = a.job->options();
   JobArguments::require(options, {"map", "tif"});
-  return {a.program, options, {"", {}, a.other}};
+  return {a.program, options, {"", {}, a.other, {}}};
+}
+
+SimulationRequest request_of(const SimulateArguments& a) {
+  std::optional<LogSource> log = log_source(a);
+  SimulationRequest request = program_request(a);
+  request.source.log = std::move(log);
+  return request;
 }
 
 void check_outputs(const SimulateArguments& a, const JobOptions& options, const std::string& program) {
   std::vector<ReadFile> read = a.job->files_read(options);
   read.push_back({"the program", program});
+  if (!a.log.empty()) read.push_back({"the log", split_map_name(a.log).file.string()});
   if (!a.plan.empty())
     read.push_back({"the plan's summary", (std::filesystem::path(a.plan) / "summary.json").string()});
-  check_output_files(
-      {{OutputFile::Kind::Map, "--residual", a.residual}, {OutputFile::Kind::Figure, "--png", a.png}, a.json.output()},
-      read);
+  check_output_files({{OutputFile::Kind::Map, "--residual", a.residual},
+                      {OutputFile::Kind::Figure, "--png", a.png},
+                      {OutputFile::Kind::Figure, "--log-png", a.log_png},
+                      a.json.output()},
+                     read);
 }
 
 /// ", of it lifted moves 1.9 s, at the plan's maximum feed"; rapids say no time of their own.
@@ -152,6 +176,24 @@ std::string executed_lines(const Simulation& s) {
              in_words(e.commanded.residual), duration_text(e.commanded.run_seconds), e.removal_change);
 }
 
+/// Commanded, simulated and recorded motion beside each other; empty without a log.
+std::string recorded_lines(const Simulation& s) {
+  if (!s.recorded) return "";
+  const RecordedRun& r = *s.recorded;
+  const auto row = [](const char* name, double rms, double seconds) {
+    return fmt::format("          {:<10} {:>12.4g} nm RMS {:>14.3f} s\n", name, rms, seconds);
+  };
+  std::string text = log_lines(r.log, r.aligned, s.program) +
+                     "recorded  beside the program, from the first step that "
+                     "removes to the last:\n";
+  text +=
+      row("commanded", s.executed ? s.executed->commanded.residual.rms : s.after.statistics.rms, r.commanded_seconds);
+  if (r.machine_seconds) text += row("machine", s.after.statistics.rms, *r.machine_seconds);
+  text += row("recorded", r.residual.rms, r.seconds);
+  return text + fmt::format("          the recorded removal differs from that {} by {:.4g} nm RMS\n",
+                            r.machine_seconds ? "on the machine" : "as commanded", r.change);
+}
+
 std::string simulation_text(const Simulation& s) {
   std::string notes;
   for (const std::string& note : s.program.notes) notes += fmt::format("          {}\n", note);
@@ -161,7 +203,8 @@ std::string simulation_text(const Simulation& s) {
          fmt::format("program   {}: {}, {:.6g} mm with removal, {}{}\n", s.program.file,
                      counted(s.program.steps.size(), "step"), s.program.removing_length(),
                      duration_text(s.program.run_seconds(s.max_feed)), lifted_words(s)) +
-         notes + executed_lines(s) + map_line(s.map.grid, s.before.valid_pixels) + tool_lines(tool_sheet(s.tif)) +
+         notes + executed_lines(s) + recorded_lines(s) + map_line(s.map.grid, s.before.valid_pixels) +
+         tool_lines(tool_sheet(s.tif)) +
          fmt::format("before    {} ({} removed, {})\n", in_words(s.before), to_string(s.terms),
                      counted(s.before.valid_pixels, "pixel")) +
          fmt::format("after     {} ({} removed)\n", in_words(s.after.statistics), to_string(s.terms)) +
@@ -215,6 +258,11 @@ int run_simulate(const SimulateArguments& arguments) {
         fmt::format("After {}: {} ({} removed)", s.program.file, in_words(s.after.statistics), to_string(s.terms));
     return map_picture(s.after.surface, {title, "nm", true, {}, {}}, figure_format_of_file(arguments.png));
   });
+  files.add(arguments.log_png, [&] {
+    return recorded_picture(*s.recorded,
+                            fmt::format("Run of {} as {} recorded it", s.program.file, s.recorded->log.file),
+                            figure_format_of_file(arguments.log_png));
+  });
   files.write();
   finish_progress();
   arguments.json.deliver(simulation_json(s), simulation_text(s));
@@ -255,6 +303,17 @@ void add_simulate_command(CLI::App& program, int& exit_code) {
   command->add_option("--residual", arguments->residual, "write the residual map [nm]: " + written_map_extensions())
       ->type_name("FILE");
   command->add_option("--png", arguments->png, "draw the residual map: .png, .svg or .pdf")->type_name("FILE");
+  command
+      ->add_option(
+          "--log", arguments->log,
+          "a controller's log of a run of the program (text, NPY, HDF5): what the recorded motion leaves, beside "
+          "what was simulated")
+      ->type_name("FILE");
+  arguments->log_reading.add_to(*command);
+  command
+      ->add_option("--log-png", arguments->log_png,
+                   "draw where the recorded times differ from the simulated ones, along the path: .png, .svg or .pdf")
+      ->type_name("FILE");
   command->add_flag("--exact", arguments->exact,
                     "integrate the removal function itself at every pixel, not only at as many as the stated figure "
                     "needs: the residual map is then exact everywhere; takes longer");
@@ -264,7 +323,9 @@ void add_simulate_command(CLI::App& program, int& exit_code) {
                     "the removal function is meant to be another than the one that the program was made with");
   arguments->json.add_to(*command);
   command->footer(
-      "Example:\n  dwell simulate plan/\n  dwell simulate plan/ --map measured_again.csv\n  dwell simulate --program "
+      "Example:\n  dwell simulate plan/\n  dwell simulate plan/ --map measured_again.csv\n  dwell simulate plan/ --log "
+      "run.csv "
+      "--machine machine.toml\n  dwell simulate --program "
       "plan/program.nc --map mirror.csv --map-pixel 0.0938 --tif spot.csv "
       "--tif-pixel 0.0938");
   command->callback([arguments, &exit_code] { exit_code = run_simulate(*arguments); });

@@ -6,6 +6,7 @@
 #include "core/base/poll.h"
 #include "core/motion/cubic_move.h"
 #include "paths/feed/kinematic_path.h"
+#include "paths/feed/step_times.h"
 #include "paths/feed/trapezoid.h"
 
 namespace dwell {
@@ -19,7 +20,7 @@ class Runner {
  public:
   Runner(const Program& program, const Machine& machine)
       : program_(program), machine_(machine), path_(kinematic_path(program, machine)) {
-    for (std::size_t i = 0; i < program.steps.size(); ++i) feed_.push_back(commanded_feed(i));
+    feed_ = commanded_feeds(program, path_);
     u_ = node_speeds_squared(path_, feed_);
     result_.motion = program;
     result_.motion.steps.clear();
@@ -43,13 +44,6 @@ class Runner {
 
  private:
   static bool is_rapid(const ProgramStep& step) { return !step.removes && !(step.seconds > 0.0); }
-
-  double commanded_feed(std::size_t i) const {
-    const ProgramStep& step = program_.steps[i];
-    const double most = path_.moves[i].max_speed;
-    if (step.seconds > 0.0) return std::min(most, step.length() / step.seconds);
-    return std::isfinite(most) || !(program_.fastest_feed > 0.0) ? most : program_.fastest_feed;
-  }
 
   double half_rest(std::size_t node) const { return path_.stops[node] != 0 ? 0.5 * machine_.corner_delay : 0.0; }
 

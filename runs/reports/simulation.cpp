@@ -9,6 +9,7 @@
 #include "core/base/whole_file.h"
 #include "core/form/map_statistics.h"
 #include "core/form/robust_pv.h"
+#include "core/formats/map_name.h"
 #include "core/map/part_distance.h"
 #include "core/removal/simulate.h"
 #include "paths/feed/execution.h"
@@ -107,6 +108,11 @@ Simulation simulate_file(const std::filesystem::path& program, const GcodeReadin
     s.after = predict_program(part, run, lattice.kernel, simulating);
   }
   if (s.executed) compare_with_commanded(part, s.program, lattice, s, simulating);
+  if (source.log) {
+    s.recorded = recorded_run(*source.log, s.program, job.machine ? std::optional(job.machine->machine) : std::nullopt,
+                              part, lattice.kernel, s.after.surface, progress.of_part("log"));
+    s.inputs.push_back({"log", source.log->file, sha256_of_file(split_map_name(source.log->file).file)});
+  }
   s.after.statistics = with_robust_pv(s.after.statistics, s.after.surface, part.threads);
   s.anatomy = residual_anatomy(s.after.surface, part.tif.fwhm, part.form, part.threads, BlemishSearch::On,
                                progress.of_part("what is left"));
@@ -134,6 +140,7 @@ std::string simulation_json(const Simulation& s) {
                         {"commanded_rms_nm", e.commanded.residual.rms},
                         {"commanded_total_s", e.commanded.run_seconds}};
   }
+  if (s.recorded) json["recorded"] = recorded_block(*s.recorded);
   json["anatomy"] = anatomy_block(s.anatomy, s.advice);
   if (!s.plan.empty()) json["plan"] = s.plan;
   json["differences"] = s.differences;

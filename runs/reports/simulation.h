@@ -17,6 +17,7 @@
 #include "runs/machine/machine_file.h"
 #include "runs/programs/gcode_reading.h"
 #include "runs/reports/program_record.h"
+#include "runs/reports/recorded_run.h"
 
 namespace dwell {
 
@@ -25,6 +26,7 @@ struct SimulationSource {
   std::string plan;                // folder of the plan whose options these are; empty: the program stands alone
   std::vector<std::string> given;  // a sentence for each option that is given in the place of the plan's
   OtherInputs other;               // inputs that are meant to be others than the program's header says
+  std::optional<LogSource> log;    // of a run of the program
 };
 
 /// What a program would leave if every move had its commanded speed from end to end.
@@ -56,6 +58,7 @@ struct Simulation {
   MapStatistics before;
   ExactResidual after;                      // of the motion, where there is a machine
   std::optional<ExecutedProgram> executed;  // on a machine
+  std::optional<RecordedRun> recorded;      // by a controller
   ResidualAnatomy anatomy;                  // of what it leaves
   std::string advice;                       // what would help most, a sentence
   std::string plan;                         // as SimulationSource
@@ -64,10 +67,11 @@ struct Simulation {
 };
 
 /// Simulates a program file (feed.csv or G-code) on the job's map with the job's removal function; the tool moves
-/// continuously, at the commanded speeds or, with a machine, as that executes the program. `every_pixel`: the exact
-/// figure from every pixel (exact_residual), which takes longer. `reading`: for G-code that leaves something to its
-/// controller. Of the job it uses map, tif, remove, aperture and threads. Map and removal function are held to what the
-/// program's header says of them (program_record.h). Throws InputError, Interrupted.
+/// continuously, at the commanded speeds or, with a machine, as that executes the program. With a log of a run, what
+/// the recorded motion leaves stands beside it (recorded_run). `every_pixel`: the exact figure from every pixel
+/// (exact_residual), which takes longer. `reading`: for G-code that leaves something to its controller. Of the job it
+/// uses map, tif, remove, aperture and threads. Map and removal function are held to what the program's header says of
+/// them (program_record.h). Throws InputError, Interrupted.
 Simulation simulate_file(const std::filesystem::path& program, const GcodeReading& reading, const JobOptions& options,
                          const Progress& progress, bool every_pixel = false, const SimulationSource& source = {});
 

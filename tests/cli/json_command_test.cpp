@@ -10,9 +10,12 @@
 
 #include "core/base/whole_file.h"
 #include "runs/job/job_options.h"
+#include "runs/machine/machine_file.h"
+#include "runs/programs/program_reader.h"
 #include "tests/cli/json_documentation.h"
 #include "tests/cli/small_inputs.h"
 #include "tests/core/tif/calibration/spot_truth.h"
+#include "tests/runs/logs/made_up_log.h"
 
 namespace dwell {
 namespace {
@@ -69,6 +72,8 @@ struct CommandInputs : SmallInputs {
     EXPECT_EQ(machine.exit_code, 0);
     folder.file("machine.toml", machine.out);
     EXPECT_EQ(run(SmallInputs::plan()).exit_code, 0);
+    const MotionLog log = test::made_up_log(read_program(*this / "plan/program.nc"), example_machine().machine);
+    folder.file("run.csv", test::log_text(log, "t_s,x_mm,y_mm"));
     EXPECT_EQ(run(SmallInputs::plan({"--map", "specked.csv", "--out", "specked"})).exit_code, 0);
   }
 };
@@ -96,8 +101,10 @@ std::map<std::string, std::vector<Words>> runs_of_commands() {
         with(kSimulate, {"--exact", "--tif-pedestal", "subtract"}),
         {"simulate", "plan"},
         {"simulate", "specked"},
-        {"simulate", "plan", "--machine", "machine.toml"}}},
+        {"simulate", "plan", "--machine", "machine.toml"},
+        {"simulate", "plan", "--machine", "machine.toml", "--log", "run.csv"}}},
       {"machine", {{"machine", "machine.toml"}}},
+      {"machine fit", {{"machine", "fit", "run.csv", "--program", "plan/program.nc"}}},
       {"map",
        {kMap,
         with(kMap, {"--form", "zernike-noll:1-6", "--remove", "legendre:1", "--limit", "1e-9,2", "--profile", "y=3"}),
@@ -247,6 +254,14 @@ TEST(JsonOfEveryCommand, GoesWithNoFlagThatPrintsSomethingElse) {
   }
 }
 
+/// The words of a line.
+Words words_in(const std::string& line) {
+  std::istringstream text(line);
+  Words words;
+  for (std::string word; text >> word;) words.push_back(word);
+  return words;
+}
+
 /// The examples of a command's help: lines after "Example:" that begin with two blanks, lines that end in a backslash
 /// joined.
 std::vector<std::string> examples_in(const std::string& help) {
@@ -269,12 +284,10 @@ std::vector<std::string> examples_in(const std::string& help) {
 // An example parses if it fails, if at all, for the files that are not there: the words themselves are accepted.
 TEST(Help, HasExamplesWhoseWordsAreAccepted) {
   for (const auto& [command, runs] : runs_of_commands()) {
-    const auto examples = examples_in(SmallInputs().run({command, "--help"}).out);
+    const auto examples = examples_in(SmallInputs().run(with(words_in(command), {"--help"})).out);
     ASSERT_FALSE(examples.empty()) << command;
     for (const std::string& example : examples) {
-      std::istringstream text(example);
-      Words words;
-      for (std::string word; text >> word;) words.push_back(word);
+      Words words = words_in(example);
       ASSERT_EQ(words.at(0), "dwell") << example;
       words.erase(words.begin());
       const SmallInputs inputs;  // a new one each, so that none finds what the one before made
