@@ -76,8 +76,9 @@ class Aligner {
   }
 
   Extent extent() const { return extent_; }
+  double noise() const { return noise_; }
   /// What counts as the same place along the path [mm].
-  double same_place() const { return std::max(1e-4, 4.0 * noise_); }
+  double same_place() const { return std::max(1e-3, 4.0 * noise_); }
 
   /// The attempt that came to the end, or the one that came farthest. Nothing if no sample comes near the beginning.
   std::optional<Attempt> best_attempt() const {
@@ -206,27 +207,6 @@ std::string what_would_fit(const MotionLog& log, const Program& program, double 
                                what_would_fit(log, program, tolerance, progress)));
 }
 
-/// When the way along the path first exceeds a value, from sample `from` on, which moves on to there.
-class CrossingTimes {
- public:
-  CrossingTimes(const MotionLog& log, const Attempt& attempt) : log_(log), attempt_(attempt) {}
-
-  /// Of values that do not decrease from call to call.
-  double time_at(double way) {
-    while (at_ < attempt_.ways.size() && attempt_.ways[at_] < way) ++at_;
-    if (at_ == 0) return log_.seconds[attempt_.begin];
-    if (at_ == attempt_.ways.size()) return log_.seconds[attempt_.begin + at_ - 1];
-    const double before = attempt_.ways[at_ - 1], after = attempt_.ways[at_];
-    const double t0 = log_.seconds[attempt_.begin + at_ - 1], t1 = log_.seconds[attempt_.begin + at_];
-    return t0 + std::clamp((way - before) / (after - before), 0.0, 1.0) * (t1 - t0);
-  }
-
- private:
-  const MotionLog& log_;
-  const Attempt& attempt_;
-  std::size_t at_ = 0;
-};
-
 std::vector<char> corners_of(const Program& program, Extent extent) {
   const std::vector<ProgramStep> steps(program.steps.begin() + static_cast<std::ptrdiff_t>(extent.first),
                                        program.steps.begin() + static_cast<std::ptrdiff_t>(extent.end));
@@ -253,22 +233,12 @@ void share_halts(const Program& program, AlignedLog& aligned) {
   }
 }
 
-void find_times(const MotionLog& log, const Program& program, const Attempt& attempt, double same_place,
+void find_times(const MotionLog& log, const Program& program, const Attempt& attempt, double same_place, double noise,
                 AlignedLog& aligned) {
   std::vector<double> ways{0.0};
   for (std::size_t i = aligned.first; i < aligned.end; ++i) ways.push_back(ways.back() + program.steps[i].length());
-  CrossingTimes arriving(log, attempt), passing(log, attempt), leaving(log, attempt);
-  for (std::size_t k = 0; k < ways.size(); ++k) {
-    double near = same_place;  // shorter than the steps on both sides
-    if (k > 0 && ways[k] > ways[k - 1]) near = std::min(near, 0.25 * (ways[k] - ways[k - 1]));
-    if (k + 1 < ways.size() && ways[k + 1] > ways[k]) near = std::min(near, 0.25 * (ways[k + 1] - ways[k]));
-    NodeTime node;
-    node.arrives = arriving.time_at(ways[k] - near);
-    node.passes = passing.time_at(std::min(ways[k], attempt.ways.back()));
-    node.leaves = leaving.time_at(std::min(ways[k] + near, attempt.ways.back()));
-    if (aligned.corners[k] != 0) node.passes = 0.5 * (node.arrives + node.leaves);
-    aligned.nodes.push_back(node);
-  }
+  NodeTimes times({log.seconds.data() + attempt.begin, attempt.ways.size()}, attempt.ways, ways, {same_place, noise});
+  for (std::size_t k = 0; k < ways.size(); ++k) aligned.nodes.push_back(times.next(aligned.corners[k] != 0));
   aligned.nodes.front().arrives = aligned.nodes.front().passes = aligned.nodes.front().leaves;
   aligned.nodes.back().leaves = aligned.nodes.back().passes = aligned.nodes.back().arrives;
 }
@@ -301,7 +271,7 @@ AlignedLog align_log(const MotionLog& log, const Program& program, double tolera
   aligned.rms_off = std::sqrt(attempt->square_off / static_cast<double>(std::max<std::size_t>(1, attempt->working)));
   aligned.max_off = attempt->max_off;
   aligned.corners = corners_of(program, aligner.extent());
-  find_times(log, program, *attempt, aligner.same_place(), aligned);
+  find_times(log, program, *attempt, aligner.same_place(), aligner.noise(), aligned);
   share_halts(program, aligned);
   find_gaps(log, aligned);
   return aligned;

@@ -7,14 +7,9 @@
 #include "core/base/progress.h"
 #include "core/motion/program.h"
 #include "runs/logs/motion_log.h"
+#include "runs/logs/node_times.h"
 
 namespace dwell {
-
-/// When the tool was at the beginning of a step [s, by the log's clock].
-struct NodeTime {
-  double arrives = 0.0, leaves = 0.0;  // within the noise of the places
-  double passes = 0.0;                 // at corners the middle of the two
-};
 
 /// A log laid on the program that it is of.
 struct AlignedLog {

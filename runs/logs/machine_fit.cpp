@@ -23,7 +23,9 @@ constexpr double kUncertain = 0.3;      // relative standard error of a figure t
 constexpr double kOutlier = 6.0;        // robust standard deviations, when all figures are known
 constexpr double kFarOut = 30.0;        // and before
 constexpr double kMostOutliers = 0.05;  // of the runs
-constexpr double kLeastClock = 1e-4;    // by which a clock must be off to count
+// By which a clock must be off to count: overrides are off by a per cent and more, and what a controller does besides
+// the model may look like a part in a thousand.
+constexpr double kLeastClock = 5e-3;
 
 double root_mean_square(double square_sum, std::size_t count) {
   return std::sqrt(square_sum / static_cast<double>(std::max<std::size_t>(1, count)));
@@ -241,15 +243,20 @@ class MachineFitter {
             record.written};
   }
 
-  /// The square sum of the fit without a figure, the others fitted again.
-  double square_sum_without(const RunFit& fit, FitFigure figure) const {
-    LoggedMachine machine = fit.machine;
-    record_of(figure).of(machine) = record_of(figure).none;
-    if (figure == FitFigure::JunctionDeviation) machine.machine.corner = CornerRule::Free;
-    std::vector<FitFigure> others;
-    std::copy_if(fit.figures.begin(), fit.figures.end(), std::back_inserter(others),
-                 [&](FitFigure other) { return other != figure && std::isfinite(record_of(other).of(machine)); });
-    return model_.fit(machine, others).square_sum;
+  /// The square sums of fits with the first k of a fit's figures, k = 0, 1, ..., all.
+  std::vector<double> square_sums_by_figure(const RunFit& fit) const {
+    std::vector<double> sums;
+    for (std::size_t k = 0; k <= fit.figures.size(); ++k) {
+      LoggedMachine machine = fit.machine;
+      for (std::size_t i = k; i < fit.figures.size(); ++i) {
+        record_of(fit.figures[i]).of(machine) = record_of(fit.figures[i]).none;
+        if (fit.figures[i] == FitFigure::JunctionDeviation) machine.machine.corner = CornerRule::ExactStop;
+      }
+      const auto end = fit.figures.begin() + static_cast<std::ptrdiff_t>(k);
+      sums.push_back(k == fit.figures.size() ? fit.square_sum
+                                             : model_.fit(machine, {fit.figures.begin(), end}).square_sum);
+    }
+    return sums;
   }
 
   void report(const RunFit& fit) {
@@ -259,8 +266,10 @@ class MachineFitter {
     LoggedMachine found = fit.machine;
     written.machine.corner = rule_is_said_ ? start_.corner : found.machine.corner;
     std::vector<FittedFigure> figures;
-    for (const FitFigure figure : fit.figures) {
-      figures.push_back(figure_of(fit, figure, square_sum_without(fit, figure), fit.square_sum));
+    const std::vector<double> sums = square_sums_by_figure(fit);
+    for (std::size_t k = 0; k < fit.figures.size(); ++k) {
+      const FitFigure figure = fit.figures[k];
+      figures.push_back(figure_of(fit, figure, sums[k], sums[k + 1]));
       if (record_of(figure).written) record_of(figure).of(written) = record_of(figure).of(found);
     }
     result_.fitted.insert(result_.fitted.begin(), figures.begin(), figures.end());
@@ -308,8 +317,8 @@ class MachineFitter {
       return;
     }
     result_.fitted.push_back(figure_of(blocks, FitFigure::BlockDelay, fit.square_sum, blocks.square_sum));
-    if (model_.criterion(blocks) < model_.criterion(fit) - kBetter) {
-      LoggedMachine found = blocks.machine;
+    LoggedMachine found = blocks.machine;
+    if (found.block_delay > 0.0 && model_.criterion(blocks) < model_.criterion(fit) - kBetter) {
       result_.notes.push_back(fmt::format(
           "a delay of {:.4g} ms a block would explain more; machine files have none, and the other figures are fitted "
           "without it (with it the delay at a corner is {:.4g} ms)",

@@ -18,7 +18,8 @@ struct FittedFigure {
   std::string unit;  // "mm/s^2"; empty: none
   double value = 0.0;
   double error = 0.0;      // standard error
-  double explained = 0.0;  // share of the mean square by which the runs' times differ from the commanded ones
+  double explained = 0.0;  // share of the mean square by which the runs' times differ from the commanded ones, that
+                           // goes when this figure joins those before it
   bool written = false;    // machine files have it
 };
 

@@ -51,7 +51,7 @@ void find_errors(const DifferencedCost& cost, std::size_t count, NonlinearFit& f
   const double* values = fit.values.data();
   double* jacobian = derivatives.data();
   fit.errors.assign(n, std::numeric_limits<double>::quiet_NaN());
-  if (count <= n || !cost.Evaluate(&values, residuals.data(), &jacobian)) return;
+  if (n == 0 || count <= n || !cost.Evaluate(&values, residuals.data(), &jacobian)) return;
   fit.square_sum = 0.0;
   for (const double r : residuals) fit.square_sum += r * r;
   using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -98,8 +98,8 @@ NonlinearFit fit_least_squares(const FitResiduals& residuals, std::size_t count,
     ceres::Solver::Options options;
     options.linear_solver_type = ceres::DENSE_QR;
     options.max_num_iterations = 60;
-    options.function_tolerance = 1e-10;
-    options.parameter_tolerance = 1e-9;
+    options.function_tolerance = 1e-13;
+    options.parameter_tolerance = 1e-10;
     options.gradient_tolerance = 1e-14;
     options.num_threads = 1;
     options.logging_type = ceres::SILENT;

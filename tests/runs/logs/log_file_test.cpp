@@ -123,16 +123,16 @@ TEST(MotionLogFile, RefusesByLineColumnAndValue) {
   };
   const std::string rows = "0.25,1,-2\n0.3,1.25,-3\n0.35,1.5,-4\n";
   expect_refused("t_s,x_mm,y_mm\n0.25,1,-2\n0.3,,-3\n0.35,1.5,-4\n",
-                 "run.csv: line 3: column \"x_mm\" = \"\"; a finite number with a decimal point is required");
-  expect_refused("t_s,x_mm,y_mm\n0.25,1,-2\n0.3,nan,-3\n0.35,1.5,-4\n", "line 3: column \"x_mm\" = \"nan\"");
-  expect_refused("t_s;x_mm;y_mm\n1;1;2\n2;1,5;-3\n3;1;2\n", "line 3: column \"x_mm\" = \"1,5\"");
+                 "run.csv: line 3: column \"x_mm\" = ''; a finite number with a decimal point is required");
+  expect_refused("t_s,x_mm,y_mm\n0.25,1,-2\n0.3,nan,-3\n0.35,1.5,-4\n", "line 3: column \"x_mm\" = 'nan'");
+  expect_refused("t_s;x_mm;y_mm\n1;1;2\n2;1,5;-3\n3;1;2\n", "line 3: column \"x_mm\" = '1,5'");
   expect_refused("t_s,x_mm,y_mm\n0.25,1,-2\n0.3,-3\n0.35,1.5,-4\n", "line 3: 2 columns; the first row has 3");
   expect_refused("t_s,x_mm,y_mm\n0.25,1,-2\n0.3,1,2,-3\n", "line 3: 4 columns; the first row has 3");
   expect_refused("t_s,x_deg,y_mm\n" + rows, "no column clearly holds x among the columns t_s, x_deg, y_mm");
   expect_refused("t_s,x [deg],y_mm\n" + rows, "column \"x [deg]\" has the unit \"deg\"; accepted: mm, um");
   expect_refused("t (rpm),x,y\n" + rows, "column \"t (rpm)\" has the unit \"rpm\"; accepted: s, ms");
   expect_refused("t_s,x_mm,y_mm,xact\n1,2,3,4\n", "more than one column holds x");
-  expect_refused("# positions in um\nt,x,y\n" + rows, "line 1: \"# positions in um\" says the unit");
+  expect_refused("# positions in um\nt,x,y\n" + rows, "line 1: '# positions in um' says the unit");
   EXPECT_EQ(refusal("# positions in um\nt,x,y\n" + rows, columns("t:s,x:um,y:um")), "");
   EXPECT_EQ(refusal("# positions in um\nt_s,x_um,y_um\n" + rows), "");
   expect_refused("t_s,x_mm,y_mm\n" + rows, "says the unit mm, but `log columns` says um; they must agree",

@@ -1,6 +1,6 @@
 #pragma once
 
-// Logs of a machine that is known: what execute() makes of a program, sampled as a controller does.
+// Logs of a machine that is known: its trapezoids of speed, sampled as a controller does.
 
 #include <cmath>
 #include <cstdio>
@@ -10,8 +10,9 @@
 #include <vector>
 
 #include "core/motion/program.h"
-#include "paths/feed/execution.h"
 #include "paths/feed/kinematic_path.h"
+#include "paths/feed/step_times.h"
+#include "paths/feed/trapezoid.h"
 #include "runs/logs/motion_log.h"
 #include "tests/paths/feed/motion_oracle.h"
 
@@ -27,39 +28,57 @@ struct LogMaking {
   double begins = 3.1234;  // time of the first sample [s]
 };
 
+/// A stretch at constant acceleration.
+struct RunPiece {
+  Point start, finish;
+  double seconds = 0.0, speed_in = 0.0, speed_out = 0.0;  // [mm/s]
+
+  Point place(double t) const {
+    const double whole = distance(start, finish);
+    if (!(whole > 0.0)) return start;
+    const double way = (speed_in + 0.5 * (speed_out - speed_in) / seconds * t) * t;
+    return start + (way / whole) * (finish - start);
+  }
+};
+
 /// The motion with what comes before and after it: a way to its beginning, rests, a way off.
-inline std::vector<ProgramStep> whole_run(const Program& program, const Machine& machine, const LogMaking& making) {
-  Machine without = machine;
-  without.corner_delay = 0.0;
-  const Execution run = execute(program, without);
+inline std::vector<RunPiece> whole_run(const Program& program, const Machine& machine, const LogMaking& making) {
   const KinematicPath path = kinematic_path(program, machine);
-  const Point first = run.motion.steps.front().start, last = run.motion.steps.back().finish;
-  std::vector<ProgramStep> steps{{first + Point{-7.0, 4.0}, first + Point{-7.0, 4.0}, 0.3},
-                                 {first + Point{-7.0, 4.0}, first, 0.61},
-                                 {first, first, 0.2}};
-  std::size_t piece = 0;
+  const std::vector<double> feeds = commanded_feeds(program, path), u = node_speeds_squared(path, feeds);
+  const Point first = program.steps.front().start, last = program.steps.back().finish;
+  std::vector<RunPiece> pieces;
+  const auto rest = [&pieces](Point at, double seconds) { pieces.push_back({at, at, seconds}); };
+  const auto run = [&pieces](Point from, Point to, double in, double out) {
+    pieces.push_back({from, to, 2.0 * distance(from, to) / (in + out), in, out});
+  };
+  rest(first + Point{-7.0, 4.0}, 0.3);
+  run(first + Point{-7.0, 4.0}, first, 11.0, 15.0);
+  rest(first, 0.2);
   double since_stop = 0.0;
   for (std::size_t i = 0; i < program.steps.size(); ++i) {
-    double left = run.seconds[i];
-    while (piece < run.motion.steps.size() && left > 1e-9 * run.seconds[i]) {
-      steps.push_back(run.motion.steps[piece++]);
-      left -= steps.back().seconds;
-      since_stop += steps.back().seconds;
+    const ProgramStep& step = program.steps[i];
+    const KinematicMove& move = path.moves[i];
+    if (!(move.length > 0.0)) rest(step.finish, step.seconds), since_stop += step.seconds;
+    double way = 0.0;
+    for (const MotionPiece& piece :
+         move.length > 0.0
+             ? pieces_at_feed({move.length, move.acceleration, std::sqrt(u[i]), std::sqrt(u[i + 1])}, feeds[i])
+             : std::vector<MotionPiece>{}) {
+      const auto at = [&](double w) { return step.start + (w / move.length) * (step.finish - step.start); };
+      run(at(way), at(way + piece.length), piece.speed_in, piece.speed_out);
+      way += piece.length;
+      since_stop += pieces.back().seconds;
     }
-    const Point at = program.steps[i].finish;
-    if (making.block > 0.0) steps.push_back({at, at, making.block});
+    if (making.block > 0.0) rest(step.finish, making.block);
     if (path.stops[i + 1] == 0) continue;
-    double rest = machine.corner_delay;
-    if (making.servo > 0.0) {
-      const double whole = std::ceil((since_stop + rest) / making.servo) * making.servo;
-      rest = whole - since_stop;
-    }
-    if (rest > 0.0) steps.push_back({at, at, rest});
+    double pause = machine.corner_delay;
+    if (making.servo > 0.0) pause = std::ceil((since_stop + pause) / making.servo) * making.servo - since_stop;
+    if (pause > 0.0) rest(step.finish, pause);
     since_stop = 0.0;
   }
-  steps.push_back({last, last, 0.25});
-  steps.push_back({last, last + Point{3.0, 11.0}, 0.9});
-  return steps;
+  rest(last, 0.25);
+  run(last, last + Point{3.0, 11.0}, 15.0, 11.0);
+  return pieces;
 }
 
 inline MotionLog made_up_log(const Program& program, const Machine& machine, const LogMaking& making = {}) {
@@ -70,15 +89,15 @@ inline MotionLog made_up_log(const Program& program, const Machine& machine, con
   std::normal_distribution<double> noise(0.0, 1.0);
   double begin = 0.0;
   long sample = 0;
-  for (const ProgramStep& step : whole_run(program, machine, making)) {
-    for (; static_cast<double>(sample) * making.period < begin + step.seconds; ++sample) {
+  for (const RunPiece& piece : whole_run(program, machine, making)) {
+    for (; static_cast<double>(sample) * making.period < begin + piece.seconds; ++sample) {
       const double t = static_cast<double>(sample) * making.period;
-      Point at = step.start + ((t - begin) / step.seconds) * (step.finish - step.start);
+      Point at = piece.place(t - begin);
       if (making.noise > 0.0) at = at + making.noise * Point{noise(random), noise(random)};
       log.seconds.push_back(making.begins + making.clock * t);
       log.places.push_back(at);
     }
-    begin += step.seconds;
+    begin += piece.seconds;
   }
   return log;
 }
