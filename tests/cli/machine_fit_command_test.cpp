@@ -19,7 +19,7 @@ using test::SmallInputs;
 using test::with;
 using test::Words;
 
-const Words kTurning{"--path", "random:pitch=1.5,seed=2", "--max-feed", "600"};
+const Words kManyCorners{"--path", "random:pitch=1.5,seed=2", "--max-feed", "600"};
 const Words kFit{"machine", "fit", "run.csv", "--program", "plan/program.nc"};
 
 /// A plan on a path of many corners, and the log of a machine that ran it.
@@ -29,7 +29,7 @@ struct LoggedPlan : SmallInputs {
   LoggedPlan() {
     machine.path_acceleration = 45.0;
     machine.corner_delay = 0.004;
-    EXPECT_EQ(run(SmallInputs::plan(kTurning)).exit_code, 0);
+    EXPECT_EQ(run(SmallInputs::plan(kManyCorners)).exit_code, 0);
     folder.file("run.csv", test::log_text(log(), "t_ms,x_um,y_mm", 1e-3, 1.0));
   }
   /// With x in um as the header says.
