@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "bench/map_file.h"
+#include "bench/schedule_case.h"
 #include "bench/single_fft.h"
 #include "core/base/random_numbers.h"
 #include "core/form/polynomial_fit.h"
@@ -18,6 +19,8 @@
 #include "core/removal/scattered_removal.h"
 #include "core/removal/sparse_removal.h"
 #include "core/spectra/psd.h"
+#include "paths/feed/constant_schedule.h"
+#include "paths/feed/linear_schedule.h"
 #include "paths/tours/nearest_neighbour.h"
 
 namespace dwell::bench {
@@ -153,6 +156,17 @@ void time_radial_psd(benchmark::State& state, long size, bool disc, int threads)
   for (auto _ : state) benchmark::DoNotOptimize(radial_psd(areal_psd(map, options)).density.data());
 }
 
+void time_schedule(benchmark::State& state, long strokes, bool rough, bool linear, int threads) {
+  const ScheduleCase c = make_schedule_case(strokes, rough);
+  for (auto _ : state) {
+    if (linear) {
+      benchmark::DoNotOptimize(schedule_linear(c.moves, c.path, c.machine, c.dwell, threads).worst_error);
+    } else {
+      benchmark::DoNotOptimize(schedule_constant(c.moves, c.path, c.machine, c.dwell).worst_error);
+    }
+  }
+}
+
 struct Case {
   std::string name;
   long size;
@@ -211,6 +225,16 @@ std::vector<Case> cases_of(const MicroOptions& options) {
   const long edge = options.quick ? 300 : 1000;
   cases.push_back(
       {"nearest-path", edge * edge, 1, "", [=](benchmark::State& state) { time_nearest_path(state, edge); }});
+  const long strokes = options.quick ? 20'000 : 1'000'000;
+  for (const bool rough : {false, true}) {
+    const std::string dwell = rough ? "-rough" : "";
+    cases.push_back({"schedule-constant" + dwell, strokes, 1, "",
+                     [=](benchmark::State& state) { time_schedule(state, strokes, rough, false, 1); }});
+    for (const int threads : {1, 2}) {
+      cases.push_back({"schedule-linear" + dwell, strokes, threads, "",
+                       [=](benchmark::State& state) { time_schedule(state, strokes, rough, true, threads); }});
+    }
+  }
   for (const char* format : {"dat", "datx"}) append_reading(cases, format, 1024);
   append_reading(cases, "npy", options.quick ? 1024 : 4096);
   return cases;

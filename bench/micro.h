@@ -27,9 +27,10 @@ struct MicroOptions {
 };
 
 /// Times apply and adjoint of every operator and the bare FFTW pair of their padded sizes, that pair in single
-/// precision as well, the removal of 36 form terms, the radial spectrum, the path planner, and the readers of map
-/// files. Repetitions of all are interleaved in random order, so that a slow spell of the machine hits all alike.
-/// Starts no repetition after `share` of the budget; a benchmark without any repetition is not in the result.
+/// precision as well, the removal of 36 form terms, the radial spectrum, the path planner, the schedules of a
+/// machine, and the readers of map files. Repetitions of all are interleaved in random order, so that a slow spell of
+/// the machine hits all alike. Starts no repetition after `share` of the budget; a benchmark without any repetition is
+/// not in the result.
 std::vector<MicroResult> run_micro(const MicroOptions& options, const Budget& budget, double share);
 
 }  // namespace dwell::bench

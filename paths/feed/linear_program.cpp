@@ -52,4 +52,12 @@ Program linear_program(const StrokeMoves& moves, const KinematicPath& path, cons
   return program;
 }
 
+void join_velocities(Program& program) {
+  for (std::size_t i = 0; i + 1 < program.steps.size(); ++i) {
+    ProgramStep &before = program.steps[i], &after = program.steps[i + 1];
+    if (!before.speeds || !after.speeds) continue;
+    before.speeds->out = after.speeds->in = midpoint(before.speeds->out, after.speeds->in);
+  }
+}
+
 }  // namespace dwell

@@ -13,4 +13,9 @@ namespace dwell {
 Program linear_program(const StrokeMoves& moves, const KinematicPath& path, const LinearSchedule& schedule,
                        const Machine& machine);
 
+/// Gives every node of a program with speeds one velocity, as tables of position, velocity and time have it: where two
+/// steps meet at an angle and not at rest, the mean of both, so that the cubics round the corner. Times stay as they
+/// are. Cost O(steps).
+void join_velocities(Program& program);
+
 }  // namespace dwell
