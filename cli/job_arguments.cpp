@@ -9,6 +9,7 @@
 #include "core/base/errors.h"
 #include "runs/job/input_files.h"
 #include "runs/job/job_file.h"
+#include "runs/job/keep_out_option.h"
 #include "runs/map_steps/map_steps.h"
 
 namespace dwell::cli {
@@ -29,7 +30,9 @@ JobArguments::JobArguments(CLI::App& command, const std::vector<std::string>& fl
     if (std::find(flags.begin(), flags.end(), record.flag) == flags.end()) continue;
     const std::string fallback = record.get(defaults);
     const std::string help = fallback.empty() ? record.help : fmt::format("{} (default {})", record.help, fallback);
-    given_.push_back({&record, command.add_option("--" + record.flag, help)->type_name(record.value)->expected(1)});
+    CLI::Option* option = command.add_option("--" + record.flag, help)->type_name(record.value)->expected(1);
+    if (record.takes_list) option->take_all();  // given several times, its parts follow one another
+    given_.push_back({&record, option});
   }
 }
 
@@ -42,7 +45,8 @@ JobOptions JobArguments::options() const {
 JobOptions JobArguments::options_over(JobOptions options) const {
   for (const Given& given : given_) {
     if (given.option->count() == 0) continue;
-    set_job_option(options, *given.record, given.option->results().back(), "--" + given.record->flag);
+    const std::string value = fmt::format("{}", fmt::join(given.option->results(), ";"));
+    set_job_option(options, *given.record, value, "--" + given.record->flag);
   }
   return options;
 }
@@ -77,6 +81,7 @@ std::vector<ReadFile> JobArguments::files_read(const JobOptions& options) const 
                              {"the removal function", options.tif},
                              {"the machine", options.machine}};
   if (const auto* path = options.path.get_if<PathFromFile>()) read.push_back({"the path", path->file.string()});
+  for (const std::string& file : keep_out_files(options.keep_out)) read.push_back({"the zones", file});
   for (const std::string* steps : {&options.map_steps, &options.tif_steps}) {
     for (const std::string& file : map_step_files(*steps)) read.push_back({"a map of a step", file});
   }

@@ -8,7 +8,9 @@
 #include "core/base/whole_file.h"
 #include "core/formats/map_io.h"
 #include "core/map/aperture.h"
+#include "paths/domain/keep_out.h"
 #include "runs/job/input_files.h"
+#include "runs/job/keep_out_option.h"
 #include "runs/plan/pitch_choice.h"
 
 namespace dwell {
@@ -61,6 +63,7 @@ Job load_job(const JobOptions& options, const Progress& progress) {
     job.machine = read_machine_file(options.machine);
     job.inputs.push_back({"machine", options.machine, sha256_of_file(options.machine)});
   }
+  job.keep_out = load_keep_out(options.keep_out, job.inputs);
   HeightMap map = load_map_of(options, job.inputs, progress);
   job.map_pixels = map.valid_pixels();
   map = within(std::move(map), options.aperture, progress);
@@ -76,16 +79,20 @@ JobPath lay_job_path(const Job& job, double used_seconds, const Progress& progre
   options.used_seconds = used_seconds;
   const PathSpec& spec = required_path(job.options);
   if (pitch_is_searched(spec)) {
+    if (!job.keep_out.empty()) {
+      throw InputError(
+          "--keep-out: together with a raster whose pitch is searched (--path raster:pitch=auto); required a pitch");
+    }
     SearchedRaster found = lay_searched_raster(*job.part, spec, job.options.motion, options, progress);
     return {std::move(found.laid), std::move(found.dwell)};
   }
-  return {time_limit(options.max_seconds, used_seconds)
-              .run(progress,
-                   [&](const Progress& limited) {
-                     return lay_path(*job.part, spec, job.options.motion, options.machine.feed_limits().max_feed,
-                                     limited);
-                   }),
-          std::nullopt};
+  LaidPath laid = time_limit(options.max_seconds, used_seconds).run(progress, [&](const Progress& limited) {
+    LaidPath whole = lay_path(*job.part, spec, job.options.motion, options.machine.feed_limits().max_feed, limited);
+    if (job.keep_out.empty()) return whole;
+    limited.step("path: keeping out of zones");
+    return lay_path(keep_out_of(whole.path, whole.motion, job.keep_out).path, whole.motion);
+  });
+  return {std::move(laid), std::nullopt};
 }
 
 std::optional<InputFile> path_input(const JobOptions& options) {

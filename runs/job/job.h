@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/map/aperture.h"
 #include "runs/base/input_file.h"
 #include "runs/job/job_options.h"
 #include "runs/machine/machine_file.h"
@@ -21,6 +22,7 @@ struct Job {
   Index map_pixels = 0;           // valid pixels of the map before the aperture
   std::shared_ptr<const Part> part;
   std::optional<NamedMachine> machine;
+  std::vector<Aperture> keep_out;  // that the path spares
 };
 
 /// Reads map and removal function and makes the part; the path is not looked at. Throws InputError naming flag or file,

@@ -13,6 +13,7 @@
 #include "core/base/version.h"
 #include "core/base/whole_file.h"
 #include "core/tif/models/removal_models.h"
+#include "runs/job/keep_out_option.h"
 #include "runs/map_steps/map_steps.h"
 
 namespace dwell {
@@ -101,6 +102,7 @@ std::string rebased_option(const JobOptionRecord& record, const std::string& val
       throw InputError(fmt::format("{}: {}", source, error.what()));
     }
   }
+  if (record.key == "keep_out") return rebased_keep_out(value, folder);
   constexpr std::string_view kPathFile = "file:";
   if (record.key == "path" && value.starts_with(kPathFile) && value != kPathFile) {
     return std::string(kPathFile) + (folder / value.substr(kPathFile.size())).lexically_normal().string();

@@ -17,6 +17,7 @@
 #include "core/tif/removal_orientation.h"
 #include "paths/path_catalogue.h"
 #include "runs/drawing/figure_format.h"
+#include "runs/job/keep_out_option.h"
 #include "runs/job/place_option.h"
 #include "runs/job/scatter_option.h"
 #include "runs/map_steps/map_steps.h"
@@ -226,6 +227,11 @@ std::vector<JobOptionRecord> make_table() {
        "them all",
        false, false, [](Options& o, const std::string& t) { o.path = parse_path_spec(t); },
        [](const Options& o) { return to_string(o.path); }},
+      {"keep-out", "keep_out", "AREA;...",
+       "areas that the tool's axis does not enter while the tool is down, as in --aperture, or file:NAME with one a "
+       "line: the path lifts over them and leaves out its points inside; may be given several times",
+       false, false, [](Options& o, const std::string& t) { check_keep_out(t), o.keep_out = t; },
+       [](const Options& o) { return o.keep_out; }, false, true},
       {"motion", "motion", "HOW", "moving: the tool runs through; stop: it halts at every dwell point", false, false,
        [](Options& o, const std::string& t) { o.motion = parse_motion(t); },
        [](const Options& o) { return to_string(o.motion); }},

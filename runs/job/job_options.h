@@ -55,6 +55,7 @@ struct JobOptions {
   double tif_angle_deg = 0.0;
   ToolOrientation::Flip tif_flip = ToolOrientation::Flip::None;
   PathSpec path;
+  std::string keep_out;  // areas that the tool does not enter while it is down: AREA;AREA;...
   Motion motion = Motion::Moving;
   FormTerms remove{true, true};
   double fraction = 1.0;  // of the error that a plan removes

@@ -48,6 +48,7 @@ JobOptions unusual() {
   o.tif_angle_deg = -37.5;
   o.tif_flip = ToolOrientation::Flip::Y;
   o.path = parse_path_spec("nearest:cell=2,critical=-inf");
+  o.keep_out = "circle:1,2,0.5;file:/data/zones.txt";
   o.motion = Motion::Stop;
   o.remove = {true, true, true};
   o.aperture = parse_aperture("rect:0,0,1,2");
