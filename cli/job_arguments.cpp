@@ -30,9 +30,9 @@ JobArguments::JobArguments(CLI::App& command, const std::vector<std::string>& fl
     if (std::find(flags.begin(), flags.end(), record.flag) == flags.end()) continue;
     const std::string fallback = record.get(defaults);
     const std::string help = fallback.empty() ? record.help : fmt::format("{} (default {})", record.help, fallback);
-    CLI::Option* option = command.add_option("--" + record.flag, help)->type_name(record.value)->expected(1);
+    CLI::Option* option = command.add_option("--" + record.flag, help)->type_name(record.value);
+    given_.push_back({&record, record.alone.empty() ? option->expected(1) : option->expected(0, 1)});
     if (record.takes_list) option->take_all();  // given several times, its parts follow one another
-    given_.push_back({&record, option});
   }
 }
 
@@ -45,8 +45,10 @@ JobOptions JobArguments::options() const {
 JobOptions JobArguments::options_over(JobOptions options) const {
   for (const Given& given : given_) {
     if (given.option->count() == 0) continue;
-    const std::string value = fmt::format("{}", fmt::join(given.option->results(), ";"));
-    set_job_option(options, *given.record, value, "--" + given.record->flag);
+    std::string text = fmt::format("{}", fmt::join(given.option->results(), ";"));
+    const bool is_alone = text.empty() || text == "true";  // as CLI11 has it
+    if (is_alone && !given.record->alone.empty()) text = given.record->alone;
+    set_job_option(options, *given.record, text, "--" + given.record->flag);
   }
   return options;
 }
@@ -76,10 +78,9 @@ std::vector<const JobOptionRecord*> JobArguments::given() const {
 }
 
 std::vector<ReadFile> JobArguments::files_read(const JobOptions& options) const {
-  std::vector<ReadFile> read{{"the job file", job_},
-                             {"the map", options.map},
-                             {"the removal function", options.tif},
-                             {"the machine", options.machine}};
+  std::vector<ReadFile> read{
+      {"the job file", job_},           {"the map", options.map},       {"the removal function", options.tif},
+      {"the machine", options.machine}, {"the header", options.header}, {"the footer", options.footer}};
   if (const auto* path = options.path.get_if<PathFromFile>()) read.push_back({"the path", path->file.string()});
   for (const std::string& file : keep_out_files(options.keep_out)) read.push_back({"the zones", file});
   for (const std::string* steps : {&options.map_steps, &options.tif_steps}) {

@@ -79,6 +79,7 @@ int run_pareto(const ParetoArguments& arguments) {
 /// The options of a plan but for the weights, which are swept, and the program, which is not written.
 std::vector<std::string> swept_flags() {
   std::vector<std::string> flags = every_flag();
+  for (const JobOptionRecord& record : program_option_records()) std::erase(flags, record.flag);
   std::erase_if(flags, [](const std::string& f) {
     return f == "smoothness" || f == "time-price" || f == "time-worth" || f == "certify" || f == "blemishes" ||
            f == "gcode" || f == "machine" || f == "rounds" || f == "export";
@@ -110,8 +111,8 @@ void add_pareto_command(CLI::App& program, int& exit_code) {
       "Example:\n"
       "  dwell pareto --map mirror.csv --map-pixel 0.0938 --tif spot.csv --tif-pixel 0.0938 \\\n"
       "               --path raster:pitch=1 --smoothnesses 0.001:10:7 --time-prices 0,1e-6,1e-5 --out pareto/\n"
-      "A job file's smoothness, time_price_nm2_per_s and gcode are not used; max_solve_s is for each "
-      "solve.\n"
+      "A job file's smoothness, time_price_nm2_per_s and what it says of program.nc are not used; max_solve_s is for "
+      "each solve.\n"
       "Exit codes: 0 done, 1 internal fault, 2 bad usage or input, 3 done but a limit was reached, 130 interrupted.");
   command->callback([arguments, &exit_code] { exit_code = run_pareto(*arguments); });
 }

@@ -8,6 +8,7 @@ inline constexpr double kNmPerUm = 1e3;
 inline constexpr double kNmPerMm = 1e6;
 inline constexpr double kNmPerM = 1e9;
 inline constexpr double kMmPerM = 1e3;
+inline constexpr double kMmPerInch = 25.4;  // exact
 inline constexpr double kSecondsPerMinute = 60.0;
 
 inline constexpr double mm_per_s(double mm_per_min) { return mm_per_min / kSecondsPerMinute; }

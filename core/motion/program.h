@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/point.h"
+#include "core/motion/program_frame.h"
 
 namespace dwell {
 
@@ -66,6 +67,8 @@ struct Program {
   /// Of rapids before the last of the work, up and across, as far as the file says where they begin [mm].
   double rapid_length = 0.0;
   double fastest_feed = 0.0;  // of its feed moves, or what its header allows [mm/s]; 0 where neither is known
+  /// In which the file has its places. The steps here are in the part's coordinates.
+  ProgramFrame frame{};
 
   double total_seconds() const;  // all steps [s]; rapids count as none
   /// Of rapids, which no program says: at `feed` [mm/s], or else at the fastest feed.

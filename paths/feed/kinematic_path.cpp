@@ -85,7 +85,7 @@ KinematicPath kinematic_path(const Program& program, const Machine& machine) {
   refuse_blending(program);
   std::size_t next = 0;
   EndRule rule{machine.corner, false};
-  return make_path(program.steps, machine, [&](std::size_t step) {
+  return make_path(program.steps, machine_on(machine, program), [&](std::size_t step) {
     for (; next < program.path_modes.size() && program.path_modes[next].first_step <= step; ++next)
       rule = {CornerRule::ExactStop, program.path_modes[next].mode.kind == PathMode::Kind::ExactStop};
     return rule;

@@ -34,7 +34,8 @@ KinematicPath kinematic_path(const std::vector<ProgramStep>& steps, const Machin
 
 /// The same for a program, whose path modes come before the machine's corner rule: with an exact path (G61) it rests
 /// where two moves meet at an angle, with exact stops (G61.1) at the end of every move. Throws InputError for a path
-/// that the controller blends (G64): where the tool then goes is not in the program.
+/// that the controller blends (G64): where the tool then goes is not in the program. The axes are those of the
+/// program's file (machine_on).
 KinematicPath kinematic_path(const Program& program, const Machine& machine);
 
 /// The highest squared speed at every node [mm^2/s^2] for a highest speed on every move (`feed`; taken as at most the

@@ -59,12 +59,19 @@ std::string_view to_string(CornerRule rule) {
   return "";
 }
 
+Machine machine_on(Machine machine, const Program& program) {
+  if (!program.frame.is_of_part()) machine.frame = program.frame;
+  return machine;
+}
+
 double speed_limit(const Machine& machine, Point along) {
-  return limit_along(machine.x.max_speed, machine.y.max_speed, machine.max_feed, along);
+  return limit_along(machine.x.max_speed, machine.y.max_speed, machine.max_feed,
+                     machine.frame.direction_to_program(along));
 }
 
 double acceleration_limit(const Machine& machine, Point along) {
-  return limit_along(machine.x.max_acceleration, machine.y.max_acceleration, machine.path_acceleration, along);
+  return limit_along(machine.x.max_acceleration, machine.y.max_acceleration, machine.path_acceleration,
+                     machine.frame.direction_to_program(along));
 }
 
 void validate(const Machine& machine) {

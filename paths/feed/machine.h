@@ -5,6 +5,8 @@
 #include <string_view>
 
 #include "core/base/point.h"
+#include "core/motion/program.h"
+#include "core/motion/program_frame.h"
 
 namespace dwell {
 
@@ -35,10 +37,16 @@ struct Machine {
   double junction_deviation = 0.01;  // [mm], > 0
   double corner_delay = 0.0;         // at rest at each exact stop [s], >= 0
   double min_feed = 0.0;             // [mm/s], >= 0
+  /// How the machine's axes lie against the part's coordinates, in which paths and steps are: the limits of an axis,
+  /// its travel too, are those of the program's coordinate of that name.
+  ProgramFrame frame{};
 };
 
-/// Highest speed [mm/s] along a direction: every axis within its own, and the path within its own. `along` need not
-/// have length 1; 0 has no limit but the path's.
+/// The machine with its axes as the program's file has them; a program in the part's coordinates changes nothing.
+Machine machine_on(Machine machine, const Program& program);
+
+/// Highest speed [mm/s] along a direction of the part: every axis within its own, and the path within its own. `along`
+/// need not have length 1; 0 has no limit but the path's.
 double speed_limit(const Machine& machine, Point along);
 /// The same for acceleration [mm/s^2].
 double acceleration_limit(const Machine& machine, Point along);

@@ -26,12 +26,13 @@ struct Found {
 
 bool is_outside(const MachineAxis& axis, double place) { return place < axis.lowest || place > axis.highest; }
 
-void check_axis(const char* name, const MachineAxis& axis, const Program& program, double Point::*component,
-                std::vector<std::string>& faults) {
+void check_axis(const char* name, const MachineAxis& axis, const Program& program, const ProgramFrame& frame,
+                double Point::*component, std::vector<std::string>& faults) {
   Found found;
   double where = 0.0;
   for (std::size_t i = 0; i < program.steps.size(); ++i) {
-    for (const Point p : {program.steps[i].start, program.steps[i].finish}) {
+    for (const Point place : {program.steps[i].start, program.steps[i].finish}) {
+      const Point p = frame.to_program(place);
       if (!is_outside(axis, p.*component)) continue;
       if (found.count == 0) where = p.*component;
       found.add(i);
@@ -48,10 +49,11 @@ void check_axis(const char* name, const MachineAxis& axis, const Program& progra
 
 }  // namespace
 
-std::vector<std::string> beyond_machine(const Program& program, const Machine& machine) {
+std::vector<std::string> beyond_machine(const Program& program, const Machine& of_part) {
+  const Machine machine = machine_on(of_part, program);
   std::vector<std::string> faults;
-  check_axis("x", machine.x, program, &Point::x, faults);
-  check_axis("y", machine.y, program, &Point::y, faults);
+  check_axis("x", machine.x, program, machine.frame, &Point::x, faults);
+  check_axis("y", machine.y, program, machine.frame, &Point::y, faults);
   Found fast, slow;
   for (std::size_t i = 0; i < program.steps.size(); ++i) {
     const ProgramStep& step = program.steps[i];

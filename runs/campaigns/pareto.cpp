@@ -14,6 +14,7 @@
 #include "core/base/errors.h"
 #include "core/base/number_text.h"
 #include "core/base/value_range.h"
+#include "runs/job/program_style.h"
 #include "runs/plan/lattice_choice.h"
 #include "runs/plan/plan_problem.h"
 #include "runs/plan/program_prediction.h"
@@ -155,7 +156,8 @@ ParetoSweep sweep_weights(const JobOptions& options, const ParetoRanges& ranges,
   ParetoSweep sweep;
   const DwellOptions how = dwell_options(options);
   const TimeLimit limit = time_limit(options.max_solve_s);
-  sweep.job = limit.run(progress, [&](const Progress& limited) { return load_job(options, limited); });
+  sweep.job =
+      limit.run(progress, [&](const Progress& limited) { return load_job(without_program_style(options), limited); });
   sweep.laid = lay_job_path(sweep.job, limit.used(), progress).laid;
   sweep.travel = travel_times(sweep.laid, options.lift_height_mm, how.machine);
   if (auto file = path_input(options)) sweep.job.inputs.push_back(std::move(*file));

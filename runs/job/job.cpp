@@ -11,6 +11,7 @@
 #include "paths/domain/keep_out.h"
 #include "runs/job/input_files.h"
 #include "runs/job/keep_out_option.h"
+#include "runs/job/program_style.h"
 #include "runs/plan/pitch_choice.h"
 
 namespace dwell {
@@ -35,6 +36,13 @@ HeightMap load_map_of(const JobOptions& options, std::vector<InputFile>& inputs,
   }
 }
 
+/// Lines of G-code from the file of an option, if it is given.
+GcodeInsert load_insert(const char* role, const std::string& file, std::vector<InputFile>& inputs) {
+  if (file.empty()) return {};
+  inputs.push_back({role, file, sha256_of_file(file)});
+  return read_gcode_insert(file);
+}
+
 }  // namespace
 
 DwellOptions dwell_options(const JobOptions& o) {
@@ -52,7 +60,7 @@ DwellOptions dwell_options(const JobOptions& o) {
 
 DwellOptions dwell_options(const Job& job) {
   DwellOptions options = dwell_options(job.options);
-  if (job.machine) options.machine.machine = job.machine->machine;
+  if (job.machine) options.machine.machine = machine_for_program(job.machine->machine, job.options);
   return options;
 }
 
@@ -64,6 +72,9 @@ Job load_job(const JobOptions& options, const Progress& progress) {
     job.inputs.push_back({"machine", options.machine, sha256_of_file(options.machine)});
   }
   job.keep_out = load_keep_out(options.keep_out, job.inputs);
+  job.header = load_insert("header", options.header, job.inputs);
+  job.footer = load_insert("footer", options.footer, job.inputs);
+  check_program_style(options, job.machine, job.header, job.footer);
   HeightMap map = load_map_of(options, job.inputs, progress);
   job.map_pixels = map.valid_pixels();
   map = within(std::move(map), options.aperture, progress);

@@ -12,6 +12,7 @@
 #include "runs/plan/dwell_plan.h"
 #include "runs/plan/laid_path.h"
 #include "runs/plan/part.h"
+#include "runs/programs/gcode_insert.h"
 
 namespace dwell {
 
@@ -23,6 +24,7 @@ struct Job {
   std::shared_ptr<const Part> part;
   std::optional<NamedMachine> machine;
   std::vector<Aperture> keep_out;  // that the path spares
+  GcodeInsert header, footer;      // of program.nc
 };
 
 /// Reads map and removal function and makes the part; the path is not looked at. Throws InputError naming flag or file,

@@ -50,6 +50,8 @@ std::string text_of(const toml::node& node, const JobOptionRecord& record, const
     if (const auto whole = node.as_integer()) return fmt::format("{}", whole->get());
     if (const auto real = node.as_floating_point()) return fmt::format("{}", real->get());
   }
+  if (const auto truth = node.as_boolean(); truth && !record.is_number && !record.alone.empty())
+    return truth->get() ? "true" : "false";
   if (const auto text = node.as_string(); text && takes_text(record, text->get())) return text->get();
   std::ostringstream type, value;
   type << node.type();

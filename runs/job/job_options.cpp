@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/errors.h"
@@ -102,7 +103,7 @@ std::string other_models() {
 }
 
 std::vector<JobOptionRecord> make_table() {
-  return {
+  std::vector<JobOptionRecord> table{
       {"map", "map", "FILE", "height-error map: a file in any map format; NaN = outside the part", true, false,
        [](Options& o, const std::string& t) { o.map = t; }, [](const Options& o) { return o.map; }},
       {"map-pixel", "map_pixel_mm", "MM|X,Y",
@@ -323,6 +324,11 @@ std::vector<JobOptionRecord> make_table() {
        "where the result is written; replaced whole if it holds an earlier one of the same kind", true, false,
        [](Options& o, const std::string& t) { o.out = t; }, [](const Options& o) { return o.out; }},
   };
+  const std::vector<JobOptionRecord> of_program = program_option_records();
+  const auto lift_height = std::find_if(table.begin(), table.end(),
+                                        [](const JobOptionRecord& record) { return record.flag == "lift-height"; });
+  table.insert(lift_height + 1, of_program.begin(), of_program.end());
+  return table;
 }
 
 }  // namespace

@@ -19,6 +19,7 @@
 #include "runs/drawing/figure_format.h"
 #include "runs/plan/blemish_handling.h"
 #include "runs/programs/gcode_dialect.h"
+#include "runs/programs/path_mode_option.h"
 #include "solvers/problem/dwell_solver.h"
 #include "solvers/weights/time_worth.h"
 #include "solvers/weights/weight_goal.h"
@@ -75,6 +76,13 @@ struct JobOptions {
   GcodeDialect gcode = GcodeDialect::G94;
   double lift_height_mm = 10.0;
   std::vector<std::string> exports;  // formats besides feed.csv and program.nc, by their words
+  PathModeOption path_mode;
+  std::string header, footer;  // files with lines of G-code; empty: none
+  int block_numbers = 0;       // step; 0: none
+  Point zero_mm;               // of the part, at the origin of program.nc
+  double rotate_deg = 0.0;
+  bool swap_axes = false;
+  bool inches = false;  // in program.nc
   std::vector<FigureFormat> figures{FigureFormat::Png};
   FigureRange figure_range = FigureRange::Shared;
   std::string out;
@@ -97,9 +105,14 @@ struct JobOptionRecord {
   bool takes_words = false;
   /// A job file may give the parts, which semicolons separate, as a list of strings.
   bool takes_list = false;
+  /// What an option means on the command line that stands there without a value; empty: it needs one.
+  std::string alone = {};
 };
 
 const std::vector<JobOptionRecord>& job_option_table();
+
+/// The part of the table about how program.nc is written.
+std::vector<JobOptionRecord> program_option_records();
 
 /// Sets one option, named `source` ("--max-feed" or "job.toml: max_feed_mm_per_min") in errors.
 void set_job_option(JobOptions& options, const JobOptionRecord& record, const std::string& text,

@@ -8,6 +8,7 @@
 #include "core/base/time_limit.h"
 #include "paths/feed/exported_motion.h"
 #include "runs/job/option_flags.h"
+#include "runs/job/program_style.h"
 #include "runs/machine/machine_file.h"
 #include "runs/plan/leave_out.h"
 #include "runs/programs/program_formats.h"
@@ -30,7 +31,13 @@ void check_exports(const JobOptions& options) {
         "prints one)",
         word));
   }
-  check_exported_motion(read_machine_file(options.machine).machine);
+  if (!program_frame(options).is_of_part()) {
+    throw InputError(fmt::format(
+        "`export` = {}: with `zero`, `rotate` or `swap axes`: places in such a program are those of the part; required "
+        "one of the two",
+        word));
+  }
+  check_exported_motion(machine_for_program(read_machine_file(options.machine).machine, options));
 }
 
 namespace {
@@ -51,7 +58,7 @@ PlannedJob plan_loaded(Job job, JobPath path, double used, const Progress& progr
   planned.program = make_machine_program(planned.laid, planned.dwell, options.machine, progress);
   if (!export_that_needs_motion(planned.job.options.exports).empty() && planned.dwell.motion) {
     planned.program.motion =
-        exported_motion(planned.program.table.path, planned.laid.motion, planned.job.machine->machine,
+        exported_motion(planned.program.table.path, planned.laid.motion, *options.machine.machine,
                         options.machine.feed_limits().max_feed, planned.dwell.motion->seconds, progress);
   }
   return planned;

@@ -43,11 +43,11 @@ std::vector<MachineField> make_fields() {
                                     [](Machine& m) -> double& { return m.junction_deviation; }, 1.0},
                                    {"corner", "delay_s", "at rest at each exact stop", 0.0, false,
                                     [](Machine& m) -> double& { return m.corner_delay; }, 1.0}};
-  add_axis(fields, "x", "[mm in the part's frame]",
+  add_axis(fields, "x", "[mm in the program's coordinates]",
            {[](Machine& m) -> double& { return m.x.lowest; }, [](Machine& m) -> double& { return m.x.highest; },
             [](Machine& m) -> double& { return m.x.max_speed; },
             [](Machine& m) -> double& { return m.x.max_acceleration; }});
-  add_axis(fields, "y", "[mm in the part's frame]",
+  add_axis(fields, "y", "[mm in the program's coordinates]",
            {[](Machine& m) -> double& { return m.y.lowest; }, [](Machine& m) -> double& { return m.y.highest; },
             [](Machine& m) -> double& { return m.y.max_speed; },
             [](Machine& m) -> double& { return m.y.max_acceleration; }});

@@ -12,6 +12,7 @@
 #include "core/base/units.h"
 #include "core/base/utf8_text.h"
 #include "paths/feed/plan_program.h"
+#include "runs/programs/frame_text.h"
 #include "runs/programs/number_text.h"
 
 namespace dwell {
@@ -71,6 +72,7 @@ std::string feed_table_text(const FeedTable& table, const Progress& progress) {
   fmt::format_to(out, "# rows: {}\n", n);
   fmt::format_to(out, "# total_dwell_s: {:.12g}\n", total(table.dwell_s));
   fmt::format_to(out, "# units: {}\n", kFeedTableUnits);
+  if (!table.frame.is_of_part()) fmt::format_to(out, "# machine_frame: {}\n", frame_text(table.frame));
   for (const auto& [name, hash] : table.inputs) {
     fmt::format_to(out, "# input: {} sha256={}\n", one_line(name), one_line(hash));
   }
@@ -90,7 +92,9 @@ std::string feed_table_text(const FeedTable& table, const Progress& progress) {
 }
 
 Program program_of(const FeedTable& table) {
-  return program_of(table.path, table.dwell_s, table.motion, units::mm_per_s(table.max_feed_mm_per_min));
+  Program program = program_of(table.path, table.dwell_s, table.motion, units::mm_per_s(table.max_feed_mm_per_min));
+  program.frame = table.frame;
+  return program;
 }
 
 }  // namespace dwell

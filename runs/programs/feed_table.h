@@ -23,6 +23,7 @@ struct FeedTable {
   std::vector<double> feed_mm_per_min;  // Moving: stroke length / dwell, 0 for halts; Stop: maximum feed
   Motion motion = Motion::Moving;
   double max_feed_mm_per_min = 0.0;
+  ProgramFrame frame;                                        // of program.nc; the table is in the part's coordinates
   std::string version;                                       // of the program that wrote the table
   std::vector<std::pair<std::string, std::string>> inputs;   // ("map mirror.csv", SHA-256 in hexadecimal)
   std::vector<std::pair<std::string, std::string>> options;  // that the removal hangs on: ("tif_centre", "centroid")

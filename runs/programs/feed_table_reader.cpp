@@ -21,6 +21,7 @@
 #include "core/map/unit_mention.h"
 #include "paths/feed/plan_program.h"
 #include "runs/programs/feed_table.h"
+#include "runs/programs/frame_text.h"
 #include "runs/programs/recorded_option.h"
 
 namespace dwell {
@@ -92,6 +93,7 @@ class FeedTableReader {
     const std::string_view key = trim(line.substr(0, colon));
     const std::string_view value = trim(line.substr(colon + 1));
     if (key == "input") return read_input(value);
+    if (key == "machine_frame") return read_frame(value);
     if (is_record(line)) return read_option(value);
     if (key == "path" || is_quantity(key)) return read_quantity(key, value);
     check_remark(line);
@@ -167,6 +169,16 @@ class FeedTableReader {
       fail(error.what());
     }
     has_motion_ = true;
+  }
+
+  /// Of the machine that the table's program.nc is for; the table itself is in the part's coordinates.
+  void read_frame(std::string_view value) {
+    if (!table_.frame.is_of_part()) fail(fmt::format("machine_frame = {} is the second; accepted: one", value));
+    try {
+      table_.frame = parse_frame(value);
+    } catch (const InputError& error) {
+      fail(error.what());
+    }
   }
 
   void read_input(std::string_view value) {

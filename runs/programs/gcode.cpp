@@ -10,27 +10,26 @@
 #include "core/base/errors.h"
 #include "core/base/poll.h"
 #include "core/base/units.h"
-#include "core/base/utf8_text.h"
+#include "runs/programs/frame_text.h"
 #include "runs/programs/number_text.h"
+#include "runs/programs/program_comments.h"
 
 namespace dwell {
 namespace {
 
-std::string comment(std::string text) {
-  for (char& c : text) {
-    if (c == '(') c = '[';
-    if (c == ')') c = ']';
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+/// A line that controllers take. What users give is refused before (gcode_insert.h).
+const std::string& checked_line(const std::string& line) {
+  if (line.size() > kLongestLine || !is_printable_ascii(line)) {
+    throw std::logic_error(
+        fmt::format("program line \"{}\" is longer than {} characters or not ASCII", line, kLongestLine));
   }
-  return "(" + with_escaped_bytes(text) + ")\n";
+  return line;
 }
 
-// A point as the program names it, and where the machine then goes.
-struct Position {
+// A place as the program names it, and where the machine then goes [mm], in the program's frame.
+struct NamedPlace {
   std::string x, y;
   Point point;
-
-  explicit Position(Point p) : x(coordinate_text(p.x)), y(coordinate_text(p.y)), point{number_of(x), number_of(y)} {}
 };
 
 class GcodeWriter {
@@ -43,11 +42,12 @@ class GcodeWriter {
     if (!(options.lift_height_mm >= 1e-6) || !std::isfinite(options.lift_height_mm)) {
       throw InputError(fmt::format("lift height = {} mm; required finite and >= 1e-6", options.lift_height_mm));
     }
-    lift_height_ = coordinate_text(options.lift_height_mm);
+    lift_height_ = length_text(options.lift_height_mm);
   }
 
   std::string write(const Program& program, const Progress& progress) {
-    write_header();
+    frame_ = program.frame;
+    write_beginning();
     Poll poll(progress);
     for (std::size_t i = 0; i < program.steps.size(); ++i) {
       poll.step();
@@ -67,41 +67,89 @@ class GcodeWriter {
         reposition(step.finish);
       }
     }
-    lift();
-    add("M2\n");
+    write_end();
     return fmt::to_string(text_);
   }
 
  private:
+  /// A line of the program.
   template <typename... Args>
-  void add(fmt::format_string<Args...> format, Args&&... args) {
+  void block(fmt::format_string<Args...> format, Args&&... args) {
+    if (options_.style.block_numbers > 0) {
+      fmt::format_to(std::back_inserter(text_), "N{} ", block_number_);
+      block_number_ += options_.style.block_numbers;
+      if (block_number_ > kLastBlockNumber) block_number_ = options_.style.block_numbers;
+    }
     fmt::format_to(std::back_inserter(text_), format, std::forward<Args>(args)...);
+    text_.push_back('\n');
   }
 
-  void write_header() {
-    for (const std::string& line : options_.header) add("{}", comment(line));
-    const char* f = options_.dialect == GcodeDialect::G94            ? "mm/min"
-                    : options_.dialect == GcodeDialect::G93PerMinute ? "1/(minutes of the move)"
-                                                                     : "seconds of the move";
-    add("{}", comment(fmt::format("units: X Y Z mm, F {}, P seconds", f)));
-    add("(dwell: gcode={}, g4=seconds, tool at work when Z=0, lifted when Z>0)\n", to_string(options_.dialect));
-    add("G21\nG90\nG17\n{}\n", options_.dialect == GcodeDialect::G94 ? "G94" : "G93");
+  void comment(const std::string& text) { line("(" + comment_text(text) + ")"); }
+
+  void line(const std::string& text) {
+    const std::string& checked = checked_line(text);
+    text_.append(checked.data(), checked.data() + checked.size());
+    text_.push_back('\n');
+  }
+
+  void write_beginning() {
+    const GcodeStyle& style = options_.style;
+    for (const std::string& text : options_.header) comment(text);
+    line(fmt::format("(dwell: gcode={}, g4=seconds)", to_string(options_.dialect)));
+    line("(dwell: tool at work when Z=0, lifted when Z>0)");
+    if (!frame_.is_of_part()) line(fmt::format("(dwell: {})", frame_text(frame_)));
+    for (const std::string& text : style.before) line(text);
+    const std::string length = style.inches ? "inch" : "mm";
+    const std::string f = options_.dialect == GcodeDialect::G94            ? length + "/min"
+                          : options_.dialect == GcodeDialect::G93PerMinute ? "1/[minutes of the move]"
+                                                                           : "seconds of the move";
+    if (style.inches) block("G20");  // first, for a remark about inches is refused in millimetres
+    comment(fmt::format("units: X Y Z {}, F {}, P seconds", length, f));
+    if (!style.inches) block("G21");
+    block("G90");
+    block("G17");
+    block("{}", options_.dialect == GcodeDialect::G94 ? "G94" : "G93");
+    if (style.path_mode) block("{}", path_mode_words(*style.path_mode));
+  }
+
+  std::string path_mode_words(const PathMode& mode) const {
+    if (mode.kind == PathMode::Kind::ExactPath) return "G61";
+    if (mode.kind == PathMode::Kind::ExactStop) return "G61.1";
+    return mode.tolerance_mm ? "G64 P" + length_text(*mode.tolerance_mm) : "G64";
+  }
+
+  /// A user's lines find G94 after the work, whatever the dialect.
+  void write_end() {
+    lift();
+    if (!options_.style.after.empty() && options_.dialect != GcodeDialect::G94) block("G94");
+    for (const std::string& text : options_.style.after) line(text);
+    block("M2");
+  }
+
+  std::string length_text(double mm) const { return options_.style.inches ? inches_text(mm) : coordinate_text(mm); }
+  double unit() const { return options_.style.inches ? units::kMmPerInch : 1.0; }
+
+  NamedPlace named(Point of_part) const {
+    const Point place = frame_.to_program(of_part);
+    NamedPlace result{length_text(place.x), length_text(place.y), {}};
+    result.point = {unit() * number_of(result.x), unit() * number_of(result.y)};
+    return result;
   }
 
   void lift() {
-    if (!lifted_) add("G0 Z{}\n", lift_height_);
+    if (!lifted_) block("G0 Z{}", lift_height_);
     lifted_ = true;
   }
 
   void reposition(Point to) {
     lift();
-    at_ = Position(to);
-    add("G0 X{} Y{}\n", at_.x, at_.y);
+    at_ = named(to);
+    block("G0 X{} Y{}", at_.x, at_.y);
   }
 
   void come_down() {
     if (!lifted_) return;
-    add("G1 Z0 F{}\n", feed_word(number_of(lift_height_), 0.0));
+    block("G1 Z0 F{}", feed_word(unit() * number_of(lift_height_), 0.0));
     lifted_ = false;
   }
 
@@ -116,7 +164,7 @@ class GcodeWriter {
       case GcodeDialect::G94:
         break;
     }
-    return digits_not_above(std::min(units::mm_per_min(length / slowest), options_.max_feed_mm_per_min));
+    return digits_not_above(std::min(units::mm_per_min(length / slowest), options_.max_feed_mm_per_min) / unit());
   }
 
   void write_removing(const ProgramStep& step, std::size_t number) {
@@ -124,22 +172,26 @@ class GcodeWriter {
       throw std::logic_error(fmt::format("program step {} takes {} s for {} mm; that is above maximum feed {} mm/min",
                                          number, step.seconds, step.length(), options_.max_feed_mm_per_min));
     }
-    const Position to(step.finish);
+    const NamedPlace to = named(step.finish);
     const double length = distance(at_.point, to.point);
     if (length > 0.0) {
-      add("G1 X{} Y{} F{}\n", to.x, to.y, feed_word(length, step.seconds));
+      block("G1 X{} Y{} F{}", to.x, to.y, feed_word(length, step.seconds));
     } else {
-      add("G4 P{}\n", digits_nearest(step.seconds));
+      block("G4 P{}", digits_nearest(step.seconds));
     }
     at_ = to;
   }
+
+  static constexpr int kLastBlockNumber = 99999;  // of RS274/NGC; numbers need not be different
 
   const GcodeOptions& options_;
   double max_feed_;
   std::string lift_height_;
   fmt::memory_buffer text_;
+  ProgramFrame frame_;
+  int block_number_ = options_.style.block_numbers;
   bool lifted_ = false;
-  Position at_{Point{}};
+  NamedPlace at_;
 };
 
 }  // namespace

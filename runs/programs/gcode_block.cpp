@@ -96,9 +96,9 @@ class BlockCollector {
         return once(block_.incremental, number == 91, word);
       case GcodeEffect::FeedMode:
         return once(block_.feed_mode, number, word);
+      case GcodeEffect::Inches:
       case GcodeEffect::Millimetres:
-        block_.millimetres = true;
-        return;
+        return take_unit(code->effect == GcodeEffect::Inches, word);
       case GcodeEffect::WorkOffset:
         return once(block_.work_offset, code->tenths, word);
       case GcodeEffect::PathMode:
@@ -106,6 +106,12 @@ class BlockCollector {
       default:
         take_machine_code(*code, number, word);
     }
+  }
+
+  // G21 twice, or beside G71, says one thing.
+  void take_unit(bool inches, const GcodeWord& word) {
+    if (block_.inches && *block_.inches != inches) refuse(word, "is a second unit on this line; accepted: one");
+    block_.inches = inches;
   }
 
   // Codes that switch something of the machine.
@@ -148,12 +154,12 @@ class BlockCollector {
     if (block_.halt) check_halt();
   }
 
-  // P and Q of G64 in millimetres, the only unit of length that is accepted.
+  // P and Q of G64.
   void take_tolerances() {
     if (!block_.path_mode || block_.halt) return;
     const auto tolerance = [this](const std::optional<GcodeWord>& word) -> std::optional<double> {
       if (!word) return std::nullopt;
-      if (!(word->value >= 0.0)) refuse(*word, "a tolerance of G64; required >= 0 mm");
+      if (!(word->value >= 0.0)) refuse(*word, "a tolerance of G64; required >= 0");
       return word->value;
     };
     block_.path_mode->tolerance_mm = tolerance(block_.p);

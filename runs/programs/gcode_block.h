@@ -11,9 +11,9 @@ namespace dwell {
 
 /// What the words of one line of G-code ask for, each word known and accepted.
 struct GcodeBlock {
-  std::optional<double> x, y, z, f, s;
-  std::optional<GcodeWord> p;  // as written: a halt's unit may hang on its decimal point
-  std::optional<int> motion;   // 0 or 1
+  std::optional<double> x, y, z, f, s;  // in the unit that the program is in
+  std::optional<GcodeWord> p;           // as written: a halt's unit may hang on its decimal point
+  std::optional<int> motion;            // 0 or 1
   std::optional<bool> incremental;
   std::optional<int> feed_mode;    // 93 or 94
   std::optional<int> work_offset;  // in tenths: 540, 591
@@ -21,8 +21,9 @@ struct GcodeBlock {
   std::optional<int> spindle;  // 3, 4 or 5
   bool mist = false, flood = false, coolants_off = false;
   bool numbered = false;  // O, the program's number
-  bool change_tool = false, halt = false, pause = false, end = false, millimetres = false;
-  std::optional<PathMode> path_mode;
+  bool change_tool = false, halt = false, pause = false, end = false;
+  std::optional<bool> inches;         // or millimetres
+  std::optional<PathMode> path_mode;  // its lengths likewise
 
   bool has_axes() const { return x || y || z; }
 };

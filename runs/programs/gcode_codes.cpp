@@ -12,7 +12,8 @@ namespace {
 
 using Effect = GcodeEffect;
 
-constexpr std::string_view kInches = "inches are not accepted; required millimetres (G21)";
+constexpr std::string_view kInches =
+    "inches, whose feeds are in inches on some controllers only, are not accepted; required G20 or G21";
 constexpr std::string_view kPlane = "another plane than XY is not accepted; required G17";
 constexpr std::string_view kArc = "an arc is not honoured; required straight moves (G1)";
 constexpr std::string_view kSpline = "a spline, or look-ahead that rounds the path, is not honoured";
@@ -52,7 +53,7 @@ constexpr GcodeCode kCodes[] = {
     {'G', 181, Effect::Refused, kPlane},
     {'G', 190, Effect::Refused, kPlane},
     {'G', 191, Effect::Refused, kPlane},
-    {'G', 200, Effect::Refused, kInches},
+    {'G', 200, Effect::Inches, "inches, feeds too"},
     {'G', 210, Effect::Millimetres, "millimetres"},
     {'G', 270, Effect::Refused, kHome},
     {'G', 280, Effect::Refused, kHome},

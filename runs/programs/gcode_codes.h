@@ -14,6 +14,7 @@ enum class GcodeEffect {
   Halt,         // G4
   Distance,     // G90, G91
   FeedMode,     // G93, G94
+  Inches,       // G20: coordinates and feeds
   Millimetres,  // G21 and its like
   WorkOffset,   // G54 and its like: one of them a program
   PathMode,     // how the ends of moves are run, G64 with P and Q

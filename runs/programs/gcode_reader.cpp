@@ -7,29 +7,22 @@
 #include <utility>
 
 #include "core/base/errors.h"
-#include "core/base/number_text.h"
 #include "core/base/poll.h"
 #include "core/base/text_lines.h"
 #include "core/base/units.h"
-#include "core/base/utf8_text.h"
 #include "core/base/value_range.h"
-#include "core/formats/path_remark.h"
-#include "core/map/unit_mention.h"
+#include "runs/programs/frame_text.h"
 #include "runs/programs/gcode_block.h"
+#include "runs/programs/gcode_remarks.h"
 #include "runs/programs/gcode_tool.h"
 #include "runs/programs/gcode_words.h"
-#include "runs/programs/recorded_option.h"
 
 namespace dwell {
 namespace {
 
-// What our own programs say in "(dwell: ...)" of the height of the tool, which is as any program is read.
-constexpr std::string_view kAtWorkAtZero = "tool at work when Z=0";
-constexpr std::string_view kLiftedAbove = "lifted when Z>0";
-
 class GcodeInterpreter {
  public:
-  GcodeInterpreter(std::string file, const GcodeReading& reading) : file_(std::move(file)), reading_(reading) {
+  GcodeInterpreter(std::string file, const GcodeReading& reading) : file_(std::move(file)), remarks_(reading) {
     program_.file = file_;
   }
 
@@ -48,6 +41,7 @@ class GcodeInterpreter {
                                    line_number_, framed_ ? ", or the % after it" : ""));
     }
     if (program_.steps.empty()) throw InputError(fmt::format("{}: holds no move and no halt", file_));
+    program_.frame = remarks_.frame();
     add_notes();
     return std::move(program_);
   }
@@ -61,14 +55,16 @@ class GcodeInterpreter {
     if (is_tape_mark(line)) return take_tape_mark();
     const GcodePlace where{file_, line_number_};
     split_gcode_line(line, where, parts_);
-    for (const std::string_view comment : parts_.comments) read_comment(comment);
+    for (const std::string_view comment : parts_.comments) {
+      remarks_.take(comment, where, {inches_, x_ || y_ || z_});
+    }
     if (parts_.words.empty()) return false;
     const GcodeBlock block = collect_gcode_block(parts_, where);
     if (block.numbered && begun_)
       fail("O: another program begins before the end of this one; required M2 or M30 first");
     begun_ = true;
     tool_.take(block);
-    if (block.millimetres) says_millimetres_ = true;
+    if (block.inches) set_unit(*block.inches);
     if (block.path_mode) set_path_mode(*block.path_mode);
     if (block.feed_mode) set_feed_mode(*block.feed_mode);
     if (block.f) set_feed(*block.f);
@@ -89,92 +85,31 @@ class GcodeInterpreter {
     return false;
   }
 
-  // "(dwell: gcode=g93-seconds, g4=seconds, ...)" states what the standard leaves to the controller.
-  void read_comment(std::string_view comment) {
-    constexpr std::string_view kPrefix = "dwell:";
-    while (comment.starts_with(' ')) comment.remove_prefix(1);
-    if (!comment.starts_with(kPrefix)) return check_remark(comment);
-    comment.remove_prefix(kPrefix.size());
-    while (!comment.empty()) {
-      const std::size_t comma = comment.find(',');
-      std::string_view entry = comment.substr(0, comma);
-      comment.remove_prefix(comma == std::string_view::npos ? comment.size() : comma + 1);
-      while (entry.starts_with(' ')) entry.remove_prefix(1);
-      while (!entry.empty() && (entry.back() == ' ' || entry.back() == '\r')) entry.remove_suffix(1);
-      read_entry(entry);
-    }
+  // What F meant in the other unit is said anew. Places that were read keep their place.
+  void set_unit(bool inches) {
+    if (inches != inches_) feed_.reset();
+    inches_ = inches;
+    says_unit_ = true;
   }
 
-  /// A comment that names another unit than the program is read in, or other axes, is not skipped.
-  void check_remark(std::string_view comment) const {
-    if (is_record(comment)) return;
-    if (const auto unit = find_other_unit(comment, reading_.halts == HaltUnit::Milliseconds)) {
-      fail(fmt::format(
-          "\"{}\" in the comment \"{}\" looks like another unit; accepted: X, Y, Z in mm and F in mm/min, or "
-          "the comment without a unit",
-          with_escaped_bytes(*unit), with_escaped_bytes(trim(comment))));
-    }
-    if (const auto other = find_other_axes(comment)) {
-      fail(
-          fmt::format("the comment \"{}\" looks like {}; accepted: X, Y as those of the map in mm, or the comment left "
-                      "out",
-                      with_escaped_bytes(trim(comment)), *other));
-    }
-  }
-
-  void read_entry(std::string_view entry) {
-    if (entry.starts_with("gcode=")) {
-      read_dialect(std::string(entry.substr(6)));
-    } else if (entry.starts_with("g4=")) {
-      read_halt_unit(entry);
-    } else if (entry.find_first_of("=<>") != std::string_view::npos && entry != kAtWorkAtZero &&
-               entry != kLiftedAbove) {
-      fail(fmt::format("\"{}\" in the comment \"(dwell: ...)\"; accepted: gcode=..., g4=..., {}, {}", entry,
-                       kAtWorkAtZero, kLiftedAbove));
-    }
-  }
-
-  void read_halt_unit(std::string_view entry) {
-    if (entry != "g4=seconds" && entry != "g4=milliseconds") {
-      fail(fmt::format("{}; accepted: g4=seconds, g4=milliseconds", entry));
-    }
-    const HaltUnit stated = entry == "g4=seconds" ? HaltUnit::Seconds : HaltUnit::Milliseconds;
-    if (reading_.halts && *reading_.halts != stated) {
-      fail(fmt::format("the program says {}, but P of G4 is to be read as {}; required the same", entry,
-                       to_string(*reading_.halts)));
-    }
-    reading_.halts = stated;
-  }
-
-  void read_dialect(const std::string& text) {
-    GcodeDialect stated{};
-    try {
-      stated = parse_gcode_dialect(text);
-    } catch (const InputError& error) {
-      fail(error.what());
-    }
-    if (reading_.dialect && *reading_.dialect != stated) {
-      fail(fmt::format("the program says gcode={}, but it is to be read as {}; required the same", text,
-                       to_string(*reading_.dialect)));
-    }
-    reading_.dialect = stated;
-  }
+  double millimetres(double length) const { return inches_ ? units::kMmPerInch * length : length; }
 
   void set_feed_mode(int mode) {
     const bool inverse = mode == 93;
-    if (inverse && !reading_.dialect) {
+    const std::optional<GcodeDialect>& dialect = remarks_.reading().dialect;
+    if (inverse && !dialect) {
       fail(
           "G93: controllers disagree on whether F is then seconds or 1/minutes; required the dialect g93-per-minute or "
           "g93-seconds, given or in a comment \"(dwell: gcode=...)\"");
     }
-    if (inverse && reading_.dialect == GcodeDialect::G94) fail("G93 in a program read as g94; accepted: G94");
+    if (inverse && dialect == GcodeDialect::G94) fail("G93 in a program read as g94; accepted: G94");
     if (inverse != inverse_time_) feed_.reset();
     inverse_time_ = inverse;
   }
 
   void set_feed(double f) {
     if (!(f > 0.0)) fail(fmt::format("F = {}; required > 0", f));
-    feed_ = f;
+    feed_ = inverse_time_ ? f : millimetres(f);
   }
 
   // The part's coordinates are those of one offset of the origin; of how far apart two are the program says nothing.
@@ -194,7 +129,10 @@ class GcodeInterpreter {
   }
 
   // Two changes before the same step: the second holds.
-  void set_path_mode(const PathMode& mode) {
+  void set_path_mode(PathMode mode) {
+    for (std::optional<double>* length : {&mode.tolerance_mm, &mode.merging_mm}) {
+      if (*length) *length = millimetres(**length);
+    }
     std::vector<PathModeChange>& modes = program_.path_modes;
     const std::size_t first = program_.steps.size();
     if (!modes.empty() && modes.back().first_step == first) modes.pop_back();
@@ -214,15 +152,16 @@ class GcodeInterpreter {
     constexpr double kPerSecond = 1000.0;
     if (!(p.value >= 0.0)) fail("G4 needs P, the time of the halt, >= 0, as G4 P0.5");
     const bool has_point = p.text.find('.') != std::string_view::npos;
+    const std::optional<HaltUnit>& halts = remarks_.reading().halts;
     if (p.value == 0.0) return 0.0;
-    if (!reading_.halts && !has_point) {
+    if (!halts && !has_point) {
       fail(
           fmt::format("G4 {}: a whole number is seconds on some controllers (RS274/NGC, LinuxCNC) and milliseconds "
                       "on others (Fanuc, Haas); required --g4 s or --g4 ms, or a decimal point, which means "
                       "seconds",
                       p.text));
     }
-    if (reading_.halts == HaltUnit::Milliseconds) {
+    if (halts == HaltUnit::Milliseconds) {
       if (has_point) {
         fail(
             fmt::format("G4 {}: milliseconds with a decimal point, which such controllers read as seconds or refuse; "
@@ -231,7 +170,7 @@ class GcodeInterpreter {
       }
       return p.value / kPerSecond;
     }
-    if (!reading_.halts) reads_halts_as_seconds_ = true;
+    if (!halts) reads_halts_as_seconds_ = true;
     return p.value;
   }
 
@@ -246,7 +185,9 @@ class GcodeInterpreter {
     if (seconds > 0.0) add_step({at, at, seconds, at_work(*z_)});
   }
 
-  void add_step(const ProgramStep& step) {
+  void add_step(ProgramStep step) {
+    step.start = remarks_.frame().to_part(step.start);
+    step.finish = remarks_.frame().to_part(step.finish);
     if (step.seconds > 0.0) program_.rapid_length += std::exchange(rapid_length_, 0.0);
     if (step.removes) {
       if (!at_work_) at_work_ = tool_;
@@ -265,17 +206,19 @@ class GcodeInterpreter {
 
   std::optional<double> target(std::optional<double> word, std::optional<double> now, char axis) const {
     if (!word) return now;
-    if (!incremental_) return word;
-    if (!now)
+    const double length = millimetres(*word);
+    if (!incremental_ && std::isfinite(length)) return length;
+    if (incremental_ && !now)
       fail(fmt::format("{}{} after G91 from an unknown position; required an absolute (G90) {} first", axis, *word,
                        axis));
-    const double sum = *now + *word;
+    const double sum = now.value_or(0.0) + length;
     if (!std::isfinite(sum)) fail(fmt::format("{}{} leads beyond any position; required a finite one", axis, *word));
     return sum;
   }
 
   void move(const GcodeBlock& block) {
     if (!motion_) fail("X, Y or Z before any G0 or G1; required one of them");
+    remarks_.check_unit(inches_);
     const std::optional<double> x = target(block.x, x_, 'X');
     const std::optional<double> y = target(block.y, y_, 'Y');
     const std::optional<double> z = target(block.z, z_, 'Z');
@@ -333,12 +276,17 @@ class GcodeInterpreter {
 
   double seconds_of(double length) const {
     if (!inverse_time_) return length / *feed_ * units::kSecondsPerMinute;
-    return reading_.dialect == GcodeDialect::G93Seconds ? *feed_ : units::kSecondsPerMinute / *feed_;
+    return remarks_.reading().dialect == GcodeDialect::G93Seconds ? *feed_ : units::kSecondsPerMinute / *feed_;
   }
 
   // What the program left to its controller and how it was read.
   void add_notes() {
-    if (!says_millimetres_) program_.notes.emplace_back("the program names no unit (G21): read as millimetres");
+    if (!says_unit_) program_.notes.emplace_back("the program names no unit (G21): read as millimetres");
+    if (!program_.frame.is_of_part()) {
+      program_.notes.push_back(fmt::format(
+          "the program says how it lies against the part ({}): its places are taken back to those of the part",
+          frame_text(program_.frame)));
+    }
     if (reads_halts_as_seconds_) program_.notes.emplace_back("P of G4, with a decimal point, read as seconds");
     if (says_work_offset_) {
       program_.notes.push_back(fmt::format(
@@ -358,12 +306,12 @@ class GcodeInterpreter {
   }
 
   std::string file_;
-  GcodeReading reading_;
+  GcodeRemarks remarks_;
   Program program_;
   std::size_t line_number_ = 0;
   GcodeLine parts_;                      // of the line
   bool begun_ = false, framed_ = false;  // by a word, by a %
-  bool says_millimetres_ = false, says_work_offset_ = false, reads_halts_as_seconds_ = false;
+  bool inches_ = false, says_unit_ = false, says_work_offset_ = false, reads_halts_as_seconds_ = false;
   GcodeTool tool_;
   std::optional<GcodeTool> at_work_;  // the tool when it was first at work
   std::optional<double> x_, y_, z_;

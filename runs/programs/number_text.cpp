@@ -9,6 +9,8 @@
 #include <cstdint>
 #include <stdexcept>
 
+#include "core/base/units.h"
+
 namespace dwell {
 namespace {
 
@@ -56,6 +58,13 @@ std::string fixed_text(double value, int decimals) {
   return fmt::format("{:.{}f}", value, decimals);
 }
 
+std::string place_text(double value, int decimals) {
+  check_finite(value);
+  std::string text = fixed_text(value, decimals);
+  if (text.front() == '-' && text.find_first_not_of("-0.") == std::string::npos) text.erase(0, 1);
+  return text;
+}
+
 }  // namespace
 
 double number_of(const std::string& text) {
@@ -68,10 +77,13 @@ double number_of(const std::string& text) {
 }
 
 std::string coordinate_text(double mm) {
-  check_finite(mm);
-  std::string text = fixed_text(mm, 6);
-  if (text == "-0.000000") text.erase(0, 1);
-  return text;
+  constexpr int kDecimals = 6;
+  return place_text(mm, kDecimals);
+}
+
+std::string inches_text(double mm) {
+  constexpr int kDecimals = 8;
+  return place_text(mm / units::kMmPerInch, kDecimals);
 }
 
 std::string seconds_text(double s) {

@@ -11,6 +11,7 @@ inline constexpr int kExportDigits = 9;  // significant digits of dwell, feed an
 
 std::string coordinate_text(double mm);      // to 1e-6 mm, nearest
 std::string seconds_text(double s);          // to 1e-9 s, nearest; >= 0
+std::string inches_text(double mm);          // in inches, to 1e-8 of them (2.5e-7 mm), nearest
 std::string digits_nearest(double value);    // to kExportDigits significant digits
 std::string digits_not_above(double value);  // the same, but what is read back is never above the value
 std::string digits_not_below(double value);  // ... never below the value

@@ -58,6 +58,7 @@ std::vector<WrittenProgram> write_gcode(const ProgramToWrite& program, const Pro
   options.lift_height_mm = writing.lift_height_mm;
   options.max_feed_mm_per_min = program.table.max_feed_mm_per_min;
   options.header = writing.header;
+  options.style = writing.gcode;
   return {{"program.nc", gcode_text(program_of(program.table), options, progress)}};
 }
 

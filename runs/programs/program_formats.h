@@ -9,6 +9,7 @@
 #include "runs/programs/feed_table.h"
 #include "runs/programs/gcode_dialect.h"
 #include "runs/programs/gcode_reading.h"
+#include "runs/programs/gcode_style.h"
 #include "runs/programs/stretches.h"
 
 namespace dwell {
@@ -18,6 +19,7 @@ struct ProgramWriting {
   GcodeDialect dialect = GcodeDialect::G94;
   double lift_height_mm = 10.0;          // Z of lifted moves
   std::vector<std::string> header = {};  // comment lines; a format whose table names its inputs itself ignores them
+  GcodeStyle gcode{};                    // of G-code alone
 };
 
 /// A plan's program: as a table of dwell and feeds, and as the motion that is scheduled.

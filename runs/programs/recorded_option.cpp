@@ -10,10 +10,11 @@ bool is_recorded_option(std::string_view key) {
 }
 
 bool is_record(std::string_view comment) {
-  constexpr std::string_view kInput = "input: ", kHash = " sha256=", kOption = "option: ", kEquals = " = ";
+  constexpr std::string_view kInput = "input: ", kHash = " sha256=", kOption = "option: ", kMore = "option+: ",
+                             kEquals = " = ";
   if (comment.starts_with(kInput)) return comment.find(kHash) != std::string_view::npos;
-  if (!comment.starts_with(kOption)) return false;
-  comment.remove_prefix(kOption.size());
+  if (!comment.starts_with(kOption) && !comment.starts_with(kMore)) return false;
+  comment.remove_prefix(comment.starts_with(kOption) ? kOption.size() : kMore.size());
   const std::size_t equals = comment.find(kEquals);
   return equals != std::string_view::npos && is_recorded_option(comment.substr(0, equals));
 }

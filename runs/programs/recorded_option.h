@@ -9,7 +9,7 @@ namespace dwell {
 bool is_recorded_option(std::string_view key);
 
 /// Whether a comment is what our own programs say of their inputs ("input: tif spot.csv sha256=...") or options
-/// ("option: map_unit = um"): the units in it are not those of the program.
+/// ("option: map_unit = um"; "option+: ..." goes on with a long one): the units in it are not those of the program.
 bool is_record(std::string_view comment);
 
 }  // namespace dwell

@@ -21,7 +21,9 @@
 #include "paths/feed/execution.h"
 #include "paths/feed/machine_check.h"
 #include "runs/job/option_flags.h"
+#include "runs/job/program_style.h"
 #include "runs/plan/program_prediction.h"
+#include "runs/programs/program_comments.h"
 #include "runs/programs/program_formats.h"
 #include "runs/programs/program_reader.h"
 #include "runs/reports/exact_lines.h"
@@ -38,19 +40,17 @@ namespace {
 
 std::vector<WrittenProgram> write_program(const PlannedJob& plan, const OutputFolder& folder,
                                           const Progress& progress) {
+  const JobOptions& options = plan.job.options;
   ProgramToWrite to_write{plan.program.table, plan.program.motion};
   FeedTable& table = to_write.table;
   table.version = version();
-  std::vector<std::string> header = {fmt::format("dwell {}", version())};
-  for (const InputFile& input : plan.job.inputs) {
-    table.inputs.emplace_back(input.role + " " + input.file, input.sha256);
-    header.push_back(fmt::format("input: {} {} sha256={}", input.role, input.file, input.sha256));
-  }
-  const JobOptions& options = plan.job.options;
+  table.frame = program_frame(options);
+  for (const InputFile& input : plan.job.inputs) table.inputs.emplace_back(input.role + " " + input.file, input.sha256);
   table.options = options_of_record(options);
-  for (const auto& [key, value] : table.options) header.push_back(fmt::format("option: {} = {}", key, value));
-  std::vector<WrittenProgram> programs = written_programs(to_write, {options.gcode, options.lift_height_mm, header},
-                                                          options.exports, plan.part().threads, progress);
+  const ProgramWriting writing{options.gcode, options.lift_height_mm, program_comments(table),
+                               gcode_style(options, plan.job.machine, plan.job.header, plan.job.footer)};
+  std::vector<WrittenProgram> programs =
+      written_programs(to_write, writing, options.exports, plan.part().threads, progress);
   for (const WrittenProgram& program : programs) folder.write(program.file, program.bytes);
   return programs;
 }
@@ -72,7 +72,8 @@ Program read_back(const OutputFolder& folder, const std::string& name, const Pro
 
 /// A program as the job's machine runs it; as it is without a machine.
 Program run_of(const PlannedJob& plan, const Program& program, const Progress& progress) {
-  return plan.job.machine ? execute(program, plan.job.machine->machine, progress).motion : program;
+  if (!plan.job.machine) return program;
+  return execute(program, machine_for_program(plan.job.machine->machine, plan.job.options), progress).motion;
 }
 
 bool differs(double a, double b, double tolerance) {

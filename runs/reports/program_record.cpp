@@ -11,30 +11,23 @@
 #include "core/base/number_text.h"
 #include "core/base/spec_text.h"
 #include "core/base/text_lines.h"
-#include "core/base/utf8_text.h"
 #include "core/base/whole_file.h"
 #include "core/tif/models/removal_models.h"
+#include "runs/programs/program_comments.h"
 #include "runs/programs/recorded_option.h"
 
 namespace dwell {
 namespace {
 
-/// The text as a comment of G-code holds it (runs/programs/gcode.cpp).
-std::string in_comment(std::string text) {
-  constexpr unsigned char kFirstPrinted = 0x20, kDelete = 0x7f;
-  for (char& c : text) {
-    if (c == '(') c = '[';
-    if (c == ')') c = ']';
-    if (static_cast<unsigned char>(c) < kFirstPrinted || static_cast<unsigned char>(c) == kDelete) c = '?';
-  }
-  return with_escaped_bytes(text);
-}
-
-/// The text of a line that holds a comment and nothing else; nothing for any other line.
+/// The text of a line that holds a comment and nothing else; nothing for any other line. A blank at its end may be one
+/// within an option that goes on in the next line.
 std::optional<std::string_view> comment_of(std::string_view line) {
+  const auto begun = [](std::string_view text) {
+    return text.substr(std::min(text.find_first_not_of(" \t"), text.size()));
+  };
   line = trim(line);
-  if (line.starts_with('#')) return trim(line.substr(1));
-  if (line.starts_with('(') && line.ends_with(')')) return trim(line.substr(1, line.size() - 2));
+  if (line.starts_with('#')) return begun(line.substr(1));
+  if (line.starts_with('(') && line.ends_with(')')) return begun(line.substr(1, line.size() - 2));
   return std::nullopt;
 }
 
@@ -49,15 +42,33 @@ InputFile input_of(std::string_view text, const std::string& program) {
 }
 
 void take_comment(std::string_view comment, const std::string& program, ProgramRecord& record) {
-  constexpr std::string_view kInput = "input: ", kOption = "option: ", kEquals = " = ";
+  constexpr std::string_view kInput = "input: ", kOption = "option: ", kMore = "option+: ", kEquals = " = ",
+                             kRecord = "record: ";
   if (comment.starts_with(kInput)) {
-    record.inputs.push_back(input_of(comment.substr(kInput.size()), program));
-  } else if (comment.starts_with(kOption)) {
-    comment.remove_prefix(kOption.size());
+    record.inputs.push_back(input_of(trim(comment.substr(kInput.size())), program));
+  } else if (comment.starts_with(kRecord)) {
+    record.stated_hash = trim(comment.substr(kRecord.size()));
+  } else if (comment.starts_with(kOption) || comment.starts_with(kMore)) {
+    const bool more = comment.starts_with(kMore);
+    comment.remove_prefix(more ? kMore.size() : kOption.size());
     const std::size_t equals = comment.find(kEquals);
     if (equals == std::string_view::npos) return;
-    record.options[std::string(comment.substr(0, equals))] = comment.substr(equals + kEquals.size());
+    std::string& value = record.options[std::string(comment.substr(0, equals))];
+    value = (more ? value : "") + std::string(comment.substr(equals + kEquals.size()));
   }
+}
+
+/// Says so where the header's lines are not those that were written; older programs have no hash of them.
+std::optional<std::string> changed_header(const ProgramRecord& record) {
+  if (record.stated_hash.empty()) return std::nullopt;
+  std::vector<std::pair<std::string, std::string>> inputs;
+  for (const InputFile& input : record.inputs) inputs.emplace_back(input.role, input.sha256);
+  const std::string now = record_hash(inputs, record.options);
+  if (now == record.stated_hash) return std::nullopt;
+  return fmt::format(
+      "the comments of the program that say how it was made have changed since: their SHA-256 is {}, and was {}, so "
+      "that files or options may be others than they say",
+      short_hash(now), short_hash(record.stated_hash));
 }
 
 bool is_formula(const std::string& tif) { return is_removal_model(split_kind(tif).first); }
@@ -66,7 +77,7 @@ bool is_formula(const std::string& tif) { return is_removal_model(split_kind(tif
 std::vector<InputFile> inputs_of(const std::vector<InputFile>& inputs, bool tif) {
   std::vector<InputFile> some;
   for (const InputFile& input : inputs) {
-    if (input.role != "path" && input.role != "machine" && (input.role == "tif") == tif) some.push_back(input);
+    if (!is_of_program_alone(input.role) && (input.role == "tif") == tif) some.push_back(input);
   }
   return some;
 }
@@ -81,27 +92,31 @@ std::string with_hashes(const std::vector<InputFile>& inputs, const std::string&
 
 bool same_files(const std::vector<InputFile>& a, const std::vector<InputFile>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](const InputFile& x, const InputFile& y) { return x.sha256 == y.sha256; });
+                    [](const InputFile& x, const InputFile& y) { return is_same_hash(x.sha256, y.sha256); });
 }
 
 /// The formula of the plan, if its header states one.
 std::string formula_of(const ProgramRecord& record) {
   const auto tif = record.options.find("tif");
-  return tif == record.options.end() || !is_formula(tif->second) ? "a formula" : tif->second;
+  return tif == record.options.end() || !is_formula(tif->second) ? "a formula" : std::string(trim(tif->second));
 }
 
 /// The difference of one kind of inputs, in words; empty if there is none.
 std::string difference_of_inputs(const ProgramRecord& record, const Job& job, bool tif) {
   const std::vector<InputFile> then = inputs_of(record.inputs, tif), now = inputs_of(job.inputs, tif);
   const std::string formula = tif ? formula_of(record) : "";
-  const bool same_formula =
-      !then.empty() || !now.empty() || formula == "a formula" || !tif || formula == in_comment(job.options.tif);
+  const bool same_formula = !then.empty() || !now.empty() || formula == "a formula" || !tif ||
+                            comment_text(formula) == comment_text(job.options.tif);
   if (same_files(then, now) && same_formula) return "";
   return fmt::format("was made with the {} {}, and is simulated with {}", tif ? "removal function" : "map",
                      with_hashes(then, formula), with_hashes(now, job.options.tif));
 }
 
 }  // namespace
+
+bool is_of_program_alone(const std::string& role) {
+  return role == "path" || role == "machine" || role == "header" || role == "footer";
+}
 
 std::string short_hash(const std::string& sha256) {
   constexpr std::size_t kDigits = 12;
@@ -146,6 +161,7 @@ std::vector<std::pair<std::string, std::string>> options_of_record(const JobOpti
 std::vector<std::string> differences_from_record(const ProgramRecord& record, const std::string& program,
                                                  const Job& job, const OtherInputs& meant, bool compare_options) {
   std::vector<std::string> differences;
+  if (auto changed = changed_header(record)) differences.push_back(std::move(*changed));
   if (record.inputs.empty()) return differences;
   for (const bool tif : {false, true}) {
     const std::string difference = difference_of_inputs(record, job, tif);
@@ -161,8 +177,8 @@ std::vector<std::string> differences_from_record(const ProgramRecord& record, co
     if (!is_recorded_option(option.key)) continue;
     if (option.key == "tif") continue;
     const auto found = record.options.find(option.key);
-    const std::string then = found == record.options.end() ? "" : in_comment(found->second),
-                      now = in_comment(option.get(job.options));
+    const std::string then = found == record.options.end() ? "" : comment_text(trim(found->second)),
+                      now = comment_text(option.get(job.options));
     if (then == now) continue;
     differences.push_back(fmt::format("--{} is {}, but was {} when the program was made", option.flag,
                                       now.empty() ? "not given" : now, then.empty() ? "not given" : then));

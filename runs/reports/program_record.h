@@ -15,6 +15,7 @@ namespace dwell {
 struct ProgramRecord {
   std::vector<InputFile> inputs;
   std::map<std::string, std::string> options;  // by job-file key; empty: none are stated (before version 0.3)
+  std::string stated_hash;                     // record_hash of these as they were written; empty: not stated
 };
 
 /// Reads the header of a feed table or of G-code: the comments before all else, those that are no record skipped.
@@ -30,9 +31,14 @@ struct OtherInputs {
   bool map = false, tif = false;
 };
 
-/// Compares the header of a program with the job that it is simulated on. Returns a sentence for each difference. A map
-/// (or a map that a step of its preparation reads) or a removal function that is another is refused unless it is meant.
-/// `compare_options`: also the options. Throws InputError naming the program, both files and their SHA-256.
+/// Whether inputs of this role only made the program, so that what it removes is compared without them: its path, its
+/// machine, lines of G-code put into it.
+bool is_of_program_alone(const std::string& role);
+
+/// Compares the header of a program with the job that it is simulated on. Returns a sentence for each difference, also
+/// if the header was changed after it was written. A map (or a map that a step of its preparation reads) or a removal
+/// function that is another is refused unless it is meant. `compare_options`: also the options. Throws InputError
+/// naming the program, both files and their SHA-256.
 std::vector<std::string> differences_from_record(const ProgramRecord& record, const std::string& program,
                                                  const Job& job, const OtherInputs& meant, bool compare_options);
 

@@ -134,7 +134,7 @@ void check_recorded_inputs(const RecordedPlan& plan, const std::set<std::string>
   }
   for (const InputFile& input : plan.inputs) {
     const std::string flag = flag_of_role(input.role);
-    if (input.role == "path" || given.contains(flag)) continue;
+    if ((is_of_program_alone(input.role) && input.role != "machine") || given.contains(flag)) continue;
     const std::filesystem::path file = split_map_name(input.file).file;
     if (!std::filesystem::exists(file)) {
       throw InputError(

@@ -16,6 +16,7 @@
 #include "paths/feed/machine_check.h"
 #include "runs/base/inputs_json.h"
 #include "runs/job/job.h"
+#include "runs/job/program_style.h"
 #include "runs/plan/program_prediction.h"
 #include "runs/programs/program_reader.h"
 #include "runs/reports/anatomy_lines.h"
@@ -79,7 +80,7 @@ Simulation simulate_file(const std::filesystem::path& program, const GcodeReadin
   progress.report("read: program, map and removal function");
   s.program = read_program(program, reading, progress);
   s.inputs.push_back({"program", program.string(), sha256_of_file(program)});
-  const Job job = load_job(options, progress);
+  const Job job = load_job(without_program_style(options), progress);
   const Part& part = *job.part;
   s.plan = source.plan;
   if (!s.plan.empty()) s.max_feed = dwell_options(job).machine.feed_limits().max_feed;

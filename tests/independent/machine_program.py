@@ -9,6 +9,7 @@ import pathlib
 import re
 
 SECONDS_PER_MINUTE = 60
+MM_PER_INCH = 25.4
 CHAIN_TOLERANCE = 0.001  # of a step
 
 
@@ -45,10 +46,27 @@ def words_of(line):
     return [(letter.upper(), float(number)) for letter, number in re.findall(r"([A-Za-z])\s*([-+]?[0-9.]+)", text)]
 
 
+def part_of(text):
+    """Where a place of the program lies on the part, by "(dwell: zero=X/Y rotate=DEG swap=yes|no)"."""
+    stated = re.search(r"^\(dwell: zero=(\S+)/(\S+) rotate=(\S+) swap=(yes|no)\)$", text, re.MULTILINE)
+    if not stated:
+        return lambda place: place
+    zero, angle = (float(stated[1]), float(stated[2])), math.radians(float(stated[3]))
+
+    def place_on_part(place):
+        x, y = reversed(place) if stated[4] == "yes" else place
+        return (zero[0] + x * math.cos(angle) + y * math.sin(angle),
+                zero[1] - x * math.sin(angle) + y * math.cos(angle))
+
+    return place_on_part
+
+
 def read_gcode(file, dialect=None):
     """Reads program.nc in the dialect that it names itself, or in another to see what a wrong guess would do."""
-    text = pathlib.Path(file).read_text(encoding="utf-8")
+    text = pathlib.Path(file).read_text(encoding="ascii")
     dialect = dialect or re.search(r"\(dwell: gcode=([a-z0-9-]+), g4=seconds", text)[1]
+    unit = MM_PER_INCH if re.search(r"^(N\d+ )?G20$", text, re.MULTILINE) else 1
+    on_part = part_of(text)
     place = {"X": math.nan, "Y": math.nan, "Z": math.nan}
     feed, motion, steps, speeds = math.nan, None, [], [0.0]
     for line in text.splitlines():
@@ -57,17 +75,17 @@ def read_gcode(file, dialect=None):
         values = {letter: value for letter, value in words if letter != "G"}
         if values.get("M") in (2, 30):
             break
-        feed = values.get("F", feed)
+        feed = values.get("F", feed) * (unit if "F" in values and dialect == "g94" else 1)
         motion = next((code for code in codes if code in (0, 1)), motion)
         before = dict(place)
-        place.update((axis, values[axis]) for axis in place if axis in values)
+        place.update((axis, values[axis] * unit) for axis in place if axis in values)
         if 4 in codes:
-            spot = (place["X"], place["Y"])
+            spot = on_part((place["X"], place["Y"]))
             steps.append(Step(spot, spot, values["P"], place["Z"] == 0))
         elif motion == 1 and before != place:
             length = math.dist([before[axis] for axis in "XYZ"], [place[axis] for axis in "XYZ"])
-            step = Step((before["X"], before["Y"]), (place["X"], place["Y"]), move_seconds(dialect, length, feed),
-                        before["Z"] == 0 == place["Z"])
+            step = Step(on_part((before["X"], before["Y"])), on_part((place["X"], place["Y"])),
+                        move_seconds(dialect, length, feed), before["Z"] == 0 == place["Z"])
             steps.append(step)
             speeds.append(length / step.seconds)
     return Program(steps, max(speeds))

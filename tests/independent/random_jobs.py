@@ -18,6 +18,9 @@ DIALECTS = ("g94", "g93-per-minute", "g93-seconds")
 PIXELS_A_WIDTH = 10  # at least; what coarser pixels do to a narrow tool is another matter
 PITCHES = ((0.1, 0.3), (0.25, 0.15), (0.2, 0.2), (0.13, 0.17), (0.3, 0.2))
 TERMS = ("none", "piston,tilt", "piston,tilt,power")
+LAYOUTS = ((), ("--zero", "-12.5,3.25"), ("--rotate", 90, "--units", "inch"), ("--swap-axes", "--block-numbers"),
+           ("--rotate", -37.5, "--zero", "101,-7.125"), ("--rotate", 270, "--swap-axes", "--path-mode", "exact-path"),
+           ("--units", "inch", "--zero", "0.001,-1e-3"))  # of the program against the part
 
 
 @dataclasses.dataclass
@@ -150,6 +153,6 @@ def random_job(number, path, folder, kind=None):
     dialect = DIALECTS[number % len(DIALECTS)]
     motion = "stop" if number % 5 == 4 else "moving"
     plan_options = ["--path", random_path(dice, path, width, part, folder), "--motion", motion, "--gcode", dialect,
-                    "--max-feed", max_feed]
+                    "--max-feed", max_feed, *LAYOUTS[number % len(LAYOUTS)]]
     terms = TERMS[(number // 2) % len(TERMS)]
     return Job(part, oriented(function, flip, turn), options, plan_options, terms, dialect, max_feed)

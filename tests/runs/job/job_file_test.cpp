@@ -68,6 +68,14 @@ JobOptions unusual() {
   o.gcode = GcodeDialect::G93PerMinute;
   o.lift_height_mm = 3.0;
   o.exports = {"pvt-csv", "pmac"};
+  o.path_mode = parse_path_mode("blend:0.05");
+  o.header = "/data/start.nc";
+  o.footer = "/data/end.nc";
+  o.block_numbers = 5;
+  o.zero_mm = {12.5, -1.0 / 3.0};
+  o.rotate_deg = 37.5;
+  o.swap_axes = true;
+  o.inches = true;
   o.figures = {FigureFormat::Svg, FigureFormat::Pdf};
   o.figure_range = FigureRange::Own;
   o.out = "/tmp/plan";

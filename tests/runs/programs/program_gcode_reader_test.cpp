@@ -90,7 +90,7 @@ TEST(GcodeReader, NamesLineAndWordOfWhatItCannotAccept) {
     expect_contains(message, "part.nc, line 4: ");
     expect_contains(message, what);
   };
-  const std::string accepted = "accepted: G0 G1 G4 G9 G15 G17 G21 G40 G49 G50 G50.1 G54 ";
+  const std::string accepted = "accepted: G0 G1 G4 G9 G15 G17 G20 G21 G40 G49 G50 G50.1 G54 ";
   refused("G38.7", "word \"G38.7\" is not known; " + accepted);
   refused("G187 P1", "word \"G187\" is not known");
   refused("M62", "word \"M62\" is not known; " + accepted);
@@ -137,7 +137,7 @@ TEST(GcodeReader, RefusesByNameWhatWouldChangeTheMeaning) {
     expect_contains(message, "part.nc, line 4: \"" + what);
   };
   refused("G2 X1 Y1 I1", "G2\": an arc");
-  refused("g20", "g20\": inches are not accepted; required millimetres (G21)");
+  refused("g700", "g700\": inches, whose feeds are in inches on some controllers only");
   refused("G70", "G70\": inches");
   refused("G10 L2 P1 X5", "G10\": sets offsets");
   refused("G18", "G18\": another plane");
@@ -198,7 +198,7 @@ TEST(GcodeReader, KeepsThePathModes) {
                                                              {4, {Kind::Blended, 0.0, {}}}}));
   EXPECT_TRUE(read("G0 X0 Y0 Z0\nG1 X1 F60\nM2\n").path_modes.empty());
   const auto message = [](const std::string& text) { return input_error([&] { read(text); }); };
-  expect_contains(message(kAtWork + "G64 P-1\nM2\n"), "\"P-1\": a tolerance of G64; required >= 0 mm");
+  expect_contains(message(kAtWork + "G64 P-1\nM2\n"), "\"P-1\": a tolerance of G64; required >= 0");
   expect_contains(message(kAtWork + "G61 P0.1\nM2\n"), "P without G4");
   expect_contains(message(kAtWork + "G61 G64\nM2\n"), "G64\": is the second word of its kind");
 }

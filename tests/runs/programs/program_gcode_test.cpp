@@ -45,8 +45,9 @@ TEST(Gcode, WritesTheDocumentedText) {
   EXPECT_EQ(text,
             "(dwell 0.1.0)\n"
             "(map [old]?mirror.csv)\n"
+            "(dwell: gcode=g94, g4=seconds)\n"
+            "(dwell: tool at work when Z=0, lifted when Z>0)\n"
             "(units: X Y Z mm, F mm/min, P seconds)\n"
-            "(dwell: gcode=g94, g4=seconds, tool at work when Z=0, lifted when Z>0)\n"
             "G21\nG90\nG17\nG94\n"
             "G0 Z10.000000\n"
             "G0 X-1.000000 Y0.000000\n"
