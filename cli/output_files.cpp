@@ -49,6 +49,8 @@ void check_extension(const OutputFile& output) {
       return require(extension == ".json", ".json");
     case OutputFile::Kind::Machine:
       return require(extension == ".toml", ".toml");
+    case OutputFile::Kind::Table:
+      return require(extension == ".csv", ".csv");
     case OutputFile::Kind::Map:
       return require(map_writer_of(extension) != nullptr, written_map_extensions());
   }

@@ -9,7 +9,7 @@ namespace dwell::cli {
 
 /// A file that a command is asked to write.
 struct OutputFile {
-  enum class Kind { Png, Figure, Json, Map, Machine } kind;
+  enum class Kind { Png, Figure, Json, Map, Machine, Table } kind;
   std::string option;  // "--png"
   std::string file;    // empty: not asked for
 };

@@ -32,6 +32,7 @@
 #include "runs/reports/log_report.h"
 #include "runs/reports/machine_report.h"
 #include "runs/reports/map_line.h"
+#include "runs/reports/motion_table.h"
 #include "runs/reports/recorded_plan.h"
 #include "runs/reports/simulation.h"
 #include "runs/reports/tool_sheet.h"
@@ -41,7 +42,7 @@ namespace {
 
 struct SimulateArguments {
   std::unique_ptr<JobArguments> job;
-  std::string plan, program, gcode, g4, start, residual, png, log, log_png;
+  std::string plan, program, gcode, g4, start, residual, png, log, log_png, motion_table;
   LogArguments log_reading;
   JsonOption json;
   bool exact = false;
@@ -147,9 +148,14 @@ void check_outputs(const SimulateArguments& a, const JobOptions& options, const 
   if (!a.log.empty()) read.push_back({"the log", split_map_name(a.log).file.string()});
   if (!a.plan.empty())
     read.push_back({"the plan's summary", (std::filesystem::path(a.plan) / "summary.json").string()});
+  if (!a.motion_table.empty() && options.machine.empty()) {
+    throw InputError(
+        "--motion-table: of the motion of a machine; give --machine FILE, or a plan that was made for one");
+  }
   check_output_files({{OutputFile::Kind::Map, "--residual", a.residual},
                       {OutputFile::Kind::Figure, "--png", a.png},
                       {OutputFile::Kind::Figure, "--log-png", a.log_png},
+                      {OutputFile::Kind::Table, "--motion-table", a.motion_table},
                       a.json.output()},
                      read);
 }
@@ -234,7 +240,8 @@ InputError with_origin_of_options(const InputError& error, const SimulateArgumen
 Simulation simulated(const SimulateArguments& a, const SimulationRequest& request, const GcodeReading& reading,
                      const Progress& progress) {
   try {
-    return simulate_file(request.program, reading, request.options, progress, a.exact, request.source);
+    return simulate_file(request.program, reading, request.options, progress, a.exact, request.source,
+                         !a.motion_table.empty());
   } catch (const InputError& error) {
     throw with_origin_of_options(error, a, request.options);
   }
@@ -263,6 +270,8 @@ int run_simulate(const SimulateArguments& arguments) {
                             fmt::format("Run of {} as {} recorded it", s.program.file, s.recorded->log.file),
                             figure_format_of_file(arguments.log_png));
   });
+  files.add(arguments.motion_table,
+            [&] { return motion_table_text(s.nodes, s.program.file, s.executed->machine.name, progress); });
   files.write();
   finish_progress();
   arguments.json.deliver(simulation_json(s), simulation_text(s));
@@ -313,6 +322,10 @@ void add_simulate_command(CLI::App& program, int& exit_code) {
   command
       ->add_option("--log-png", arguments->log_png,
                    "draw where the recorded times differ from the simulated ones, along the path: .png, .svg or .pdf")
+      ->type_name("FILE");
+  command
+      ->add_option("--motion-table", arguments->motion_table,
+                   "with a machine: write its motion, a row where its acceleration changes: .csv")
       ->type_name("FILE");
   command->add_flag("--exact", arguments->exact,
                     "integrate the removal function itself at every pixel, not only at as many as the stated figure "

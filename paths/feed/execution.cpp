@@ -18,8 +18,9 @@ constexpr double kPartsFromRest = 12.0;
 
 class Runner {
  public:
-  Runner(const Program& program, const Machine& machine)
-      : program_(program), machine_(machine), path_(kinematic_path(program, machine)) {
+  /// `nodes`: where they are wanted.
+  Runner(const Program& program, const Machine& machine, MotionNodes* nodes)
+      : program_(program), machine_(machine), nodes_(nodes), path_(kinematic_path(program, machine)) {
     feed_ = commanded_feeds(program, path_);
     u_ = node_speeds_squared(path_, feed_);
     result_.motion = program;
@@ -48,7 +49,17 @@ class Runner {
   double half_rest(std::size_t node) const { return path_.stops[node] != 0 ? 0.5 * machine_.corner_delay : 0.0; }
 
   void rest(Point at) {
-    if (machine_.corner_delay > 0.0) result_.motion.steps.push_back({at, at, machine_.corner_delay, true});
+    if (!(machine_.corner_delay > 0.0)) return;
+    result_.motion.steps.push_back({at, at, machine_.corner_delay, true});
+    if (nodes_ != nullptr) nodes_->rest(at, machine_.corner_delay, true);
+  }
+
+  /// A step at one speed, or at rest.
+  void keep_step(const ProgramStep& step) {
+    result_.motion.steps.push_back(step);
+    if (nodes_ == nullptr) return;
+    if (!(step.length() > 0.0)) return nodes_->rest(step.start, step.seconds, step.removes);
+    nodes_->run(step.start, step.finish, 0.0, 0.0, step.seconds, step.removes);
   }
 
   /// Returns the seconds of the step itself.
@@ -56,18 +67,20 @@ class Runner {
     const ProgramStep& step = program_.steps[i];
     const KinematicMove& move = path_.moves[i];
     if (!(move.length > 0.0)) {
-      result_.motion.steps.push_back(step);
+      keep_step(step);
       return step.seconds;
     }
     const Trapezoid trapezoid{move.length, move.acceleration, std::sqrt(u_[i]), std::sqrt(u_[i + 1])};
     if (!std::isfinite(feed_[i])) {  // nothing says how fast: it takes no time
-      result_.motion.steps.push_back(step);
+      keep_step(step);
       return 0.0;
     }
     double travelled = 0.0, seconds = 0.0;
     from_ = step.start;
     for (const MotionPiece& piece : pieces_at_feed(trapezoid, feed_[i])) {
+      const Point from = from_;
       add_piece(step, move.length, travelled, piece);
+      if (nodes_ != nullptr) nodes_->run(from, from_, piece.speed_in, piece.speed_out, piece.seconds(), step.removes);
       travelled += piece.length;
       seconds += piece.seconds();
       if (step.removes) note(piece, move.acceleration);
@@ -96,6 +109,7 @@ class Runner {
 
   const Program& program_;
   const Machine& machine_;
+  MotionNodes* nodes_;
   KinematicPath path_;
   std::vector<double> feed_, u_;
   Point from_;
@@ -122,11 +136,38 @@ Execution run_as_it_stands(const Program& program) {
   return run;
 }
 
+void add_as_it_stands(const Program& program, MotionNodes& nodes) {
+  for (const ProgramStep& step : program.steps) {
+    if (!step.speeds) {
+      const double speed = step.seconds > 0.0 ? step.length() / step.seconds : 0.0;
+      nodes.run(step.start, step.finish, speed, speed, step.seconds, step.removes);
+      continue;
+    }
+    const CubicMove move{step.start, step.finish, step.speeds->in, step.speeds->out, step.seconds};
+    const std::vector<Point> places = places_on(move, kPartsFromRest);
+    const double part = step.seconds / static_cast<double>(places.size() - 1);
+    for (std::size_t k = 1; k < places.size(); ++k) {
+      const double begin = part * static_cast<double>(k - 1), end = part * static_cast<double>(k);
+      nodes.run(places[k - 1], places[k], length(move.speed(begin)), length(move.speed(end)), part, step.removes);
+    }
+  }
+}
+
 }  // namespace
 
 Execution execute(const Program& program, const Machine& machine, const Progress& progress) {
   if (says_speeds(program)) return run_as_it_stands(program);
-  return Runner(program, machine).run(progress);
+  return Runner(program, machine, nullptr).run(progress);
+}
+
+std::vector<MotionNode> motion_nodes(const Program& program, const Machine& machine, const Progress& progress) {
+  MotionNodes nodes;
+  if (says_speeds(program)) {
+    add_as_it_stands(program, nodes);
+  } else {
+    Runner(program, machine, &nodes).run(progress);
+  }
+  return nodes.take();
 }
 
 }  // namespace dwell

@@ -5,6 +5,7 @@
 #include "core/base/progress.h"
 #include "core/motion/program.h"
 #include "paths/feed/machine.h"
+#include "paths/feed/motion_nodes.h"
 
 namespace dwell {
 
@@ -25,5 +26,10 @@ struct Execution {
 /// that says the speeds at the ends of its steps is run as it stands. Throws
 /// InputError as kinematic_path, Interrupted. Cost O(steps).
 Execution execute(const Program& program, const Machine& machine, const Progress& progress = {});
+
+/// The nodes of the same motion, from the first step's start on: between two of them the machine moves straight at
+/// constant acceleration, or rests; along a cubic, which need not, nodes are so close that it may count as doing so.
+/// Ways up and down are no part of it and the clock stands still. Throws as execute. Cost O(steps).
+std::vector<MotionNode> motion_nodes(const Program& program, const Machine& machine, const Progress& progress = {});
 
 }  // namespace dwell

@@ -7,6 +7,7 @@
 
 #include "core/base/errors.h"
 #include "paths/feed/kinematic_path.h"
+#include "paths/feed/step_times.h"
 #include "paths/feed/trapezoid.h"
 
 namespace dwell {
@@ -71,7 +72,7 @@ class Pieces {
         machine_(machine),
         least_(std::max(least_seconds, kAnyTime)),
         path_(kinematic_path(program, machine)) {
-    for (std::size_t i = 0; i < program.steps.size(); ++i) feed_.push_back(commanded_feed(i));
+    feed_ = commanded_feeds(program, path_);
     u_ = node_speeds_squared(path_, feed_);
     result_.motion.file = program.file;
     result_.motion.fastest_feed = std::isfinite(machine.max_feed) ? machine.max_feed : program.fastest_feed;
@@ -88,13 +89,6 @@ class Pieces {
   }
 
  private:
-  double commanded_feed(std::size_t i) const {
-    const ProgramStep& step = program_.steps[i];
-    const double most = path_.moves[i].max_speed;
-    if (step.seconds > 0.0) return std::min(most, step.length() / step.seconds);
-    return std::isfinite(most) || !(program_.fastest_feed > 0.0) ? most : program_.fastest_feed;
-  }
-
   double half_rest(std::size_t node) const { return path_.stops[node] != 0 ? 0.5 * machine_.corner_delay : 0.0; }
 
   double run_step(std::size_t i) {

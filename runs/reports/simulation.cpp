@@ -75,7 +75,7 @@ void compare_with_commanded(const Part& part, const Program& program, const Latt
 }  // namespace
 
 Simulation simulate_file(const std::filesystem::path& program, const GcodeReading& reading, const JobOptions& options,
-                         const Progress& progress, bool every_pixel, const SimulationSource& source) {
+                         const Progress& progress, bool every_pixel, const SimulationSource& source, bool keep_nodes) {
   Simulation s;
   progress.report("read: program, map and removal function");
   s.program = read_program(program, reading, progress);
@@ -99,6 +99,7 @@ Simulation simulate_file(const std::filesystem::path& program, const GcodeReadin
   check_steps(s.program, part);
   std::optional<Program> motion;
   if (job.machine) motion = executed_on(*job.machine, s.program, s.executed.emplace(), s.limits, progress);
+  if (job.machine && keep_nodes) s.nodes = motion_nodes(s.program, job.machine->machine, progress);
   const Program& run = motion ? *motion : s.program;
   const Progress simulating = progress.of_part(fmt::format("simulate {}", counted(s.program.steps.size(), "step")));
   LatticeChoice lattice = choose_lattice(part, removing_steps(run).strokes, simulating);

@@ -11,6 +11,7 @@
 #include "core/motion/program.h"
 #include "core/removal/exact_residual.h"
 #include "core/tif/removal_kernel.h"
+#include "paths/feed/motion_nodes.h"
 #include "runs/base/input_file.h"
 #include "runs/base/json_blocks.h"
 #include "runs/job/job_options.h"
@@ -59,6 +60,7 @@ struct Simulation {
   ExactResidual after;                      // of the motion, where there is a machine
   std::optional<ExecutedProgram> executed;  // on a machine
   std::optional<RecordedRun> recorded;      // by a controller
+  std::vector<MotionNode> nodes;            // of its motion, where they are wanted
   ResidualAnatomy anatomy;                  // of what it leaves
   std::string advice;                       // what would help most, a sentence
   std::string plan;                         // as SimulationSource
@@ -69,11 +71,13 @@ struct Simulation {
 /// Simulates a program file (feed.csv or G-code) on the job's map with the job's removal function; the tool moves
 /// continuously, at the commanded speeds or, with a machine, as that executes the program. With a log of a run, what
 /// the recorded motion leaves stands beside it (recorded_run). `every_pixel`: the exact figure from every pixel
-/// (exact_residual), which takes longer. `reading`: for G-code that leaves something to its controller. Of the job it
-/// uses map, tif, remove, aperture and threads. Map and removal function are held to what the program's header says of
-/// them (program_record.h). Throws InputError, Interrupted.
+/// (exact_residual), which takes longer. `keep_nodes`: with a machine, keeps the nodes of its motion. `reading`: for
+/// G-code that leaves something to its controller. Of the job it uses map, tif, remove, aperture and threads. Map and
+/// removal function are held to what the program's header says of them (program_record.h). Throws InputError,
+/// Interrupted.
 Simulation simulate_file(const std::filesystem::path& program, const GcodeReading& reading, const JobOptions& options,
-                         const Progress& progress, bool every_pixel = false, const SimulationSource& source = {});
+                         const Progress& progress, bool every_pixel = false, const SimulationSource& source = {},
+                         bool keep_nodes = false);
 
 /// The simulation as JSON text (docs/json.md), units in the keys.
 std::string simulation_json(const Simulation& simulation);

@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <cstdio>
+#include <filesystem>
+#include <sstream>
 #include <string>
 
 #include "core/base/whole_file.h"
@@ -62,6 +65,48 @@ TEST(MachineCommand, ExecutesAProgramAndSaysWhatThatCosts) {
   const ProgramResult text = inputs.run({"simulate", "plan", "--machine", "slow.toml"});
   expect_has(text.out, "executed  ");
   expect_has(text.out, "if every move had its speed from end to end");
+}
+
+TEST(MachineCommand, WritesTheMotion) {
+  const SmallInputs inputs;
+  ASSERT_EQ(inputs.run(SmallInputs::plan(kTurning)).exit_code, 0);
+  inputs.folder.file("slow.toml", "path_acceleration_mm_per_s2 = 20\nmax_feed_mm_per_min = 600\nname = \"slow\"\n");
+  const ProgramResult result =
+      inputs.run({"simulate", "plan", "--json", "--machine", "slow.toml", "--motion-table", "motion.csv"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const json said = json::parse(result.out);
+  std::istringstream table(read_whole_file(inputs / "motion.csv"));
+  std::string line, header;
+  double last = -1.0;
+  std::size_t rows = 0, rests = 0;
+  while (std::getline(table, line)) {
+    if (line.starts_with("#")) {
+      header += line;
+      continue;
+    }
+    if (line == "t_s,x_mm,y_mm,speed_mm_per_s,removes") continue;
+    double t = 0.0, x = 0.0, y = 0.0, speed = 0.0;
+    int removes = 0;
+    ASSERT_EQ(std::sscanf(line.c_str(), "%lf,%lf,%lf,%lf,%d", &t, &x, &y, &speed, &removes), 5) << line;
+    EXPECT_GE(t, last);
+    EXPECT_LE(speed, 10.0 + 1e-6);
+    last = t;
+    ++rows;
+    rests += static_cast<std::size_t>(speed == 0.0);
+  }
+  expect_has(header, "machine: slow");
+  EXPECT_GT(rows, 100U);
+  EXPECT_GT(rests, 20U);  // it turns at every point
+  // The table has not the way up at the end of a program and down at its begin.
+  EXPECT_NEAR(last, said["executed"]["total_s"].get<double>(), 1.5);
+  EXPECT_LE(last, said["executed"]["total_s"].get<double>() + 1e-6);
+  const ProgramResult without = inputs.run({"simulate", "plan", "--motion-table", "other.csv"});
+  EXPECT_EQ(without.exit_code, 2);
+  expect_has(without.err, "--motion-table: of the motion of a machine; give --machine FILE");
+  const ProgramResult image = inputs.run({"simulate", "plan", "--machine", "slow.toml", "--motion-table", "m.png"});
+  EXPECT_EQ(image.exit_code, 2);
+  expect_has(image.err, "extension '.png'; accepted: .csv");
+  EXPECT_FALSE(std::filesystem::exists(inputs / "other.csv"));
 }
 
 TEST(MachineCommand, SaysWhatAProgramAsksBeyondTheMachine) {

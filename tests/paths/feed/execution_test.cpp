@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/base/errors.h"
+#include "core/motion/cubic_move.h"
 #include "core/removal/simulate.h"
 #include "core/tif/removal_function.h"
 #include "paths/feed/kinematic_path.h"
@@ -176,6 +177,69 @@ TEST(Execution, LeavesTheWayUpToTheRapidLength) {
   program.fastest_feed = 2.0;
   EXPECT_NEAR(execute(program, machine).motion.run_seconds(), 0.5 + 0.25 + 0.5 + 0.5, 1e-12);
   EXPECT_NEAR(execute(program, Machine{}).motion.run_seconds(), 0.5 + 2.5 + 0.5 + 5.0, 1e-12);
+}
+
+// Straight at constant acceleration from node to node, in the times and at the places of the motion itself.
+TEST_P(ExecutionOf, ItsNodesAreItsMotion) {
+  Machine machine = machine_with(GetParam());
+  machine.corner_delay = 0.013;
+  const Program program{"", crooked_chain(6, 30, 0.5, 10.0)};
+  const Execution run = execute(program, machine);
+  const std::vector<MotionNode> nodes = motion_nodes(program, machine);
+  ASSERT_GT(nodes.size(), program.steps.size());
+  EXPECT_EQ(nodes.front().place, program.steps.front().start);
+  EXPECT_NEAR(distance(nodes.back().place, program.steps.back().finish), 0.0, 1e-9);
+  EXPECT_NEAR(nodes.back().seconds, run.motion.total_seconds(), 1e-9);
+  double clock = 0.0;
+  std::size_t next = 1;
+  for (std::size_t i = 1; i < nodes.size(); ++i) {
+    const MotionNode &a = nodes[i - 1], &b = nodes[i];
+    const double seconds = b.seconds - a.seconds, way = distance(a.place, b.place);
+    if (seconds == 0.0) continue;  // a jump of the speed
+    EXPECT_NEAR(way, 0.5 * (a.speed + b.speed) * seconds, 1e-9) << i;
+    EXPECT_LE(std::abs(b.speed - a.speed), kAcceleration * seconds * (1.0 + 1e-6) + 1e-9) << i;
+  }
+  for (const ProgramStep& step : run.motion.steps) {  // each begins and ends on a stretch of the nodes, in its time
+    clock += step.seconds;
+    while (next + 1 < nodes.size() && nodes[next].seconds < clock - 1e-9) ++next;
+    const MotionNode &a = nodes[next - 1], &b = nodes[next];
+    const double t = clock - a.seconds, whole = b.seconds - a.seconds;
+    const double share = whole > 0.0 ? t / whole : 1.0, length = distance(a.place, b.place);
+    const double way = a.speed * t + 0.5 * (b.speed - a.speed) * share * t;
+    const Point place = length > 0.0 ? a.place + (way / length) * (b.place - a.place) : b.place;
+    EXPECT_NEAR(distance(place, step.finish), 0.0, 1e-8) << "at " << clock << " s";
+  }
+}
+
+TEST(MotionNodes, HaveTwoOfOneTimeWhereTheSpeedJumps) {
+  Machine machine = machine_with(CornerRule::Free);
+  machine.path_acceleration = INFINITY;
+  machine.max_feed = 20.0;
+  const Program program{"", {{{0, 0}, {0, 0}, 0.7, true}, {{0, 0}, {5, 0}, 0.0, false}, {{5, 0}, {6, 0}, 0.5, true}}};
+  const std::vector<MotionNode> nodes = motion_nodes(program, machine);
+  ASSERT_EQ(nodes.size(), 6U);
+  EXPECT_DOUBLE_EQ(nodes[1].seconds, 0.7);
+  EXPECT_TRUE(nodes[1].removes);
+  EXPECT_EQ(nodes[2].seconds, nodes[1].seconds);
+  EXPECT_DOUBLE_EQ(nodes[2].speed, 20.0);
+  EXPECT_FALSE(nodes[3].removes);
+  EXPECT_DOUBLE_EQ(nodes[3].seconds, 0.95);
+  EXPECT_DOUBLE_EQ(nodes[4].speed, 2.0);
+  EXPECT_DOUBLE_EQ(nodes[5].seconds, 1.45);
+}
+
+// A program that says its speeds has a cubic for every step.
+TEST(MotionNodes, FollowTheCubicsOfAProgramThatSaysItsSpeeds) {
+  ProgramStep turn{{0, 0}, {3, 1}, 2.0, true, EndSpeeds{{2.0, 0.0}, {0.5, 1.5}}};
+  const Program program{"", {turn, {{3, 1}, {3, 1}, 0.25, true}}};
+  const std::vector<MotionNode> nodes = motion_nodes(program, machine_with(CornerRule::ExactStop));
+  EXPECT_NEAR(nodes.back().seconds, 2.25, 1e-12);
+  const CubicMove cubic{turn.start, turn.finish, turn.speeds->in, turn.speeds->out, turn.seconds};
+  for (const MotionNode& node : nodes) {
+    if (node.seconds > 2.0 - 1e-9) break;
+    EXPECT_NEAR(distance(node.place, cubic.place(node.seconds)), 0.0, 1e-9);
+    EXPECT_NEAR(node.speed, length(cubic.speed(node.seconds)), 1e-9);
+  }
 }
 
 TEST(KinematicPath, HoldsEveryAxisWithinItsOwnLimits) {
