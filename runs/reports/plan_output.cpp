@@ -207,6 +207,7 @@ WrittenPlan write_plan(const PlannedJob& plan, const OutputFolder& folder, const
     written.warnings.push_back(std::move(*warning));
   }
   written.program = program_figures(program, written.exact, to_string(plan.part().form), max_feed);
+  written.program.seconds = written.run_seconds;  // of the machine's motion, where there is one
   written.program_sha256 = sha256_of_file(folder.path("program.nc"));
   compare_with_solver(plan, written);
   compare_with_table(plan, program, table, written, progress);

@@ -130,7 +130,9 @@ std::string simulation_json(const Simulation& s) {
   json["map"] = map_block(s.map);
   json["tif"] = tif_block(s.tif, kind_of(s.tif), s.tif.samples.history, s.volume_factor);
   json["tool"] = tool_block(tool_sheet(s.tif));
-  json["program"] = program_block(program_figures(s.program, s.after, to_string(s.terms), s.max_feed));
+  ProgramFigures program = program_figures(s.program, s.after, to_string(s.terms), s.max_feed);
+  if (s.executed) program.seconds = s.executed->run_seconds;
+  json["program"] = program_block(program);
   if (s.executed) {
     const ExecutedProgram& e = *s.executed;
     json["machine"] = machine_block(e.machine);

@@ -142,6 +142,8 @@ TEST(MachineCommand, PlansForAMachineAndSimulatesThePlanOnIt) {
   ASSERT_EQ(again.exit_code, 0) << again.err;
   EXPECT_NEAR(json::parse(again.out)["program"]["residual_rms_nm"].get<double>(), rms, 1e-9);
   EXPECT_NEAR(json::parse(again.out)["executed"]["total_s"].get<double>(), summary["total_s"].get<double>(), 1e-6);
+  EXPECT_NEAR(json::parse(again.out)["program"]["total_s"].get<double>(), summary["total_s"].get<double>(), 1e-6);
+  EXPECT_EQ(summary["program"]["total_s"], summary["total_s"]);
   const ProgramResult commanded = inputs.run({"simulate", "plan", "--machine", "none", "--json"});
   ASSERT_EQ(commanded.exit_code, 0) << commanded.err;
   EXPECT_FALSE(json::parse(commanded.out).contains("executed"));
