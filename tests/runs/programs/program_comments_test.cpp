@@ -35,7 +35,7 @@ std::string long_name() {
 }
 
 std::string program_of_comments(const FeedTable& table) {
-  return written_programs(table, {GcodeDialect::G93PerMinute, 10.0, program_comments(table), {}}).at(1).bytes;
+  return written_programs({table, {}}, {GcodeDialect::G93PerMinute, 10.0, program_comments(table), {}}).at(1).bytes;
 }
 
 void expect_lines_that_controllers_take(const std::string& text) {
