@@ -122,6 +122,7 @@ class MachineFitter {
   void leave_out_outliers(RunFit& fit, double deviations) {
     const std::vector<double> left = model_.differences(fit.machine);
     std::vector<double> sizes;
+    sizes.reserve(left.size());
     const double middle = upper_median(left);
     for (const double v : left) sizes.push_back(std::abs(v - middle));
     const double limit = deviations * kSigmaPerMedianDeviation * upper_median(sizes);
@@ -206,7 +207,7 @@ class MachineFitter {
     if (kept.size() == fit.figures.size()) return fit;
     RunFit held = model_.fit(of_start, kept), without = model_.fit(freed, kept);
     if (!(model_.criterion(held) > model_.criterion(without) + kBetter)) return held;
-    result_.notes.push_back(
+    result_.notes.emplace_back(
         "the acceleration of the machine that the fit began with is left out: the log shows a higher "
         "one, too high to be told from its times");
     start_.path_acceleration = start_.x.max_acceleration = start_.y.max_acceleration = kNone;
