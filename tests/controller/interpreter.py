@@ -1,13 +1,14 @@
 """LinuxCNC's interpreter alone (rs274): whether it reads a program as the documents say that it is meant."""
 
 import math
+import pathlib
 import re
 import subprocess
 
 from controller import ControllerFault
-from machine_program import SECONDS_PER_MINUTE, read_gcode
+from machine_program import MM_PER_INCH, SECONDS_PER_MINUTE, part_of, read_gcode
 
-PLACE_MM = 1.1e-4  # the interpreter prints 4 decimals
+DECIMAL = 1e-4  # the interpreter prints 4 decimals, of mm or, after G20, of inches
 RATE_SHARE = 2e-6  # of a feed, beside its 4 decimals
 TIMEOUT_S = 60
 CALL = re.compile(r"\b([A-Z_]+)\(([^()]*)\)")
@@ -32,15 +33,21 @@ def canonical_calls(file, folder):
 
 
 def check(file, folder):
-    """Holds what the interpreter makes of a program to what it should mean; returns the number of its moves and halts."""
+    """Holds what the interpreter makes of a program to what it should mean; returns the number of its moves and halts.
+
+    The interpreter's places are the machine's; where they lie on the part, the program says.
+    """
+    text = pathlib.Path(file).read_text(encoding="ascii")
+    unit = MM_PER_INCH if re.search(r"^(N\d+ )?G20$", text, re.MULTILINE) else 1
+    on_part = part_of(text)
     feed, place, steps = math.nan, (math.nan,) * 3, []
     for name, numbers in canonical_calls(file, folder):
         if name == "SET_FEED_RATE":
-            feed = numbers[0]
+            feed = unit * numbers[0]
         elif name == "DWELL":
             steps.append((place, place, numbers[0], None))
         elif name in ("STRAIGHT_FEED", "STRAIGHT_TRAVERSE"):
-            before, place = place, tuple(numbers[:3])
+            before, place = place, (*on_part((unit * numbers[0], unit * numbers[1])), unit * numbers[2])
             if name == "STRAIGHT_FEED":
                 steps.append((before, place, None, feed))
     meant = read_gcode(file).steps
@@ -48,13 +55,14 @@ def check(file, folder):
         raise ControllerFault(f"{file}: LinuxCNC's interpreter makes {len(steps)} feed moves and halts of it; "
                               f"{len(meant)} are meant")
     for number, ((before, place, halt, rate), step) in enumerate(zip(steps, meant), 1):
-        check_step(f"{file}: step {number}", before, place, halt, rate, step)
+        check_step(f"{file}: step {number}", before, place, halt, rate, step, unit * DECIMAL)
     return len(steps)
 
 
-def check_step(where, before, place, halt, rate, step):
+def check_step(where, before, place, halt, rate, step, decimal):
+    """`decimal`: the last one of places [mm] and feeds [mm/min]."""
     off = max(math.dist(before[:2], step.start), math.dist(place[:2], step.end))
-    if not off <= 2 * PLACE_MM:
+    if not off <= 2.2 * decimal:
         raise ControllerFault(f"{where}: from {before} to {place} mm in LinuxCNC's interpreter, meant from {step.start} to "
                               f"{step.end}")
     if halt is not None:
@@ -64,5 +72,5 @@ def check_step(where, before, place, halt, rate, step):
     length = step.length() or abs(place[2] - before[2])
     meant = SECONDS_PER_MINUTE * length / step.seconds
     # Of a move's length the interpreter knows what it reads, so that in G93 the rate is as exact as that.
-    if not abs(rate - meant) <= 1e-4 + RATE_SHARE * meant:
+    if not abs(rate - meant) <= decimal + RATE_SHARE * meant:
         raise ControllerFault(f"{where}: feed {rate} mm/min in LinuxCNC's interpreter, meant {meant:.6f}")
