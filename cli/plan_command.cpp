@@ -47,7 +47,7 @@ std::string motion_lines(const PlannedJob& plan) {
              "{}\n",
              m.executed(), m.executed() / planned, m.one_shot(), m.best, counted(m.rounds.size() - 1, "round")) +
          fmt::format("          {} of {} strokes as fast as the machine can, {} that it cannot run in their time\n",
-                     m.at_least, plan.laid.path.size(), m.schedule.too_short);
+                     m.at_least, plan.laid.path.size(), m.too_short);
 }
 
 /// The programs besides feed.csv and program.nc; empty without any.
@@ -89,8 +89,8 @@ std::string plan_text(const PlannedJob& plan, const WrittenPlan& written) {
       lattice_words(plan.dwell.lattice.kernel),
       plan.dwell.lattices > 1 ? fmt::format(" (solved {}, each finer)", counted(plan.dwell.lattices, "time")) : "");
   text += motion_lines(plan);
-  text += fmt::format("program   {} by simulating program.nc as read back{}\n", in_words(written.exact.statistics),
-                      plan.dwell.motion ? ", executed on the machine" : "");
+  text += fmt::format("program   {} by simulating {} as read back{}\n", in_words(written.exact.statistics),
+                      written.program.file, plan.dwell.motion ? ", executed on the machine" : "");
   text += export_lines(written) + exact_lines(written.exact);
   text += anatomy_lines(written.anatomy, written.exact.statistics) + left_out_line(plan.dwell) + cost_line(plan);
   text += fmt::format("help      {}\n", written.advice) + surface_lines(written.surface);

@@ -44,7 +44,7 @@ Program commanded(const StrokeMoves& moves, const ConstantSchedule& schedule, co
 
 }  // namespace
 
-void check_exported_motion(const Machine& machine) {
+void check_exported_motion(const Machine& machine, ScheduleKind schedule) {
   for (const Point along : {Point{1.0, 0.0}, Point{0.0, 1.0}}) {
     if (std::isfinite(acceleration_limit(machine, along))) continue;
     throw InputError(fmt::format(
@@ -53,10 +53,10 @@ void check_exported_motion(const Machine& machine) {
         "path_acceleration_mm_per_s2",
         along.x > 0.0 ? "x" : "y"));
   }
-  if (machine.corner == CornerRule::ExactStop) return;
+  if (machine.corner == CornerRule::ExactStop || schedule == ScheduleKind::Pvt) return;
   throw InputError(fmt::format(
       "`export`: the `machine` has the corner rule {}, by which its velocity jumps at corners, which no table of "
-      "positions, velocities and times can say; required exact-stop",
+      "positions, velocities and times can say; required exact-stop, or `schedule` = pvt",
       to_string(machine.corner)));
 }
 

@@ -7,13 +7,15 @@
 #include "core/motion/program.h"
 #include "core/motion/tool_path.h"
 #include "paths/feed/machine.h"
+#include "paths/feed/schedule_kind.h"
 
 namespace dwell {
 
 /// What a table of positions, velocities and times needs of a machine that runs plain feeds. Throws InputError naming
 /// `export`, the field of the machine and what is required: a limit of acceleration in every direction, and exact stops
 /// at corners, since a velocity that jumps cannot be said.
-void check_exported_motion(const Machine& machine);
+/// A schedule of joined velocities (Pvt) takes any corner.
+void check_exported_motion(const Machine& machine, ScheduleKind schedule = ScheduleKind::Constant);
 
 /// The machine with its accelerations at 0.995 and its speeds at 0.999, so that what is scheduled for it keeps the
 /// limits of the machine itself after its numbers were rounded to 1e-6 mm and 1e-6 mm/s.

@@ -55,6 +55,7 @@ DwellOptions dwell_options(const JobOptions& o) {
   options.certify = o.certify;
   options.fraction = o.fraction;
   options.rounds = o.rounds;
+  options.schedule = o.schedule;
   return options;
 }
 

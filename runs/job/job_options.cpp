@@ -260,6 +260,14 @@ std::vector<JobOptionRecord> make_table() {
        "what is left is of its motion; none: they are not considered",
        true, false, [](Options& o, const std::string& t) { o.machine = t == "none" ? "" : t; },
        [](const Options& o) { return o.machine; }},
+      {"schedule", "schedule", "KIND",
+       "with --machine: constant (one feed a stroke, as G-code says it), or speeds at nodes, which programs of "
+       "--export "
+       "alone can say: linear (constant acceleration between nodes) or pvt (cubics of time, which round the corners "
+       "that "
+       "are not stopped at)",
+       false, false, [](Options& o, const std::string& t) { o.schedule = parse_schedule_kind(t); },
+       [](const Options& o) { return to_string(o.schedule); }},
       {"rounds", "rounds", "N",
        "with --machine: how often at most the plan is corrected for what the machine's motion makes of it", false, true,
        [](Options& o, const std::string& t) { o.rounds = whole(t); },

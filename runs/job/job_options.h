@@ -15,6 +15,7 @@
 #include "core/tif/removal_function.h"
 #include "core/tif/removal_orientation.h"
 #include "core/tif/tif_pedestal.h"
+#include "paths/feed/schedule_kind.h"
 #include "paths/path_catalogue.h"
 #include "runs/drawing/figure_format.h"
 #include "runs/plan/blemish_handling.h"
@@ -66,8 +67,9 @@ struct JobOptions {
   WeightGoal smoothness{0.0, GoalKind::Auto};
   WeightGoal time_price_nm2_per_s{0.0, GoalKind::Auto};
   TimeWorth time_worth;
-  std::string machine;   // file of the machine; empty: accelerations and corners are not considered
-  int rounds = 5;        // of correction for its motion, at most
+  std::string machine;  // file of the machine; empty: accelerations and corners are not considered
+  ScheduleKind schedule = ScheduleKind::Constant;  // how the program for the machine says its speeds
+  int rounds = 5;                                  // of correction for its motion, at most
   double certify = 0.0;  // share by which the objective may be above the optimum, to be proven; 0 = not asked for
   SolverKind solver = SolverKind::Auto;
   BlemishHandling blemishes = BlemishHandling::Report;

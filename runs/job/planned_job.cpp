@@ -24,6 +24,13 @@ std::vector<std::string> PlannedJob::limits() const {
 
 void check_exports(const JobOptions& options) {
   const std::string word = export_that_needs_motion(options.exports);
+  if (options.schedule != ScheduleKind::Constant && (word.empty() || options.machine.empty())) {
+    throw InputError(
+        fmt::format("`schedule` = {}: feeds cannot say speeds between nodes, and no acceleration is known without a "
+                    "machine; required "
+                    "a `machine` file and an `export`: {}",
+                    to_string(options.schedule), export_words()));
+  }
   if (word.empty()) return;
   if (options.machine.empty()) {
     throw InputError(fmt::format(
@@ -37,7 +44,7 @@ void check_exports(const JobOptions& options) {
         "one of the two",
         word));
   }
-  check_exported_motion(machine_for_program(read_machine_file(options.machine).machine, options));
+  check_exported_motion(machine_for_program(read_machine_file(options.machine).machine, options), options.schedule);
 }
 
 namespace {
@@ -56,7 +63,9 @@ PlannedJob plan_loaded(Job job, JobPath path, double used, const Progress& progr
     planned.dwell = leave_out_blemishes(planned.part(), planned.laid, std::move(planned.dwell), options, progress);
   }
   planned.program = make_machine_program(planned.laid, planned.dwell, options.machine, progress);
-  if (!export_that_needs_motion(planned.job.options.exports).empty() && planned.dwell.motion) {
+  if (planned.dwell.motion && planned.dwell.motion->program) {
+    planned.program.motion = planned.dwell.motion->program;
+  } else if (!export_that_needs_motion(planned.job.options.exports).empty() && planned.dwell.motion) {
     planned.program.motion =
         exported_motion(planned.program.table.path, planned.laid.motion, *options.machine.machine,
                         options.machine.feed_limits().max_feed, planned.dwell.motion->seconds, progress);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/base/time_limit.h"
+#include "paths/feed/schedule_kind.h"
 #include "runs/plan/machine_limits.h"
 #include "solvers/problem/dwell_solver.h"
 #include "solvers/weights/time_worth.h"
@@ -18,8 +19,9 @@ struct DwellOptions {
   double max_seconds = 3600.0;  // wall clock for the set-up and all solves together [s]; > 0
   double used_seconds = 0.0;    // of these, before find_dwell was called: by reading the input, planning the path
   double certify = 0.0;         // share of the optimum that the objective may be above it, proven; 0 = not asked for
-  int rounds = 5;               // of correction for the motion of the machine, at most; >= 0
-  double fraction = 1.0;        // of the error, form terms aside, that is to be removed; > 0, <= 1
+  ScheduleKind schedule = ScheduleKind::Constant;  // how the program for a machine says its speeds
+  int rounds = 5;                                  // of correction for the motion of the machine, at most; >= 0
+  double fraction = 1.0;                           // of the error, form terms aside, that is to be removed; > 0, <= 1
 };
 
 /// The clock of max_seconds, of which `used` went before [s]. The phases before a solve have a second even where

@@ -7,8 +7,12 @@
 
 #include "core/form/map_statistics.h"
 #include "core/removal/simulate.h"
+#include "paths/feed/constant_schedule.h"
 #include "paths/feed/execution.h"
+#include "paths/feed/exported_motion.h"
 #include "paths/feed/kinematic_path.h"
+#include "paths/feed/linear_program.h"
+#include "paths/feed/linear_schedule.h"
 #include "paths/feed/stroke_moves.h"
 #include "runs/plan/least_dwell_of.h"
 
@@ -17,28 +21,53 @@ namespace {
 
 constexpr double kGainsLittle = 0.002;  // a round that lowers what is left by no more than this share is the last
 constexpr double kAtLeast = 1e-9;       // of the least dwell
+constexpr double kTooShort = 1e-3;      // of the dwell, by which a stroke with speeds takes longer
 
 class Loop {
  public:
   Loop(const Part& part, const LaidPath& laid, const RemovalKernel& kernel, const DwellOptions& options)
       : part_(part),
         kernel_(kernel),
-        machine_(*options.machine.machine),
+        machine_(options.schedule == ScheduleKind::Constant ? *options.machine.machine
+                                                            : with_margins(*options.machine.machine)),
+        kind_(options.schedule),
         max_feed_(options.machine.feed_limits().max_feed),
         moves_(stroke_moves(laid.path, laid.motion)),
         path_(kinematic_path(moves_.steps, machine_, max_feed_)),
         strokes_(laid.strokes) {}
 
-  /// Feeds for a dwell, and the surface that the machine leaves with them.
+  /// Feeds or speeds for a dwell, and the surface that the machine leaves with them.
   HeightMap execute_dwell(const Eigen::VectorXd& dwell, MotionPlan& plan, const Progress& progress) const {
-    plan.schedule = schedule_constant(moves_, path_, machine_, dwell);
-    plan.seconds = plan.schedule.seconds;
+    if (kind_ == ScheduleKind::Constant) return left_by(execute_feeds(dwell, plan, progress));
+    const LinearSchedule schedule = schedule_linear(moves_, path_, machine_, dwell, part_.threads, progress);
+    plan.seconds = schedule.seconds;
+    plan.commanded.assign(plan.seconds.begin(), plan.seconds.end());
+    plan.too_short = ((plan.seconds - dwell).array() > kTooShort * dwell.array()).count();
+    plan.program = linear_program(moves_, path_, schedule, machine_);
+    if (kind_ == ScheduleKind::Pvt) join_velocities(*plan.program);
+    return left_by(*plan.program);
+  }
+
+  double rms_of(const HeightMap& left) const {
+    return map_statistics(left, part_.form, part_.threads).rms_about_zero();
+  }
+
+ private:
+  HeightMap left_by(const Program& motion) const {
+    return surface_after(part_.map, simulate(motion, part_.map, kernel_, part_.threads));
+  }
+
+  Program execute_feeds(const Eigen::VectorXd& dwell, MotionPlan& plan, const Progress& progress) const {
+    const ConstantSchedule schedule = schedule_constant(moves_, path_, machine_, dwell);
+    plan.seconds = schedule.seconds;
+    plan.too_short = schedule.too_short;
     plan.commanded.assign(dwell.data(), dwell.data() + dwell.size());
     for (std::size_t j = 0; j < plan.commanded.size(); ++j) {
-      if (plan.schedule.feed[j] > 0.0) plan.commanded[j] = strokes_[j].length() / plan.schedule.feed[j];
+      if (schedule.feed[j] > 0.0) plan.commanded[j] = strokes_[j].length() / schedule.feed[j];
     }
     Program program;
     program.fastest_feed = max_feed_;
+    program.steps.reserve(moves_.size());
     for (std::size_t i = 0; i < moves_.size(); ++i) {
       ProgramStep step = moves_.steps[i];
       if (moves_.stroke[i] != StrokeMoves::kNoStroke) {
@@ -48,18 +77,13 @@ class Loop {
       }
       program.steps.push_back(step);
     }
-    const Execution run = execute(program, machine_, progress);
-    return surface_after(part_.map, simulate(run.motion, part_.map, kernel_, part_.threads));
+    return execute(program, machine_, progress).motion;
   }
 
-  double rms_of(const HeightMap& left) const {
-    return map_statistics(left, part_.form, part_.threads).rms_about_zero();
-  }
-
- private:
   const Part& part_;
   const RemovalKernel& kernel_;
-  const Machine& machine_;
+  Machine machine_;
+  ScheduleKind kind_;
   double max_feed_;
   StrokeMoves moves_;
   KinematicPath path_;

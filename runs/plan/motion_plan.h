@@ -2,10 +2,11 @@
 
 #include <Eigen/Core>
 
+#include <optional>
 #include <vector>
 
 #include "core/map/height_map.h"
-#include "paths/feed/constant_schedule.h"
+#include "core/motion/program.h"
 #include "runs/plan/dwell_options.h"
 #include "runs/plan/laid_path.h"
 #include "runs/plan/part.h"
@@ -15,22 +16,23 @@ namespace dwell {
 
 /// What a machine makes of the dwell of a plan: the feeds to command, and what its motion leaves.
 struct MotionPlan {
-  std::vector<double> commanded;  // of every stroke: length / feed, of halts the dwell [s]
-  Eigen::VectorXd seconds;        // that the machine then takes for every stroke [s]
-  std::vector<double> rounds;     // what the motion leaves after each round, RMS about zero without form terms [nm]
-  int best = 0;                   // the round that is taken; 0 = feeds made for the solver's dwell as it is
-  ConstantSchedule schedule;      // of that round
-  Index at_least = 0;             // strokes whose dwell is the least that the machine can
+  std::optional<Program> program;  // its steps with their speeds, where the schedule says speeds; nothing: feeds
+  std::vector<double> commanded;   // of every stroke: length / feed, of halts the dwell [s]
+  Eigen::VectorXd seconds;         // that the machine then takes for every stroke [s]
+  std::vector<double> rounds;      // what the motion leaves after each round, RMS about zero without form terms [nm]
+  int best = 0;                    // the round that is taken; 0 = feeds made for the solver's dwell as it is
+  Index at_least = 0;              // strokes whose dwell is the least that the machine can
+  Index too_short = 0;             // strokes that take longer than their dwell however fast they are run
 
   double one_shot() const { return rounds.front(); }
   double executed() const { return rounds[static_cast<std::size_t>(best)]; }
 };
 
-/// Closes the loop between plan and motion by defect correction: feeds are made for the dwell (schedule_constant), the
-/// machine's motion of them is simulated, and what its removal has over that of the dwell is taken off the target of
-/// the next solve. `dwell` [s] and `weights` are those of the solved plan; at most options.rounds such solves, fewer
-/// when one gains less than 0.2 %. The best round is taken, the first included. `kernel` is that of the problem's
-/// lattice. Throws Interrupted. Cost: a schedule, a simulation and a solve a round.
+/// Closes the loop between plan and motion by defect correction: feeds or speeds are made for the dwell as
+/// options.schedule says, the machine's motion of them is simulated, and what its removal has over that of the dwell is
+/// taken off the target of the next solve. `dwell` [s] and `weights` are those of the solved plan; at most
+/// options.rounds such solves, fewer when one gains less than 0.2 %. The best round is taken, the first included.
+/// `kernel` is that of the problem's lattice. Throws Interrupted. Cost: a schedule, a simulation and a solve a round.
 MotionPlan plan_motion(PlanProblem& problem, const Part& part, const LaidPath& laid, const RemovalKernel& kernel,
                        const DwellOptions& options, const Weights& weights, const Eigen::VectorXd& dwell,
                        const Progress& progress);

@@ -120,8 +120,9 @@ Program read_pmac(std::string_view text, const std::string& file, const GcodeRea
 }
 
 /// Whether a plan with these exports has the format.
-bool is_written(const ProgramFormat& format, const std::vector<std::string>& exports) {
-  return format.write != nullptr && (format.word.empty() || is_among(format.word, exports));
+bool is_written(const ProgramFormat& format, const std::vector<std::string>& exports, bool speeds_alone) {
+  if (format.write == nullptr || (speeds_alone && !format.needs_motion)) return false;
+  return format.word.empty() || is_among(format.word, exports);
 }
 
 }  // namespace
@@ -201,7 +202,7 @@ std::vector<WrittenProgram> written_programs(const ProgramToWrite& program, cons
                                              const Progress& progress) {
   std::vector<const ProgramFormat*> formats;
   for (const ProgramFormat& format : program_formats()) {
-    if (is_written(format, exports)) formats.push_back(&format);
+    if (is_written(format, exports, program.speeds_alone)) formats.push_back(&format);
   }
   std::vector<std::vector<WrittenProgram>> written(formats.size());
   run_side_by_side(threads, progress, formats.size(), [&](std::size_t k, const Progress& shared) {

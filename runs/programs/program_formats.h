@@ -28,6 +28,8 @@ struct ProgramToWrite {
   /// In the order of the run, lifted moves included: every step with its time and, if it moves, the velocities at its
   /// ends. Nothing for a plan without a machine.
   std::optional<Program> motion = {};
+  /// The motion is a schedule of speeds that feeds cannot say: formats that need no motion are not written.
+  bool speeds_alone = false;
 };
 
 /// What is known of a format of machine programs. One table of these records feeds the reader of programs, the files of

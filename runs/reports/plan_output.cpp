@@ -38,10 +38,13 @@
 namespace dwell {
 namespace {
 
+/// Whether the plan has a schedule of speeds, which feeds cannot say: then it has no feed table and no G-code.
+bool says_speeds_alone(const PlannedJob& plan) { return plan.dwell.motion && plan.dwell.motion->program; }
+
 std::vector<WrittenProgram> write_program(const PlannedJob& plan, const OutputFolder& folder,
                                           const Progress& progress) {
   const JobOptions& options = plan.job.options;
-  ProgramToWrite to_write{plan.program.table, plan.program.motion};
+  ProgramToWrite to_write{plan.program.table, plan.program.motion, says_speeds_alone(plan)};
   FeedTable& table = to_write.table;
   table.version = version();
   table.frame = program_frame(options);
@@ -86,7 +89,7 @@ void compare_with_table(const PlannedJob& plan, const Program& program, const Pr
                         const Progress& progress) {
   written.table_has_same_steps =
       same_removing_steps(program, table, units::mm_per_s(plan.job.options.max_feed_mm_per_min));
-  if (written.table_has_same_steps) return;
+  if (*written.table_has_same_steps) return;
   const ExactResidual from_table =
       predict_program(plan.part(), run_of(plan, table, progress), plan.dwell.lattice.kernel, progress);
   const double left = written.exact.statistics.rms_about_zero(), by_table = from_table.statistics.rms_about_zero();
@@ -132,8 +135,8 @@ void study_surface(const PlannedJob& plan, WrittenPlan& written, const Progress&
   written.advice = residual_advice(written.anatomy, advice_facts(plan));
 }
 
-/// Reads the other programs back from disk: each must keep the machine's limits as it stands in its file, and leave
-/// what program.nc leaves.
+/// Reads the exported programs back from disk: each must keep the machine's limits as it stands in its file, and leave
+/// what the plan's program leaves.
 void check_written_exports(const PlannedJob& plan, const OutputFolder& folder,
                            const std::vector<WrittenProgram>& programs, WrittenPlan& written,
                            const Progress& progress) {
@@ -158,8 +161,8 @@ void check_written_exports(const PlannedJob& plan, const OutputFolder& folder,
                         : predict_program(plan.part(), program, plan.dwell.lattice.kernel, progress).statistics;
     const double left = written.exact.statistics.rms_about_zero(), by_file = now.residual.rms_about_zero();
     if (differs(left, by_file, std::max(kSimulationTolerance, 3.0 * written.exact.standard_error / left))) {
-      written.limits.push_back(fmt::format("{} leaves {:.6g} nm RMS{} but program.nc on the machine {:.6g} nm",
-                                           format.file, by_file, about_zero_in_words(now.residual), left));
+      written.limits.push_back(fmt::format("{} leaves {:.6g} nm RMS{} but {} on the machine {:.6g} nm", format.file,
+                                           by_file, about_zero_in_words(now.residual), programs.front().file, left));
     }
     if (!first) first = std::move(program);
     written.exports.push_back(std::move(now));
@@ -180,18 +183,21 @@ WrittenPlan write_plan(const PlannedJob& plan, const OutputFolder& folder, const
   progress.check();
 
   progress.report("simulate: the program as read back from disk");
-  const Program program = read_back(folder, "program.nc", progress);
+  const bool has_table = !says_speeds_alone(plan);
+  const std::string file = has_table ? "program.nc" : programs.front().file;
+  const Program program = read_back(folder, file, progress);
   WrittenPlan written;
   written.limits = plan.limits();
   const Program run = run_of(plan, program, progress);
   written.exact = predict_program(plan.part(), run, plan.dwell.lattice.kernel, progress);
-  if (plan.job.machine) {
+  if (plan.job.machine && has_table) {  // of others, check_written_exports says it
     for (std::string& fault : beyond_machine(program, plan.job.machine->machine))
       written.limits.push_back(std::move(fault));
   }
   Program table;
-  study_surface(plan, written, progress,
-                [&](const Progress& beside) { table = read_back(folder, "feed.csv", beside); });
+  study_surface(plan, written, progress, [&](const Progress& beside) {
+    if (has_table) table = read_back(folder, "feed.csv", beside);
+  });
   const DwellOptions options = dwell_options(plan.job);
   const double max_feed = options.machine.feed_limits().max_feed;
   written.run_seconds = run.run_seconds(max_feed);
@@ -208,9 +214,9 @@ WrittenPlan write_plan(const PlannedJob& plan, const OutputFolder& folder, const
   }
   written.program = program_figures(program, written.exact, to_string(plan.part().form), max_feed);
   written.program.seconds = written.run_seconds;  // of the machine's motion, where there is one
-  written.program_sha256 = sha256_of_file(folder.path("program.nc"));
+  written.program_sha256 = sha256_of_file(folder.path(file));
   compare_with_solver(plan, written);
-  compare_with_table(plan, program, table, written, progress);
+  if (has_table) compare_with_table(plan, program, table, written, progress);
   check_written_exports(plan, folder, programs, written, progress);
   progress.check();
 

@@ -65,23 +65,21 @@ Json feed_json(const FeedSchedule& feed, Motion motion) {
 }
 
 /// What the machine makes of the dwell.
-Json motion_json(const MotionPlan& motion, double planned) {
-  return {{"schedule", "constant"},
-          {"planned_rms_nm", planned},
-          {"one_shot_rms_nm", motion.one_shot()},
-          {"executed_rms_nm", motion.executed()},
-          {"rounds_rms_nm", motion.rounds},
-          {"best_round", motion.best},
-          {"dwell_s", motion.seconds.sum()},
-          {"strokes_at_least", motion.at_least},
-          {"strokes_too_short", motion.schedule.too_short}};
+Json motion_json(const MotionPlan& motion, ScheduleKind schedule, double planned) {
+  return {{"schedule", to_string(schedule)},      {"planned_rms_nm", planned},
+          {"one_shot_rms_nm", motion.one_shot()}, {"executed_rms_nm", motion.executed()},
+          {"rounds_rms_nm", motion.rounds},       {"best_round", motion.best},
+          {"dwell_s", motion.seconds.sum()},      {"strokes_at_least", motion.at_least},
+          {"strokes_too_short", motion.too_short}};
 }
 
 /// The program as read back, and how feed.csv was compared with it.
 Json program_json(const WrittenPlan& written) {
   Json program = program_block(written.program);
   program["sha256"] = written.program_sha256;
-  program["feed_table"] = written.table_has_same_steps ? "same steps" : "simulated";
+  if (written.table_has_same_steps) {
+    program["feed_table"] = *written.table_has_same_steps ? "same steps" : "simulated";
+  }
   return program;
 }
 
@@ -140,7 +138,8 @@ std::string plan_summary_text(const PlannedJob& plan, const WrittenPlan& written
   if (plan.dwell.motion) {
     summary["machine"] = machine_block(*plan.job.machine);
     if (!written.exports.empty()) summary["exports"] = exports_json(written);
-    summary["motion"] = motion_json(*plan.dwell.motion, plan.dwell.residual.rms_about_zero());
+    summary["motion"] =
+        motion_json(*plan.dwell.motion, plan.job.options.schedule, plan.dwell.residual.rms_about_zero());
   }
   return json_text(std::move(summary));
 }

@@ -112,8 +112,13 @@ RecordedPlan read_recorded_plan(const std::filesystem::path& folder) {
   const nlohmann::json summary = summary_of(folder);
   const std::string file = (folder / "summary.json").string();
   const std::filesystem::path names = folder_of_names(summary, folder);
-  RecordedPlan plan{folder, options_of(summary, file, names), {}, {}};
-  plan.program_sha256 = text_of(summary.value("program", nlohmann::json::object()), "sha256", file);
+  RecordedPlan plan{folder, options_of(summary, file, names), {}, {}, {}};
+  const nlohmann::json program = summary.value("program", nlohmann::json::object());
+  plan.program_sha256 = text_of(program, "sha256", file);
+  plan.program_file = text_of(program, "file", file);
+  if (std::filesystem::path(plan.program_file).filename() != plan.program_file)
+    throw InputError(
+        fmt::format("{}: program.file = \"{}\"; required a name in the plan's folder", file, plan.program_file));
   const auto inputs = summary.find("inputs");
   if (inputs == summary.end() || !inputs->is_array()) {
     throw InputError(fmt::format("{}: holds no inputs; required them in a plan's summary", file));

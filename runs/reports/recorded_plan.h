@@ -17,8 +17,10 @@ struct RecordedPlan {
   std::vector<InputFile> inputs;  // likewise
   std::string program_sha256;
 
+  std::string program_file;  // in the folder: program.nc, or what says a schedule of speeds
+
   /// The program that the machine runs.
-  std::filesystem::path program() const { return folder / "program.nc"; }
+  std::filesystem::path program() const { return folder / program_file; }
 };
 
 /// Reads a plan's folder. Relative names of files in it are those as seen from the folder in which the plan was made,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,8 +36,9 @@ struct WrittenPlan {
   std::vector<std::string> warnings;  // what a machine shop would question, a sentence each
   ProgramFigures program;             // of it, for the summary
   std::string program_sha256;
-  /// Whether feed.csv, read back, removes with the steps of program.nc; if not, it is simulated too.
-  bool table_has_same_steps = false;
+  /// Whether feed.csv, read back, removes with the steps of program.nc; if not, it is simulated too. Nothing where the
+  /// plan has no feed table.
+  std::optional<bool> table_has_same_steps{};
   std::vector<WrittenExport> exports;
   std::vector<std::string> limits;  // of the plan, and those that reading its files back has shown; a sentence each
   std::string summary;              // the text of summary.json

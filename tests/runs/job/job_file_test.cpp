@@ -57,6 +57,7 @@ JobOptions unusual() {
   o.max_feed_mm_per_min = 1e7;
   o.machine = "/data/machine.toml";
   o.rounds = 7;
+  o.schedule = ScheduleKind::Pvt;
   o.smoothness = {1e-9};
   o.time_price_nm2_per_s = {1.0 / 3.0, GoalKind::TotalAtMost};
   o.solver = SolverKind::DenseNnls;

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 
 #include "core/removal/simulate.h"
 #include "paths/feed/execution.h"
@@ -86,6 +87,28 @@ TEST(MotionPlan, IsStatedByTheMotionOfTheProgramOnDisk) {
   ASSERT_TRUE(s.executed);
   EXPECT_NEAR(s.after.statistics.rms, written.exact.statistics.rms, 1e-9);
   EXPECT_GT(s.executed->commanded.residual.rms, 1.5 * s.after.statistics.rms);  // made for the machine, not without it
+}
+
+/// Schedules of speeds: what the file says is what the machine does, and feeds alone are not written.
+TEST(MotionPlan, SaysSpeedsInAFileThatLeavesWhatThePlanSays) {
+  for (const ScheduleKind kind : {ScheduleKind::Linear, ScheduleKind::Pvt}) {
+    TurningJob job;
+    job.options.schedule = kind;
+    job.options.exports = {"pvt-csv"};
+    const PlannedJob plan = plan_job(job.options);
+    ASSERT_TRUE(plan.dwell.motion && plan.dwell.motion->program) << to_string(kind);
+    EXPECT_LE(plan.dwell.motion->executed(), 1.05 * plan.dwell.residual.rms_about_zero()) << to_string(kind);
+    OutputFolder folder(job.options.out, plan_files());
+    const WrittenPlan written = write_plan(plan, folder, {});
+    EXPECT_TRUE(written.limits.empty()) << to_string(kind) << ": " << written.limits.front();
+    EXPECT_EQ(written.program.file, "pvt.csv");
+    EXPECT_FALSE(written.table_has_same_steps);
+    EXPECT_FALSE(std::filesystem::exists(folder.path("program.nc")));
+    EXPECT_FALSE(std::filesystem::exists(folder.path("feed.csv")));
+    EXPECT_NEAR(written.exact.lattice_rms, plan.dwell.motion->executed(), 1e-3 * plan.dwell.motion->executed());
+    const Simulation s = simulate_file(folder.path("pvt.csv"), {}, job.options, {});
+    EXPECT_NEAR(s.after.statistics.rms, written.exact.statistics.rms, 1e-9) << to_string(kind);
+  }
 }
 
 }  // namespace
