@@ -9,18 +9,12 @@
 
 #include "core/base/counted.h"
 #include "core/base/errors.h"
+#include "core/base/segment.h"
 
 namespace dwell {
 namespace {
 
 constexpr double kTouch = 1e-6;  // [mm]
-
-double distance_to_segment(Point p, Point a, Point b) {
-  const Point along = b - a;
-  const double squared = dot(along, along);
-  const double share = squared > 0.0 ? std::clamp(dot(p - a, along) / squared, 0.0, 1.0) : 0.0;
-  return distance(p, a + share * along);
-}
 
 /// Twice the area of the triangle a, b, c; > 0 where it runs counter-clockwise.
 double cross(Point a, Point b, Point c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
@@ -119,7 +113,7 @@ class Sparing {
     const std::size_t count = static_cast<std::size_t>(std::count(marked.begin(), marked.end(), 1));
     if (count == 0) return false;
     if (count == result_.path.size()) {
-      throw InputError(fmt::format("keep-out: the zones leave none of the path's dwell points ({} before)",
+      throw InputError(fmt::format("`keep out`: the zones leave none of the path's dwell points ({} before)",
                                    counted(count + result_.left_out, "point")));
     }
     std::vector<Point> points;

@@ -1,6 +1,6 @@
 #include "paths/feed/stroke_moves.h"
 
-#include <algorithm>
+#include "core/base/segment.h"
 
 namespace dwell {
 namespace {
@@ -8,14 +8,6 @@ namespace {
 // Feed tables hold coordinates to 1e-6 mm, so each is off by at most 0.71e-6 mm in the plane, and the nodes of a
 // stroke, halfway between two of them, by no more: a straight stroke stays straight within twice that.
 constexpr double kStraightWithin = 2e-6;
-
-double distance_to_segment(Point p, Point a, Point b) {
-  const Point d = b - a;
-  const double squared = d.x * d.x + d.y * d.y;
-  if (!(squared > 0.0)) return distance(p, a);
-  const double along = ((p.x - a.x) * d.x + (p.y - a.y) * d.y) / squared;
-  return distance(p, a + std::clamp(along, 0.0, 1.0) * d);
-}
 
 void add(StrokeMoves& moves, Point start, Point finish, bool removes, Index stroke, double share) {
   moves.steps.push_back({start, finish, 0.0, removes});

@@ -27,8 +27,7 @@ void check_exports(const JobOptions& options) {
   if (options.schedule != ScheduleKind::Constant && (word.empty() || options.machine.empty())) {
     throw InputError(
         fmt::format("`schedule` = {}: feeds cannot say speeds between nodes, and no acceleration is known without a "
-                    "machine; required "
-                    "a `machine` file and an `export`: {}",
+                    "machine; required a `machine` file and an `export`: {}",
                     to_string(options.schedule), export_words()));
   }
   if (word.empty()) return;
