@@ -176,6 +176,7 @@ std::string executed_lines(const Simulation& s) {
          fmt::format("executed  {} for the run, {} of {} take over 1 % longer than commanded; up to {:.4g} mm/s^2\n",
                      duration_text(e.run_seconds), e.slow_steps, counted(e.removing_steps, "removing step"),
                      e.max_acceleration) +
+         (e.lifts.any() ? "          " + lift_words(e.lifts) + "\n" : "") +
          fmt::format(
              "commanded {} and {}, if every move had its speed from end to end; the removals differ by {:.4g} nm "
              "RMS\n",

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "paths/feed/least_dwell.h"
+#include "paths/feed/lift_rests.h"
 #include "paths/feed/trapezoid.h"
 
 namespace dwell {
@@ -126,12 +127,14 @@ class Scheduling {
 
 ConstantSchedule schedule_constant(const StrokeMoves& moves, const KinematicPath& path, const Machine& machine,
                                    const Eigen::VectorXd& dwell) {
-  const Eigen::VectorXd delays = stop_delays(moves, path, machine), moving = (dwell - delays).cwiseMax(0.0);
+  const Eigen::VectorXd delays = rests_of_strokes(moves, path, machine), moving = (dwell - delays).cwiseMax(0.0);
   Scheduling scheduling(moves, path, moving);
   const int rounds = scheduling.run();
   ConstantSchedule result = scheduling.schedule();
   result.rounds = rounds;
   result.seconds += delays;
+  result.halt.reserve(result.feed.size());
+  for (Index j = 0; j < dwell.size(); ++j) result.halt.push_back(commanded_halt(dwell[j], delays[j]));
   return result;
 }
 

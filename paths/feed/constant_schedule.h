@@ -12,6 +12,7 @@ namespace dwell {
 /// One feed a stroke, as plain G-code says it, compensated for what the controller makes of it.
 struct ConstantSchedule {
   std::vector<double> feed;  // to command on every stroke [mm/s]; 0 for halts
+  std::vector<double> halt;  // to command of every halt [s]: its dwell less what it settles; of strokes no matter
   Eigen::VectorXd seconds;   // that every stroke then takes [s]; of halts their dwell
   int rounds = 0;
   double worst_error = 0.0;  // largest |seconds - dwell| / dwell over strokes that could be held

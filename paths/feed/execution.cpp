@@ -6,6 +6,7 @@
 #include "core/base/poll.h"
 #include "core/motion/cubic_move.h"
 #include "paths/feed/kinematic_path.h"
+#include "paths/feed/lift_rests.h"
 #include "paths/feed/step_times.h"
 #include "paths/feed/trapezoid.h"
 
@@ -20,7 +21,11 @@ class Runner {
  public:
   /// `nodes`: where they are wanted.
   Runner(const Program& program, const Machine& machine, MotionNodes* nodes)
-      : program_(program), machine_(machine), nodes_(nodes), path_(kinematic_path(program, machine)) {
+      : program_(program),
+        machine_(machine),
+        nodes_(nodes),
+        lifts_(program, machine),
+        path_(kinematic_path(program, machine)) {
     feed_ = commanded_feeds(program, path_);
     u_ = node_speeds_squared(path_, feed_);
     result_.motion = program;
@@ -37,6 +42,7 @@ class Runner {
     Poll poll(progress);
     for (std::size_t i = 0; i < program_.steps.size(); ++i) {
       poll.step();
+      for (const ProgramStep& at_lift : lifts_.before(i)) keep_step(at_lift);
       result_.seconds.push_back(run_step(i) + half_rest(i) + half_rest(i + 1));
       if (path_.stops[i + 1] != 0) rest(program_.steps[i].finish);
     }
@@ -110,6 +116,7 @@ class Runner {
   const Program& program_;
   const Machine& machine_;
   MotionNodes* nodes_;
+  LiftRests lifts_;
   KinematicPath path_;
   std::vector<double> feed_, u_;
   Point from_;
@@ -122,9 +129,9 @@ bool says_speeds(const Program& program) {
                      [](const auto& step) { return step.speeds.has_value(); });
 }
 
-Execution run_as_it_stands(const Program& program) {
+Execution run_as_it_stands(const Program& program, const Machine& machine) {
   Execution run;
-  run.motion = program;
+  run.motion = with_lift_rests(program, machine);
   for (const ProgramStep& step : program.steps) {
     run.seconds.push_back(step.seconds);
     if (!step.speeds || !step.removes) continue;
@@ -136,8 +143,8 @@ Execution run_as_it_stands(const Program& program) {
   return run;
 }
 
-void add_as_it_stands(const Program& program, MotionNodes& nodes) {
-  for (const ProgramStep& step : program.steps) {
+void add_as_it_stands(const Program& program, const Machine& machine, MotionNodes& nodes) {
+  for (const ProgramStep& step : with_lift_rests(program, machine).steps) {
     if (!step.speeds) {
       const double speed = step.seconds > 0.0 ? step.length() / step.seconds : 0.0;
       nodes.run(step.start, step.finish, speed, speed, step.seconds, step.removes);
@@ -156,14 +163,14 @@ void add_as_it_stands(const Program& program, MotionNodes& nodes) {
 }  // namespace
 
 Execution execute(const Program& program, const Machine& machine, const Progress& progress) {
-  if (says_speeds(program)) return run_as_it_stands(program);
+  if (says_speeds(program)) return run_as_it_stands(program, machine);
   return Runner(program, machine, nullptr).run(progress);
 }
 
 std::vector<MotionNode> motion_nodes(const Program& program, const Machine& machine, const Progress& progress) {
   MotionNodes nodes;
   if (says_speeds(program)) {
-    add_as_it_stands(program, nodes);
+    add_as_it_stands(program, machine, nodes);
   } else {
     Runner(program, machine, &nodes).run(progress);
   }

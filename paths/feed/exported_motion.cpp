@@ -8,6 +8,7 @@
 #include "core/base/errors.h"
 #include "paths/feed/constant_schedule.h"
 #include "paths/feed/kinematic_path.h"
+#include "paths/feed/lift_rests.h"
 #include "paths/feed/stroke_moves.h"
 #include "paths/feed/trapezoid_program.h"
 
@@ -24,8 +25,7 @@ double least_acceleration(const Machine& machine) {
 }
 
 /// The program that a schedule commands.
-Program commanded(const StrokeMoves& moves, const ConstantSchedule& schedule, const Eigen::VectorXd& halts,
-                  double max_feed) {
+Program commanded(const StrokeMoves& moves, const ConstantSchedule& schedule, double max_feed) {
   Program program;
   program.fastest_feed = max_feed;
   for (std::size_t i = 0; i < moves.size(); ++i) {
@@ -35,7 +35,8 @@ Program commanded(const StrokeMoves& moves, const ConstantSchedule& schedule, co
       if (step.removes) step.seconds = step.length() / max_feed;
     } else {
       const double feed = schedule.feed[static_cast<std::size_t>(j)];
-      step.seconds = step.length() > 0.0 && feed > 0.0 ? step.length() / feed : halts[j];
+      step.seconds =
+          step.length() > 0.0 && feed > 0.0 ? step.length() / feed : schedule.halt[static_cast<std::size_t>(j)];
     }
     program.steps.push_back(step);
   }
@@ -88,9 +89,8 @@ Program exported_motion(const ToolPath& path, Motion motion, const Machine& mach
   TrapezoidProgram made;
   for (int round = 0; round < kRounds; ++round) {
     progress.check();
-    made = trapezoid_program(commanded(moves, schedule_constant(moves, kinematic, tight, aimed), seconds, most), tight,
-                             least);
-    Eigen::VectorXd taken = Eigen::VectorXd::Zero(seconds.size());
+    made = trapezoid_program(commanded(moves, schedule_constant(moves, kinematic, tight, aimed), most), tight, least);
+    Eigen::VectorXd taken = settling_of_strokes(moves, tight);
     std::vector<char> moving(static_cast<std::size_t>(seconds.size()), 0);
     for (std::size_t i = 0; i < moves.size(); ++i) {
       if (moves.stroke[i] == StrokeMoves::kNoStroke) continue;

@@ -2,12 +2,13 @@
 
 #include <cmath>
 
+#include "paths/feed/lift_rests.h"
 #include "paths/feed/trapezoid.h"
 
 namespace dwell {
 
-Eigen::VectorXd stop_delays(const StrokeMoves& moves, const KinematicPath& path, const Machine& machine) {
-  Eigen::VectorXd delay = Eigen::VectorXd::Zero(moves.strokes);
+Eigen::VectorXd rests_of_strokes(const StrokeMoves& moves, const KinematicPath& path, const Machine& machine) {
+  Eigen::VectorXd delay = settling_of_strokes(moves, machine);
   if (machine.corner_delay == 0.0) return delay;
   for (std::size_t i = 1; i < moves.size(); ++i) {
     if (path.stops[i] == 0) continue;
@@ -23,7 +24,7 @@ Eigen::VectorXd least_dwell(const StrokeMoves& moves, const KinematicPath& path,
   fastest.reserve(path.size());
   for (const KinematicMove& move : path.moves) fastest.push_back(move.max_speed);
   const std::vector<double> u = node_speeds_squared(path, fastest);
-  Eigen::VectorXd least = stop_delays(moves, path, machine);
+  Eigen::VectorXd least = rests_of_strokes(moves, path, machine);
   for (std::size_t i = 0; i < moves.size(); ++i) {
     const KinematicMove& move = path.moves[i];
     if (moves.stroke[i] == StrokeMoves::kNoStroke || !(move.length > 0.0)) continue;

@@ -7,9 +7,9 @@
 
 namespace dwell {
 
-/// The rest at exact stops, as every stroke has of it [s]: a stop inside a stroke is the stroke's, one between two
-/// strokes is shared by them. n values.
-Eigen::VectorXd stop_delays(const StrokeMoves& moves, const KinematicPath& path, const Machine& machine);
+/// The rests with the tool down, as every stroke has of them [s]: a stop inside a stroke is the stroke's, one between
+/// two strokes is shared by them, and where the tool comes down it settles in the stroke that begins there. n values.
+Eigen::VectorXd rests_of_strokes(const StrokeMoves& moves, const KinematicPath& path, const Machine& machine);
 
 /// The shortest time of every stroke on a machine [s], n values: with all moves as fast as speeds, accelerations and
 /// corners allow. A lower bound of every stroke's dwell; all strokes can have it at once. Halts have 0. Cost O(moves).

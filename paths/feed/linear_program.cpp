@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "paths/feed/lift_rests.h"
 #include "paths/feed/trapezoid.h"
 
 namespace dwell {
@@ -33,11 +34,13 @@ Program linear_program(const StrokeMoves& moves, const KinematicPath& path, cons
                        const Machine& machine) {
   Program program;
   program.fastest_feed = machine.max_feed;
+  const Eigen::VectorXd settling = settling_of_strokes(moves, machine);
   for (std::size_t i = 0; i < moves.size(); ++i) {
     ProgramStep step = moves.steps[i];
     const double in = schedule.speed[2 * i], middle = schedule.speed[2 * i + 1], out = schedule.speed[2 * i + 2];
     if (!(path.moves[i].length > 0.0)) {
-      if (moves.stroke[i] != StrokeMoves::kNoStroke) step.seconds = schedule.seconds[moves.stroke[i]];
+      const Index j = moves.stroke[i];
+      if (j != StrokeMoves::kNoStroke) step.seconds = commanded_halt(schedule.seconds[j], settling[j]);
       if (step.seconds > 0.0) program.steps.push_back(step);
     } else if (moves.stroke[i] == StrokeMoves::kNoStroke) {
       add_fast_move(program, step, path.moves[i], in, out);

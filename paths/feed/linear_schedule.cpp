@@ -111,7 +111,7 @@ Eigen::VectorXd moving_time(const std::vector<StrokePieces>& strokes, const Eige
 
 LinearSchedule schedule_linear(const StrokeMoves& moves, const KinematicPath& path, const Machine& machine,
                                const Eigen::VectorXd& dwell, int threads, const Progress& progress) {
-  const Eigen::VectorXd delays = stop_delays(moves, path, machine);
+  const Eigen::VectorXd delays = rests_of_strokes(moves, path, machine);
   const SpeedNodes nodes = speed_nodes(moves, path);
   const std::vector<StrokePieces> strokes = pieces_of_strokes(nodes, moves.strokes);
   const Eigen::VectorXd moving = moving_time(strokes, dwell, delays);

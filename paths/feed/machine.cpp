@@ -82,6 +82,9 @@ void validate(const Machine& machine) {
   check_positive("junction_deviation", machine.junction_deviation, "mm");
   check_not_negative("corner_delay", machine.corner_delay, "s");
   check_not_negative("min_feed", machine.min_feed, "mm/s");
+  check_not_negative("lift.up", machine.lift.lift, "s");
+  check_not_negative("lift.down", machine.lift.plunge, "s");
+  check_not_negative("lift.settle", machine.lift.settle, "s");
   check_min_feed(machine.min_feed, "max_feed", machine.max_feed);
   check_min_feed(machine.min_feed, "x.max_speed", machine.x.max_speed);
   check_min_feed(machine.min_feed, "y.max_speed", machine.y.max_speed);

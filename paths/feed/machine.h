@@ -27,6 +27,15 @@ enum class CornerRule {
 
 std::string_view to_string(CornerRule rule);
 
+/// How long a machine rests where the tool is lifted and lowered [s], >= 0, beside the ways up and down that a program
+/// says itself: with the tool up when it is lifted and when it is lowered, and then with the tool down until it has
+/// settled, which removes.
+struct LiftTimes {
+  double lift = 0.0, plunge = 0.0, settle = 0.0;
+
+  bool operator==(const LiftTimes&) const = default;
+};
+
 /// A machine with two axes in the part's plane, as far as its motion decides what is removed.
 /// Infinite limits do not bind. A default machine has none and is what a plan without a machine takes for granted.
 struct Machine {
@@ -37,6 +46,7 @@ struct Machine {
   double junction_deviation = 0.01;  // [mm], > 0
   double corner_delay = 0.0;         // at rest at each exact stop [s], >= 0
   double min_feed = 0.0;             // [mm/s], >= 0
+  LiftTimes lift{};
   /// How the machine's axes lie against the part's coordinates, in which paths and steps are: the limits of an axis,
   /// its travel too, are those of the program's coordinate of that name.
   ProgramFrame frame{};

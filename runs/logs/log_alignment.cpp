@@ -286,6 +286,7 @@ Program recorded_motion(const MotionLog& log, const AlignedLog& aligned, const P
       ++i;
       continue;
     }
+    if (!motion.steps.empty()) motion.steps.push_back({motion.steps.back().finish, program.steps[i].start, 0.0, false});
     std::size_t end = i;
     while (end < aligned.end && program.steps[end].removes) ++end;
     const double from = aligned.nodes[i - aligned.first].leaves, to = aligned.nodes[end - aligned.first].arrives;

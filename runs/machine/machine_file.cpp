@@ -42,7 +42,13 @@ std::vector<MachineField> make_fields() {
                                    {"corner", "junction_deviation_mm", "for the rule junction-deviation", 0.0, true,
                                     [](Machine& m) -> double& { return m.junction_deviation; }, 1.0},
                                    {"corner", "delay_s", "at rest at each exact stop", 0.0, false,
-                                    [](Machine& m) -> double& { return m.corner_delay; }, 1.0}};
+                                    [](Machine& m) -> double& { return m.corner_delay; }, 1.0},
+                                   {"lift", "up_s", "rest with the tool up when it is lifted, beside its way up", 0.0,
+                                    false, [](Machine& m) -> double& { return m.lift.lift; }, 1.0},
+                                   {"lift", "down_s", "rest with the tool up when it is lowered, beside its way down",
+                                    0.0, false, [](Machine& m) -> double& { return m.lift.plunge; }, 1.0},
+                                   {"lift", "settle_s", "rest with the tool down before it moves: that removes", 0.0,
+                                    false, [](Machine& m) -> double& { return m.lift.settle; }, 1.0}};
   add_axis(fields, "x", "[mm in the program's coordinates]",
            {[](Machine& m) -> double& { return m.x.lowest; }, [](Machine& m) -> double& { return m.x.highest; },
             [](Machine& m) -> double& { return m.x.max_speed; },
@@ -223,6 +229,7 @@ NamedMachine example_machine() {
   m.x = {-150.0, 150.0, 50.0, 500.0};
   m.y = {-150.0, 150.0, 50.0, 500.0};
   m.corner = CornerRule::ExactStop;
+  m.lift = {0.5, 0.5, 0.1};
   return named;
 }
 

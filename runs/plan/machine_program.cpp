@@ -7,6 +7,7 @@
 #include "core/base/counted.h"
 #include "core/base/errors.h"
 #include "paths/feed/plan_program.h"
+#include "paths/feed/stroke_moves.h"
 
 namespace dwell {
 
@@ -47,6 +48,7 @@ TravelTimes travel_times(const LaidPath& laid, double lift_height_mm, const Mach
     const std::vector<double> no_dwell(laid.path.size(), 0.0);
     times.between_stops = program_of(laid.path, no_dwell, laid.motion, max_feed).total_seconds();
   }
+  if (machine.machine) times.rests = lift_totals({{}, stroke_moves(laid.path, laid.motion).steps}, *machine.machine);
   double across = 0.0;  // as the program goes: from the end of a stroke to the beginning of the next
   for (std::size_t j = 1; j < laid.strokes.size(); ++j) {
     if (laid.path.lifted[j] != 0) across += distance(laid.strokes[j - 1].finish, laid.strokes[j].start);

@@ -6,6 +6,7 @@
 
 #include "core/motion/program.h"
 #include "paths/feed/feed.h"
+#include "paths/feed/lift_rests.h"
 #include "runs/plan/dwell_plan.h"
 #include "runs/plan/laid_path.h"
 #include "runs/plan/machine_limits.h"
@@ -32,8 +33,9 @@ struct TravelTimes {
   double between_stops = 0.0;  // from halt to halt with the tool down; 0 where the tool runs through
   double lifted = 0.0;         // rapids, up by the lift height and across: the program does not say their time
   double down = 0.0;           // at the beginning and after each lift: feed moves of the program
+  LiftTotals rests{};          // of the machine at lifts; settling is part of the dwell
 
-  double total() const { return between_stops + lifted + down; }
+  double total() const { return between_stops + lifted + down + rests.lift + rests.plunge; }
 };
 
 /// Cost O(points).

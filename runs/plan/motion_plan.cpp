@@ -11,6 +11,7 @@
 #include "paths/feed/execution.h"
 #include "paths/feed/exported_motion.h"
 #include "paths/feed/kinematic_path.h"
+#include "paths/feed/lift_rests.h"
 #include "paths/feed/linear_program.h"
 #include "paths/feed/linear_schedule.h"
 #include "paths/feed/stroke_moves.h"
@@ -45,7 +46,7 @@ class Loop {
     plan.too_short = ((plan.seconds - dwell).array() > kTooShort * dwell.array()).count();
     plan.program = linear_program(moves_, path_, schedule, machine_);
     if (kind_ == ScheduleKind::Pvt) join_velocities(*plan.program);
-    return left_by(*plan.program);
+    return left_by(with_lift_rests(*plan.program, machine_));
   }
 
   double rms_of(const HeightMap& left) const {
@@ -61,7 +62,7 @@ class Loop {
     const ConstantSchedule schedule = schedule_constant(moves_, path_, machine_, dwell);
     plan.seconds = schedule.seconds;
     plan.too_short = schedule.too_short;
-    plan.commanded.assign(dwell.data(), dwell.data() + dwell.size());
+    plan.commanded = schedule.halt;
     for (std::size_t j = 0; j < plan.commanded.size(); ++j) {
       if (schedule.feed[j] > 0.0) plan.commanded[j] = strokes_[j].length() / schedule.feed[j];
     }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/counted.h"
 #include "core/base/units.h"
 #include "core/base/whole_file.h"
 #include "runs/base/inputs_json.h"
@@ -38,6 +39,13 @@ std::string corner_words(const Machine& m) {
   return "";
 }
 
+/// The rests at lifts; empty without any.
+std::string lift_line(const LiftTimes& lift) {
+  if (lift == LiftTimes{}) return "";
+  return fmt::format("lifts     rest {:.6g} s up, {:.6g} s before coming down, {:.6g} s down, which removes\n",
+                     lift.lift, lift.plunge, lift.settle);
+}
+
 /// What it costs to come to rest from a feed and to start again.
 std::string stop_words(const Machine& m, double feed) {
   const double a = std::min({m.path_acceleration, m.x.max_acceleration, m.y.max_acceleration});
@@ -64,7 +72,22 @@ std::string machine_lines(const NamedMachine& machine) {
   return fmt::format("machine   {}\naxes      {}\n          {}\npath      {}, {}\ncorners   {}\n",
                      machine.name.empty() ? "without a name" : machine.name, axis_words("x", m.x), axis_words("y", m.y),
                      feed, limit_words(m.path_acceleration, "mm/s^2"), corner_words(m)) +
-         stop_line(m);
+         lift_line(m.lift) + stop_line(m);
+}
+
+std::string lift_words(const LiftTotals& totals) {
+  if (!totals.any()) return "";
+  return fmt::format("rests {:.2f} s at {} and {:.2f} s before coming down {}; settling {:.2f} s, which removes",
+                     totals.lift, counted(totals.lifts, "lift"), totals.plunge, counted(totals.plunges, "time"),
+                     totals.settle);
+}
+
+nlohmann::ordered_json lift_block(const LiftTotals& totals) {
+  return {{"lifts", totals.lifts},
+          {"plunges", totals.plunges},
+          {"up_s", totals.lift},
+          {"down_s", totals.plunge},
+          {"settle_s", totals.settle}};
 }
 
 nlohmann::ordered_json machine_block(const NamedMachine& machine) {

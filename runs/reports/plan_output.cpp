@@ -157,8 +157,10 @@ void check_written_exports(const PlannedJob& plan, const OutputFolder& folder,
       written.limits.push_back(fmt::format("{}: {}", format.file, fault));
     const bool same =
         first && same_removing_steps(program, *first, units::mm_per_s(plan.job.options.max_feed_mm_per_min));
-    now.residual = same ? written.exports.front().residual
-                        : predict_program(plan.part(), program, plan.dwell.lattice.kernel, progress).statistics;
+    now.residual =
+        same ? written.exports.front().residual
+             : predict_program(plan.part(), run_of(plan, program, progress), plan.dwell.lattice.kernel, progress)
+                   .statistics;
     const double left = written.exact.statistics.rms_about_zero(), by_file = now.residual.rms_about_zero();
     if (differs(left, by_file, std::max(kSimulationTolerance, 3.0 * written.exact.standard_error / left))) {
       written.limits.push_back(fmt::format("{} leaves {:.6g} nm RMS{} but {} on the machine {:.6g} nm", format.file,

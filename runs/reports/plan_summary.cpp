@@ -140,6 +140,7 @@ std::string plan_summary_text(const PlannedJob& plan, const WrittenPlan& written
     if (!written.exports.empty()) summary["exports"] = exports_json(written);
     summary["motion"] =
         motion_json(*plan.dwell.motion, plan.job.options.schedule, plan.dwell.residual.rms_about_zero());
+    if (written.travel.rests.any()) summary["motion"]["lift_rests"] = lift_block(written.travel.rests);
   }
   return json_text(std::move(summary));
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "paths/feed/lift_rests.h"
 #include "paths/feed/step_times.h"
 #include "runs/drawing/line_chart.h"
 #include "runs/logs/log_file.h"
@@ -62,8 +63,11 @@ RecordedRun recorded_run(const LogSource& source, const Program& program, const 
     way += program.steps[i].length();
     run.excess.push_back(run.aligned.step_seconds(i) - expected[i]);
   }
+  // A log does not say when the tool is down, so settling is the machine's.
+  const Machine settling = machine.value_or(Machine{});
   const ExactResidual left =
-      predict_program(part, recorded_motion(run.log, run.aligned, program), kernel, progress.of_part("removal"));
+      predict_program(part, with_lift_rests(recorded_motion(run.log, run.aligned, program), settling), kernel,
+                      progress.of_part("removal"));
   run.residual = left.statistics;
   HeightMap change = simulated;
   for (std::size_t i = 0; i < change.values.size(); ++i) change.values[i] -= left.surface.values[i];

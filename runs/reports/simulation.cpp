@@ -51,6 +51,7 @@ Program executed_on(const NamedMachine& machine, const Program& program, Execute
   executed.machine = machine;
   executed.run_seconds = run.motion.run_seconds();
   executed.max_acceleration = run.max_acceleration;
+  executed.lifts = lift_totals(program, machine.machine);
   constexpr double kSlow = 1.01;
   for (std::size_t i = 0; i < program.steps.size(); ++i) {
     const ProgramStep& step = program.steps[i];
@@ -143,6 +144,7 @@ std::string simulation_json(const Simulation& s) {
                         {"removal_change_rms_nm", e.removal_change},
                         {"commanded_rms_nm", e.commanded.residual.rms},
                         {"commanded_total_s", e.commanded.run_seconds}};
+    if (e.lifts.any()) json["executed"]["lift_rests"] = lift_block(e.lifts);
   }
   if (s.recorded) json["recorded"] = recorded_block(*s.recorded);
   json["anatomy"] = anatomy_block(s.anatomy, s.advice);

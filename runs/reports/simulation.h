@@ -11,6 +11,7 @@
 #include "core/motion/program.h"
 #include "core/removal/exact_residual.h"
 #include "core/tif/removal_kernel.h"
+#include "paths/feed/lift_rests.h"
 #include "paths/feed/motion_nodes.h"
 #include "runs/base/input_file.h"
 #include "runs/base/json_blocks.h"
@@ -45,6 +46,7 @@ struct ExecutedProgram {
   std::size_t slow_steps = 0;   // removing steps that take more than 1 % longer than commanded
   std::size_t removing_steps = 0;
   double max_acceleration = 0.0;  // along the path, at work [mm/s^2]
+  LiftTotals lifts{};             // the machine's rests at them
 };
 
 /// The effect of a program on disk on a map.

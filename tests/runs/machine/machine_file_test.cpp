@@ -58,7 +58,7 @@ TEST(MachineFile, RefusesByFileLineFieldAndValue) {
   EXPECT_EQ(refusal("max_feed = 3000\n").substr(0, 60), "m.toml: line 1: max_feed: unknown field; accepted: name, sch");
   EXPECT_EQ(refusal("[x]\n\nmax_jerk = 3\n").substr(0, 60),
             "m.toml: line 3: x.max_jerk: unknown field; accepted in [x]: ");
-  EXPECT_EQ(refusal("[spindle]\nspeed = 3\n"), "m.toml: unknown section [spindle]; accepted: corner, x, y");
+  EXPECT_EQ(refusal("[spindle]\nspeed = 3\n"), "m.toml: unknown section [spindle]; accepted: corner, lift, x, y");
   EXPECT_EQ(refusal("path_acceleration_mm_per_s2 = \"500\"\n"),
             "m.toml: line 1: path_acceleration_mm_per_s2 = '500'; required a finite number > 0 (without quotes)");
   EXPECT_EQ(refusal("max_feed_mm_per_min = -2\n"),
@@ -71,6 +71,8 @@ TEST(MachineFile, RefusesByFileLineFieldAndValue) {
   EXPECT_EQ(refusal("name = 3\n"), "m.toml: line 1: name = 3; required a string (in quotes)");
   EXPECT_EQ(refusal("[x]\nlowest_mm = 4\nhighest_mm = 2\n"),
             "m.toml: machine: x.travel: lowest 4 mm and highest 2 mm; required lowest < highest");
+  EXPECT_EQ(refusal("[lift]\nsettle_s = -1\n"),
+            "m.toml: line 2: lift.settle_s = -1; required a finite number >= 0 (without quotes)");
   EXPECT_EQ(refusal("x = 3\n").substr(0, 34), "m.toml: line 1: x: unknown field; ");
   EXPECT_NE(refusal("max_feed_mm_per_min = \n"), "");
 }

@@ -89,6 +89,41 @@ TEST(MotionPlan, IsStatedByTheMotionOfTheProgramOnDisk) {
   EXPECT_GT(s.executed->commanded.residual.rms, 1.5 * s.after.statistics.rms);  // made for the machine, not without it
 }
 
+/// The tool settles in the first stroke after each lift, which that stroke's feed makes up for; lifting and lowering
+/// are time alone.
+TEST(MotionPlan, CountsTheRestsAtLifts) {
+  TurningJob job;
+  job.options.path = parse_path_spec("raster:pitch=1.2,overrun=1");
+  job.options.keep_out = "circle:3,6,2";
+  job.options.exports = {"pvt-csv"};
+  const PlannedJob plain = plan_job(job.options);
+  NamedMachine machine = read_machine_file(job.options.machine);
+  machine.machine.lift = {0.5, 0.25, 0.04};
+  job.options.machine = job.folder.file("lifting.toml", machine_text(machine)).string();
+  const PlannedJob plan = plan_job(job.options);
+  const auto plunges = static_cast<double>(plan.laid.metrics.lifts + 1);
+  ASSERT_GT(plunges, 2.0);
+  EXPECT_NEAR(plan.dwell.motion->executed(), plain.dwell.motion->executed(), 0.02 * plain.dwell.motion->executed());
+  const Eigen::VectorXd least = least_dwell_of(plan.laid, dwell_options(plan.job).machine),
+                        plain_least = least_dwell_of(plain.laid, dwell_options(plain.job).machine);
+  EXPECT_NEAR(least.sum() - plain_least.sum(), 0.04 * plunges, 1e-9);
+  OutputFolder folder(job.options.out, plan_files());
+  const WrittenPlan written = write_plan(plan, folder, {});
+  EXPECT_TRUE(written.limits.empty()) << written.limits.front();
+  EXPECT_NEAR(written.travel.rests.lift, 0.5 * (plunges - 1.0), 1e-9);
+  EXPECT_NEAR(written.travel.rests.plunge, 0.25 * plunges, 1e-9);
+  EXPECT_NEAR(written.exact.lattice_rms, plan.dwell.motion->executed(), 2e-3 * plan.dwell.motion->executed());
+  const Simulation s = simulate_file(folder.path("program.nc"), {}, job.options, {});
+  EXPECT_NEAR(s.after.statistics.rms, written.exact.statistics.rms, 1e-9);
+  EXPECT_NEAR(s.executed->run_seconds, written.run_seconds, 1e-6);
+  EXPECT_NEAR(s.executed->lifts.settle, 0.04 * plunges, 1e-9);
+  // The table of positions, velocities and times has no settling; the machine makes it.
+  const Simulation table = simulate_file(folder.path("pvt.csv"), {}, job.options, {});
+  EXPECT_NEAR(table.after.statistics.rms, written.exact.statistics.rms, 2e-3 * written.exact.statistics.rms);
+  EXPECT_NEAR(table.executed->run_seconds - table.executed->commanded.run_seconds,
+              0.5 * (plunges - 1.0) + 0.29 * plunges, 1e-6);
+}
+
 /// Schedules of speeds: what the file says is what the machine does, and feeds alone are not written.
 TEST(MotionPlan, SaysSpeedsInAFileThatLeavesWhatThePlanSays) {
   for (const ScheduleKind kind : {ScheduleKind::Linear, ScheduleKind::Pvt}) {
