@@ -34,8 +34,9 @@ struct FitArguments {
   JsonOption json;
 };
 
-GcodeReading program_reading(const FitArguments& a) {
+GcodeReading program_reading(const FitArguments& a, const Machine& start) {
   GcodeReading reading;
+  reading.letters = start.letters;
   if (!a.gcode.empty()) reading.dialect = of_option("--gcode", [&a] { return parse_gcode_dialect(a.gcode); });
   if (!a.g4.empty()) reading.halts = of_option("--g4", [&a] { return parse_halt_unit(a.g4); });
   return reading;
@@ -66,7 +67,7 @@ int run_fit(const FitArguments& a) {
                                  : read_machine_file(a.machine);
   progress.step("read: log and program");
   const MotionLog log = read_motion_log(a.log, a.reading.reading(), progress);
-  const Program program = read_program(a.program, program_reading(a), progress);
+  const Program program = read_program(a.program, program_reading(a, start.machine), progress);
   progress.step("align the log");
   const AlignedLog aligned = align_log(log, program, a.reading.tolerance(), progress);
   const MachineFit fit = fit_machine(aligned, program, start.machine, progress.of_part("fit"));

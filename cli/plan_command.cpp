@@ -50,6 +50,17 @@ std::string motion_lines(const PlannedJob& plan) {
                      m.at_least, plan.laid.path.size(), m.too_short);
 }
 
+/// What the controller's block rate did to the path; empty without one.
+std::string block_lines(const PlannedJob& plan) {
+  if (!plan.blocks) return "";
+  const BlockMerging& b = *plan.blocks;
+  return fmt::format(
+      "blocks    {} of {} were shorter than {:.6g} blocks/s allow, at {:.4g} nm RMS planned; {} after merging straight "
+      "on, at {:.4g} nm; {} run no faster than that\n",
+      b.short_before, b.before, plan.job.machine->machine.controller.max_blocks_per_s, b.rms_before, b.after,
+      plan.dwell.residual.rms_about_zero(), counted(b.bounded, "stroke"));
+}
+
 /// The programs besides feed.csv and program.nc; empty without any.
 std::string export_lines(const WrittenPlan& written) {
   std::string lines;
@@ -88,7 +99,7 @@ std::string plan_text(const PlannedJob& plan, const WrittenPlan& written) {
       "predicted {} by the solver, on a lattice of {}{}\n", rms_in_words(plan.dwell.residual),
       lattice_words(plan.dwell.lattice.kernel),
       plan.dwell.lattices > 1 ? fmt::format(" (solved {}, each finer)", counted(plan.dwell.lattices, "time")) : "");
-  text += motion_lines(plan);
+  text += block_lines(plan) + motion_lines(plan);
   text += fmt::format("program   {} by simulating {} as read back{}\n", in_words(written.exact.statistics),
                       written.program.file, plan.dwell.motion ? ", executed on the machine" : "");
   text += export_lines(written) + exact_lines(written.exact);

@@ -15,10 +15,12 @@
 namespace dwell {
 namespace {
 
-constexpr double kAccelerationMargin = 0.995, kSpeedMargin = 0.999;
-constexpr double kRoundedPlace = 1.5e-6;  // [mm] both ends of a step, in both axes
-constexpr double kLeastPiece = 1e-3;      // [s]
-constexpr int kRounds = 3;                // of schedules
+constexpr double kSpeedMargin = 0.999;
+constexpr double kFileStep = 1e-6;     // [mm]
+constexpr double kRoundedPlace = 1.5;  // of a step of places: both ends, in both axes
+constexpr double kLeastPiece = 1e-3;   // [s]
+constexpr double kLeastTicks = 4.0;    // of the clock, a piece
+constexpr int kRounds = 3;             // of schedules
 
 double least_acceleration(const Machine& machine) {
   return std::min({machine.path_acceleration, machine.x.max_acceleration, machine.y.max_acceleration});
@@ -45,6 +47,10 @@ Program commanded(const StrokeMoves& moves, const ConstantSchedule& schedule, do
 
 }  // namespace
 
+double listed_corner_delay(const Machine& machine) {
+  return machine.corner_delay > 0.0 ? std::max(machine.corner_delay, least_block_seconds(machine)) : 0.0;
+}
+
 void check_exported_motion(const Machine& machine, ScheduleKind schedule) {
   for (const Point along : {Point{1.0, 0.0}, Point{0.0, 1.0}}) {
     if (std::isfinite(acceleration_limit(machine, along))) continue;
@@ -61,28 +67,31 @@ void check_exported_motion(const Machine& machine, ScheduleKind schedule) {
       to_string(machine.corner)));
 }
 
-Machine with_margins(const Machine& machine) {
+Machine with_margins(const Machine& machine, double acceleration_share) {
   Machine tight = machine;
   for (MachineAxis* axis : {&tight.x, &tight.y}) {
-    axis->max_acceleration *= kAccelerationMargin;
+    axis->max_acceleration *= acceleration_share;
     axis->max_speed *= kSpeedMargin;
   }
-  tight.path_acceleration *= kAccelerationMargin;
+  tight.path_acceleration *= acceleration_share;
   tight.max_feed *= kSpeedMargin;
   return tight;
 }
 
-double least_piece_seconds(const Machine& machine) {
+double least_piece_seconds(const Machine& machine, double acceleration_share) {
   // A place that is off by d changes the accelerations at the ends of a cubic of T by 6 d / T^2.
-  const double margin = 0.5 * (1.0 - kAccelerationMargin) * least_acceleration(machine);
-  return std::max(kLeastPiece, std::sqrt(6.0 * kRoundedPlace / margin));
+  const double margin = 0.5 * (1.0 - acceleration_share) * least_acceleration(machine);
+  const double place = kRoundedPlace * std::max(kFileStep, machine.controller.position_resolution);
+  return std::max({kLeastPiece, std::sqrt(6.0 * place / margin), kLeastTicks * machine.controller.time_resolution,
+                   least_block_seconds(machine)});
 }
 
 Program exported_motion(const ToolPath& path, Motion motion, const Machine& machine, double max_feed,
-                        const Eigen::VectorXd& seconds, const Progress& progress) {
+                        const Eigen::VectorXd& seconds, const Progress& progress, double acceleration_share) {
   check_exported_motion(machine);
-  const Machine tight = with_margins(machine);
-  const double least = least_piece_seconds(machine), most = kSpeedMargin * max_feed;
+  Machine tight = with_margins(machine, acceleration_share);
+  tight.corner_delay = listed_corner_delay(machine);
+  const double least = least_piece_seconds(machine, acceleration_share), most = kSpeedMargin * max_feed;
   const StrokeMoves moves = stroke_moves(path, motion);
   const KinematicPath kinematic = kinematic_path(moves.steps, tight, most);
   Eigen::VectorXd aimed = seconds;

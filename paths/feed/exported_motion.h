@@ -11,25 +11,34 @@
 
 namespace dwell {
 
+/// The rest at a corner as a line of a table of positions, velocities and times: no shorter than the controller's
+/// blocks; 0 if there is none [s].
+double listed_corner_delay(const Machine& machine);
+
 /// What a table of positions, velocities and times needs of a machine that runs plain feeds. Throws InputError naming
 /// `export`, the field of the machine and what is required: a limit of acceleration in every direction, and exact stops
 /// at corners, since a velocity that jumps cannot be said.
 /// A schedule of joined velocities (Pvt) takes any corner.
 void check_exported_motion(const Machine& machine, ScheduleKind schedule = ScheduleKind::Constant);
 
-/// The machine with its accelerations at 0.995 and its speeds at 0.999, so that what is scheduled for it keeps the
-/// limits of the machine itself after its numbers were rounded to 1e-6 mm and 1e-6 mm/s.
-Machine with_margins(const Machine& machine);
+/// The share of a machine's accelerations that is scheduled, so that the rounded numbers of files keep all of them.
+inline constexpr double kAccelerationShare = 0.995;
 
-/// The shortest piece of which rounding by 1e-6 mm changes the acceleration by no more than half of that margin, at
-/// least 1 ms, as controllers take such tables [s].
-double least_piece_seconds(const Machine& machine);
+/// The machine with such a share of its accelerations and 0.999 of its speeds, so that what is scheduled for it keeps
+/// the limits of the machine itself after its numbers were rounded to 1e-6 mm and 1e-6 mm/s.
+Machine with_margins(const Machine& machine, double acceleration_share = kAccelerationShare);
+
+/// The shortest piece of which rounding of its places changes the acceleration by no more than half of that margin, at
+/// least 1 ms, as controllers take such tables, four steps of the controller's clock, and what its block rate asks for
+/// [s].
+double least_piece_seconds(const Machine& machine, double acceleration_share = kAccelerationShare);
 
 /// The motion of a plan with one feed a stroke, as pieces of constant acceleration within the machine's margins: every
 /// stroke takes the time that it has in the plan's own motion (`seconds`, one a stroke), so that it removes the same.
 /// Feeds are made for these times (schedule_constant) and corrected twice for what short pieces change. Throws
 /// InputError as check_exported_motion and trapezoid_program, Interrupted. Cost: three schedules.
 Program exported_motion(const ToolPath& path, Motion motion, const Machine& machine, double max_feed,
-                        const Eigen::VectorXd& seconds, const Progress& progress = {});
+                        const Eigen::VectorXd& seconds, const Progress& progress = {},
+                        double acceleration_share = kAccelerationShare);
 
 }  // namespace dwell

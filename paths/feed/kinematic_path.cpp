@@ -11,9 +11,10 @@
 namespace dwell {
 namespace {
 
-// Coordinates in files are rounded to 1e-6 mm, which turns a straight line by no more than this over the length of a
-// move, and no machine tells a tenth of a milliradian from straight on.
-constexpr double kRounding = 2e-6;    // [mm]
+// Coordinates in files are rounded to 1e-6 mm, or to the resolution of the controller's places, which turns a straight
+// line by no more than twice that over the length of a move, and no machine tells a tenth of a milliradian from
+// straight on.
+constexpr double kFilePlaces = 1e-6;  // [mm]
 constexpr double kStraightOn = 1e-4;  // [rad]
 
 /// The highest squared speed between two moves.
@@ -22,7 +23,8 @@ double corner_speed_squared(const ProgramStep& before, const ProgramStep& after,
   const Point a = before.finish - before.start, b = after.finish - after.start;
   const double la = length(a), lb = length(b);
   const double turn = std::atan2(std::abs(a.x * b.y - a.y * b.x), dot(a, b));
-  if (turn <= kStraightOn + kRounding * (1.0 / la + 1.0 / lb)) return std::numeric_limits<double>::infinity();
+  const double rounding = 2.0 * std::max(kFilePlaces, machine.controller.position_resolution);
+  if (turn <= kStraightOn + rounding * (1.0 / la + 1.0 / lb)) return std::numeric_limits<double>::infinity();
   switch (rule) {
     case CornerRule::ExactStop:
       return 0.0;
@@ -77,7 +79,13 @@ void refuse_blending(const Program& program) {
 
 KinematicPath kinematic_path(const std::vector<ProgramStep>& steps, const Machine& machine, double max_feed) {
   KinematicPath path = make_path(steps, machine, [&machine](std::size_t) { return EndRule{machine.corner, false}; });
-  for (KinematicMove& move : path.moves) move.max_speed = std::min(move.max_speed, max_feed);
+  const double least = least_block_seconds(machine);
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    KinematicMove& move = path.moves[i];
+    move.max_speed = std::min(move.max_speed, max_feed);
+    if (least > 0.0 && steps[i].removes && move.length > 0.0)
+      move.max_speed = std::min(move.max_speed, move.length / least);
+  }
   return path;
 }
 

@@ -28,7 +28,8 @@ struct KinematicPath {
 /// lifted or lowered. Between two moves that turn by more than rounding explains, the squared speed is at most a d s /
 /// (1 - s) with a the lesser acceleration, d the junction deviation and s the sine of half the angle between the moves
 /// (Jeon 2011, "Improving Grbl: cornering algorithm"), 0 for an exact stop. Cost O(steps).
-/// `max_feed`: of the program [mm/s], where it is less than the machine's.
+/// `max_feed`: of the program [mm/s], where it is less than the machine's. Moves at work are slow enough for the
+/// controller's block rate (least_block_seconds).
 KinematicPath kinematic_path(const std::vector<ProgramStep>& steps, const Machine& machine,
                              double max_feed = std::numeric_limits<double>::infinity());
 

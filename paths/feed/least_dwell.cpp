@@ -27,7 +27,11 @@ Eigen::VectorXd least_dwell(const StrokeMoves& moves, const KinematicPath& path,
   Eigen::VectorXd least = rests_of_strokes(moves, path, machine);
   for (std::size_t i = 0; i < moves.size(); ++i) {
     const KinematicMove& move = path.moves[i];
-    if (moves.stroke[i] == StrokeMoves::kNoStroke || !(move.length > 0.0)) continue;
+    if (moves.stroke[i] == StrokeMoves::kNoStroke) continue;
+    if (!(move.length > 0.0)) {
+      least[moves.stroke[i]] += least_block_seconds(machine);
+      continue;
+    }
     least[moves.stroke[i]] +=
         time_at_feed({move.length, move.acceleration, std::sqrt(u[i]), std::sqrt(u[i + 1])}, move.max_speed);
   }

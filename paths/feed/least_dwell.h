@@ -12,7 +12,8 @@ namespace dwell {
 Eigen::VectorXd rests_of_strokes(const StrokeMoves& moves, const KinematicPath& path, const Machine& machine);
 
 /// The shortest time of every stroke on a machine [s], n values: with all moves as fast as speeds, accelerations and
-/// corners allow. A lower bound of every stroke's dwell; all strokes can have it at once. Halts have 0. Cost O(moves).
+/// corners allow. A lower bound of every stroke's dwell; all strokes can have it at once. Halts have what the block
+/// rate asks for. Cost O(moves).
 Eigen::VectorXd least_dwell(const StrokeMoves& moves, const KinematicPath& path, const Machine& machine);
 
 }  // namespace dwell

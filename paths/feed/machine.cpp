@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/base/errors.h"
 
@@ -45,7 +46,46 @@ void check_min_feed(double min_feed, const char* field, double limit) {
                                limit, field));
 }
 
+void check_controller(const Machine& machine) {
+  const ControllerLimits& c = machine.controller;
+  check_positive("controller.max_blocks_per_s", c.max_blocks_per_s, "1/s");
+  check_not_negative("controller.time_resolution", c.time_resolution, "s");
+  check_not_negative("controller.position_resolution", c.position_resolution, "mm");
+  if (!(c.time_resolution * c.max_blocks_per_s <= 1.0) && c.time_resolution > 0.0 &&
+      std::isfinite(c.max_blocks_per_s)) {
+    throw InputError(
+        fmt::format("machine: controller.time_resolution = {} s and controller.max_blocks_per_s = {} 1/s; required at "
+                    "least one step "
+                    "of its clock a block, time_resolution <= {} s",
+                    c.time_resolution, c.max_blocks_per_s, 1.0 / c.max_blocks_per_s));
+  }
+  for (const auto& [name, axis] : {std::pair{"x", machine.x}, std::pair{"y", machine.y}}) {
+    if (c.position_resolution < axis.highest - axis.lowest) continue;
+    throw InputError(fmt::format(
+        "machine: controller.position_resolution = {} mm and {}.travel from {} to {} mm; required less than "
+        "the travel",
+        c.position_resolution, name, axis.lowest, axis.highest));
+  }
+}
+
+void check_letters(const AxisLetters& letters) {
+  for (const auto& [name, letter] : {std::pair{"x", letters.x}, std::pair{"y", letters.y}}) {
+    if (kAxisLetters.find(letter) != std::string_view::npos) continue;
+    throw InputError(fmt::format("machine: {}.letter = {}; accepted: one of {}", name, letter, kAxisLetters));
+  }
+  if (letters.x == letters.y) {
+    throw InputError(
+        fmt::format("machine: x.letter = {} and y.letter = {}; required two letters", letters.x, letters.y));
+  }
+}
+
 }  // namespace
+
+double least_block_seconds(const Machine& machine) {
+  const ControllerLimits& controller = machine.controller;
+  if (!std::isfinite(controller.max_blocks_per_s)) return 0.0;
+  return 1.0 / controller.max_blocks_per_s + controller.time_resolution;
+}
 
 std::string_view to_string(CornerRule rule) {
   switch (rule) {
@@ -85,6 +125,8 @@ void validate(const Machine& machine) {
   check_not_negative("lift.up", machine.lift.lift, "s");
   check_not_negative("lift.down", machine.lift.plunge, "s");
   check_not_negative("lift.settle", machine.lift.settle, "s");
+  check_controller(machine);
+  check_letters(machine.letters);
   check_min_feed(machine.min_feed, "max_feed", machine.max_feed);
   check_min_feed(machine.min_feed, "x.max_speed", machine.x.max_speed);
   check_min_feed(machine.min_feed, "y.max_speed", machine.y.max_speed);

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "core/base/point.h"
+#include "core/motion/axis_letters.h"
 #include "core/motion/program.h"
 #include "core/motion/program_frame.h"
 
@@ -36,6 +37,16 @@ struct LiftTimes {
   bool operator==(const LiftTimes&) const = default;
 };
 
+/// What a controller makes of the numbers and lines of a program.
+struct ControllerLimits {
+  double max_blocks_per_s = std::numeric_limits<double>::infinity();  // > 0; one line after the other at work
+  double time_resolution = 0.0;                                       // of its clock [s], >= 0; 0: as files have it
+  double position_resolution = 0.0;                                   // of its places [mm], >= 0; 0 likewise
+
+  /// Whether it holds less than files do.
+  bool is_coarse() const { return time_resolution > 0.0 || position_resolution > 0.0; }
+};
+
 /// A machine with two axes in the part's plane, as far as its motion decides what is removed.
 /// Infinite limits do not bind. A default machine has none and is what a plan without a machine takes for granted.
 struct Machine {
@@ -47,6 +58,8 @@ struct Machine {
   double corner_delay = 0.0;         // at rest at each exact stop [s], >= 0
   double min_feed = 0.0;             // [mm/s], >= 0
   LiftTimes lift{};
+  ControllerLimits controller{};
+  AxisLetters letters{};
   /// How the machine's axes lie against the part's coordinates, in which paths and steps are: the limits of an axis,
   /// its travel too, are those of the program's coordinate of that name.
   ProgramFrame frame{};
@@ -61,8 +74,13 @@ double speed_limit(const Machine& machine, Point along);
 /// The same for acceleration [mm/s^2].
 double acceleration_limit(const Machine& machine, Point along);
 
+/// The shortest time that a line of a program may take at work [s]: that of the controller's block rate and, since
+/// times are rounded to it, its clock's resolution; 0 without a block rate.
+double least_block_seconds(const Machine& machine);
+
 /// Throws InputError naming the fields of the machine that contradict each other, with both values: a travel of no
-/// length, a minimum feed above what an axis or the path can do; or the one that is out of range.
+/// length, a minimum feed above what an axis or the path can do, a clock slower than the block rate, one letter for two
+/// axes; or the one that is out of range.
 void validate(const Machine& machine);
 
 }  // namespace dwell

@@ -6,6 +6,7 @@
 
 #include "core/base/counted.h"
 #include "core/base/units.h"
+#include "paths/feed/block_check.h"
 #include "paths/feed/cubic_check.h"
 
 namespace dwell {
@@ -74,6 +75,7 @@ std::vector<std::string> beyond_machine(const Program& program, const Machine& o
   const ProgramStep* first = fast.count > 0 ? &program.steps[fast.first] : nullptr;
   say(fast, "faster", first != nullptr ? speed_limit(machine, first->finish - first->start) : 0.0);
   say(slow, "slower", machine.min_feed);
+  if (auto fault = short_blocks(program, of_part)) faults.push_back(std::move(*fault));
   for (std::string& fault : cubics_beyond_machine(program, machine)) faults.push_back(std::move(fault));
   return faults;
 }

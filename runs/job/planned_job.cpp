@@ -11,6 +11,7 @@
 #include "runs/job/program_style.h"
 #include "runs/machine/machine_file.h"
 #include "runs/plan/leave_out.h"
+#include "runs/plan/rounded_motion.h"
 #include "runs/programs/program_formats.h"
 
 namespace dwell {
@@ -56,18 +57,25 @@ PlannedJob plan_loaded(Job job, JobPath path, double used, const Progress& progr
   planned.job = std::move(job);
   if (auto file = path_input(planned.job.options)) planned.job.inputs.push_back(std::move(*file));
   planned.laid = std::move(path.laid);
-  planned.dwell = path.dwell ? std::move(*path.dwell) : find_dwell(planned.part(), planned.laid, options, progress);
+  const TimeLimit limit = time_limit(options.max_seconds, used);
+  planned.blocks = merge_blocks(planned.part(), planned.laid, options, progress);
+  options.used_seconds = planned.blocks ? limit.used() : used;
+  const bool found = path.dwell && !(planned.blocks && planned.blocks->short_before > 0);
+  planned.dwell = found ? std::move(*path.dwell) : find_dwell(planned.part(), planned.laid, options, progress);
   if (planned.job.options.blemishes == BlemishHandling::LeaveOut) {
-    options.used_seconds = used + planned.dwell.solver.seconds;
+    options.used_seconds += planned.dwell.solver.seconds;
     planned.dwell = leave_out_blemishes(planned.part(), planned.laid, std::move(planned.dwell), options, progress);
   }
+  if (planned.blocks) planned.blocks->bounded = strokes_bounded_by_blocks(planned.laid, planned.dwell, options.machine);
   planned.program = make_machine_program(planned.laid, planned.dwell, options.machine, progress);
   if (planned.dwell.motion && planned.dwell.motion->program) {
     planned.program.motion = planned.dwell.motion->program;
   } else if (!export_that_needs_motion(planned.job.options.exports).empty() && planned.dwell.motion) {
-    planned.program.motion =
-        exported_motion(planned.program.table.path, planned.laid.motion, *options.machine.machine,
-                        options.machine.feed_limits().max_feed, planned.dwell.motion->seconds, progress);
+    planned.program.motion = motion_to_be_rounded(*options.machine.machine, [&](double acceleration_share) {
+      return exported_motion(planned.program.table.path, planned.laid.motion, *options.machine.machine,
+                             options.machine.feed_limits().max_feed, planned.dwell.motion->seconds, progress,
+                             acceleration_share);
+    });
   }
   return planned;
 }

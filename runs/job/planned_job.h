@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "runs/job/job.h"
+#include "runs/plan/block_plan.h"
 #include "runs/plan/dwell_plan.h"
 #include "runs/plan/laid_path.h"
 #include "runs/plan/machine_program.h"
@@ -16,6 +18,7 @@ struct PlannedJob {
   LaidPath laid;
   DwellPlan dwell;
   MachineProgram program;
+  std::optional<BlockMerging> blocks{};  // for a controller with a block rate
 
   const Part& part() const { return *job.part; }
   /// Limits that were reached, one sentence each, with the flags of the options; not empty = exit code 3.

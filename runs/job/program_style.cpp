@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.h"
+#include "paths/feed/exported_motion.h"
 #include "runs/programs/frame_text.h"
 
 namespace dwell {
@@ -47,6 +48,10 @@ ProgramFrame program_frame(const JobOptions& options) {
 Machine machine_for_program(const Machine& machine, const JobOptions& options) {
   Machine placed = machine;
   placed.frame = program_frame(options);
+  if (options.schedule != ScheduleKind::Constant) {  // a move with a speed at its middle is two blocks
+    placed.corner_delay = listed_corner_delay(machine);
+    placed.controller.max_blocks_per_s *= 0.5;
+  }
   if (options.path_mode.choice == PathModeOption::Choice::Given) placed.corner = CornerRule::ExactStop;  // G61
   return placed;
 }
@@ -65,6 +70,7 @@ void check_program_style(const JobOptions& options, const std::optional<NamedMac
   gcode.lift_height_mm = options.lift_height_mm;
   gcode.max_feed_mm_per_min = options.max_feed_mm_per_min;
   gcode.style = gcode_style(options, machine, {}, {});
+  if (machine) gcode.machine = machine->machine;
   check_gcode_inserts(before, after, gcode, machine.has_value());
 }
 

@@ -16,6 +16,7 @@
 #include "paths/feed/linear_schedule.h"
 #include "paths/feed/stroke_moves.h"
 #include "runs/plan/least_dwell_of.h"
+#include "runs/plan/rounded_motion.h"
 
 namespace dwell {
 namespace {
@@ -29,8 +30,7 @@ class Loop {
   Loop(const Part& part, const LaidPath& laid, const RemovalKernel& kernel, const DwellOptions& options)
       : part_(part),
         kernel_(kernel),
-        machine_(options.schedule == ScheduleKind::Constant ? *options.machine.machine
-                                                            : with_margins(*options.machine.machine)),
+        machine_(*options.machine.machine),
         kind_(options.schedule),
         max_feed_(options.machine.feed_limits().max_feed),
         moves_(stroke_moves(laid.path, laid.motion)),
@@ -40,13 +40,12 @@ class Loop {
   /// Feeds or speeds for a dwell, and the surface that the machine leaves with them.
   HeightMap execute_dwell(const Eigen::VectorXd& dwell, MotionPlan& plan, const Progress& progress) const {
     if (kind_ == ScheduleKind::Constant) return left_by(execute_feeds(dwell, plan, progress));
-    const LinearSchedule schedule = schedule_linear(moves_, path_, machine_, dwell, part_.threads, progress);
-    plan.seconds = schedule.seconds;
+    plan.program = motion_to_be_rounded(machine_, [&](double acceleration_share) {
+      return program_of_speeds(dwell, acceleration_share, plan, progress);
+    });
     plan.commanded.assign(plan.seconds.begin(), plan.seconds.end());
     plan.too_short = ((plan.seconds - dwell).array() > kTooShort * dwell.array()).count();
-    plan.program = linear_program(moves_, path_, schedule, machine_);
-    if (kind_ == ScheduleKind::Pvt) join_velocities(*plan.program);
-    return left_by(with_lift_rests(*plan.program, machine_));
+    return left_by(with_lift_rests(rounded_motion(*plan.program, machine_), machine_));
   }
 
   double rms_of(const HeightMap& left) const {
@@ -56,6 +55,17 @@ class Loop {
  private:
   HeightMap left_by(const Program& motion) const {
     return surface_after(part_.map, simulate(motion, part_.map, kernel_, part_.threads));
+  }
+
+  Program program_of_speeds(const Eigen::VectorXd& dwell, double acceleration_share, MotionPlan& plan,
+                            const Progress& progress) const {
+    const Machine tight = with_margins(machine_, acceleration_share);
+    const KinematicPath path = kinematic_path(moves_.steps, tight, max_feed_);
+    const LinearSchedule schedule = schedule_linear(moves_, path, tight, dwell, part_.threads, progress);
+    plan.seconds = schedule.seconds;
+    Program program = linear_program(moves_, path, schedule, tight);
+    if (kind_ == ScheduleKind::Pvt) join_velocities(program);
+    return program;
   }
 
   Program execute_feeds(const Eigen::VectorXd& dwell, MotionPlan& plan, const Progress& progress) const {

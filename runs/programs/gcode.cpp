@@ -35,7 +35,11 @@ struct NamedPlace {
 class GcodeWriter {
  public:
   explicit GcodeWriter(const GcodeOptions& options)
-      : options_(options), max_feed_(units::mm_per_s(options.max_feed_mm_per_min)) {
+      : options_(options),
+        max_feed_(units::mm_per_s(options.max_feed_mm_per_min)),
+        machine_(options.machine.value_or(Machine{})) {
+    machine_.frame = {};  // the limits of axes are those of the program's coordinates, which the moves have here
+
     if (!(options.max_feed_mm_per_min > 0.0) || !std::isfinite(options.max_feed_mm_per_min)) {
       throw InputError(fmt::format("maximum feed = {} mm/min; required finite and > 0", options.max_feed_mm_per_min));
     }
@@ -104,7 +108,7 @@ class GcodeWriter {
                           : options_.dialect == GcodeDialect::G93PerMinute ? "1/[minutes of the move]"
                                                                            : "seconds of the move";
     if (style.inches) block("G20");  // first, for a remark about inches is refused in millimetres
-    comment(fmt::format("units: X Y Z {}, F {}, P seconds", length, f));
+    comment(fmt::format("units: {} {} Z {}, F {}, P seconds", machine_.letters.x, machine_.letters.y, length, f));
     if (!style.inches) block("G21");
     block("G90");
     block("G17");
@@ -130,7 +134,9 @@ class GcodeWriter {
   double unit() const { return options_.style.inches ? units::kMmPerInch : 1.0; }
 
   NamedPlace named(Point of_part) const {
-    const Point place = frame_.to_program(of_part);
+    Point place = frame_.to_program(of_part);
+    if (const double step = machine_.controller.position_resolution; step > 0.0)
+      place = {std::round(place.x / step) * step, std::round(place.y / step) * step};
     NamedPlace result{length_text(place.x), length_text(place.y), {}};
     result.point = {unit() * number_of(result.x), unit() * number_of(result.y)};
     return result;
@@ -144,18 +150,18 @@ class GcodeWriter {
   void reposition(Point to) {
     lift();
     at_ = named(to);
-    block("G0 X{} Y{}", at_.x, at_.y);
+    block("G0 {}{} {}{}", machine_.letters.x, at_.x, machine_.letters.y, at_.y);
   }
 
   void come_down() {
     if (!lifted_) return;
-    block("G1 Z0 F{}", feed_word(unit() * number_of(lift_height_), 0.0));
+    block("G1 Z0 F{}", feed_word(unit() * number_of(lift_height_), 0.0, max_feed_));
     lifted_ = false;
   }
 
-  // F of a move of `length` [mm] that should take `seconds`: never faster than that, nor than maximum feed.
-  std::string feed_word(double length, double seconds) const {
-    const double slowest = std::max(seconds, length / max_feed_);
+  // F of a move of `length` [mm] that should take `seconds`: never faster than that, nor than `most` [mm/s].
+  std::string feed_word(double length, double seconds, double most) const {
+    const double slowest = std::max(seconds, length / most);
     switch (options_.dialect) {
       case GcodeDialect::G93PerMinute:
         return digits_not_above(units::kSecondsPerMinute / slowest);
@@ -175,23 +181,37 @@ class GcodeWriter {
     const NamedPlace to = named(step.finish);
     const double length = distance(at_.point, to.point);
     if (length > 0.0) {
-      block("G1 X{} Y{} F{}", to.x, to.y, feed_word(length, step.seconds));
+      const double most = std::min(max_feed_, speed_limit(machine_, to.point - at_.point));
+      block("G1 {}{} {}{} F{}", machine_.letters.x, to.x, machine_.letters.y, to.y,
+            feed_word(length, step.seconds, most));
     } else {
-      block("G4 P{}", digits_nearest(step.seconds));
+      halt(step.seconds);
     }
     at_ = to;
+  }
+
+  // What a clock takes or gives by its steps is made up for by the next halt.
+  void halt(double seconds) {
+    const double step = machine_.controller.time_resolution;
+    if (!(step > 0.0)) return block("G4 P{}", digits_nearest(seconds));
+    halts_ += seconds;
+    const double steps = std::max(1.0, std::round((halts_ - halted_) / step));
+    halted_ += steps * step;
+    block("G4 P{}", digits_nearest(steps * step));
   }
 
   static constexpr int kLastBlockNumber = 99999;  // of RS274/NGC; numbers need not be different
 
   const GcodeOptions& options_;
   double max_feed_;
+  Machine machine_;  // without limits where none is given
   std::string lift_height_;
   fmt::memory_buffer text_;
   ProgramFrame frame_;
   int block_number_ = options_.style.block_numbers;
   bool lifted_ = false;
   NamedPlace at_;
+  double halts_ = 0.0, halted_ = 0.0;  // sums of the halts, as they should be and as they were written [s]
 };
 
 }  // namespace

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/base/progress.h"
 #include "core/motion/program.h"
+#include "paths/feed/machine.h"
 #include "runs/programs/gcode_dialect.h"
 #include "runs/programs/gcode_style.h"
 
@@ -16,6 +18,9 @@ struct GcodeOptions {
   double max_feed_mm_per_min = 0.0;  // > 0; no F exceeds it, and the tool comes down to work at it
   std::vector<std::string> header;   // comments, as comment_text; at most kLongestComment characters each
   GcodeStyle style;
+  /// Whose letters the axes have, of whose steps places and halts are multiples (each place by itself, halts in their
+  /// sum, so that errors do not add up), and whose speeds no rounded move exceeds.
+  std::optional<Machine> machine{};
 };
 
 /// The text of program.nc (docs/formats.md), in the program's frame: in ASCII, no line longer than kLongestLine. It

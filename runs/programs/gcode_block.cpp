@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.h"
+#include "runs/programs/axis_words.h"
 #include "runs/programs/gcode_codes.h"
 
 namespace dwell {
@@ -17,7 +18,7 @@ PathMode::Kind path_mode_of(const GcodeCode& code) {
 // Collects one line.
 class BlockCollector {
  public:
-  explicit BlockCollector(const GcodePlace& where) : where_(where) {}
+  BlockCollector(const GcodePlace& where, AxisLetters letters) : where_(where), letters_(letters) {}
 
   GcodeBlock collect(const GcodeLine& line) {
     for (const GcodeWord& word : line.words) {
@@ -46,11 +47,10 @@ class BlockCollector {
   }
 
   void take_word(const GcodeWord& word) {
+    if (word.letter == letters_.x) return once(block_.x, word.value, word);
+    if (word.letter == letters_.y) return once(block_.y, word.value, word);
+    if (const std::string why_not = why_no_axis(word.letter, letters_); !why_not.empty()) refuse(word, why_not);
     switch (word.letter) {
-      case 'X':
-        return once(block_.x, word.value, word);
-      case 'Y':
-        return once(block_.y, word.value, word);
       case 'Z':
         return once(block_.z, word.value, word);
       case 'F':
@@ -72,6 +72,10 @@ class BlockCollector {
         break;
     }
     const std::string_view why = refused_letter(word.letter);
+    if (!why.empty() && kAxisLetters.find(word.letter) != std::string_view::npos) {
+      refuse(word, fmt::format("{}; if an axis of the part's plane is called so, a `machine` file that says its letter",
+                               why));
+    }
     if (!why.empty()) refuse(word, why);
     fail(fmt::format("word \"{}\" is not known; {}", word.text, accepted_gcode()));
   }
@@ -177,14 +181,15 @@ class BlockCollector {
   }
 
   const GcodePlace& where_;
+  AxisLetters letters_;
   GcodeBlock block_;
   std::optional<GcodeWord> q_, o_, cancels_;
 };
 
 }  // namespace
 
-GcodeBlock collect_gcode_block(const GcodeLine& line, const GcodePlace& where) {
-  return BlockCollector(where).collect(line);
+GcodeBlock collect_gcode_block(const GcodeLine& line, const GcodePlace& where, AxisLetters letters) {
+  return BlockCollector(where, letters).collect(line);
 }
 
 }  // namespace dwell

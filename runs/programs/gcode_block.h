@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/motion/axis_letters.h"
 #include "core/motion/program.h"
 #include "runs/programs/gcode_words.h"
 
@@ -30,7 +31,7 @@ struct GcodeBlock {
 
 /// Collects the words of a line. Throws InputError that begins with the place and names the word and what is accepted:
 /// a code or letter that is not known or would change what the program means (gcode_codes.h), a second word of its
-/// kind, P, Q or axes beside a code that does not take them.
-GcodeBlock collect_gcode_block(const GcodeLine& line, const GcodePlace& where);
+/// kind, P, Q or axes beside a code that does not take them; an axis of the plane that is none of `letters`.
+GcodeBlock collect_gcode_block(const GcodeLine& line, const GcodePlace& where, AxisLetters letters = {});
 
 }  // namespace dwell

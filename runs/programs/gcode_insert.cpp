@@ -112,7 +112,9 @@ bool are_same_steps(const std::vector<ProgramStep>& a, const std::vector<Program
 Program read_probe(const GcodeInsert& before, const GcodeInsert& after, const GcodeOptions& options) {
   const std::string text = probe_text(before, after, options);
   try {
-    return read_gcode(text, kTrial, {});
+    GcodeReading reading;
+    if (options.machine) reading.letters = options.machine->letters;
+    return read_gcode(text, kTrial, reading);
   } catch (const InputError& error) {
     throw InputError(about_user_line(error.what(), text, before, after));
   }

@@ -59,7 +59,7 @@ class GcodeInterpreter {
       remarks_.take(comment, where, {inches_, x_ || y_ || z_});
     }
     if (parts_.words.empty()) return false;
-    const GcodeBlock block = collect_gcode_block(parts_, where);
+    const GcodeBlock block = collect_gcode_block(parts_, where, remarks_.reading().letters);
     if (block.numbered && begun_)
       fail("O: another program begins before the end of this one; required M2 or M30 first");
     begun_ = true;

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "core/base/point.h"
+#include "core/motion/axis_letters.h"
 #include "runs/programs/gcode_dialect.h"
 
 namespace dwell {
@@ -23,6 +24,7 @@ struct GcodeReading {
   std::optional<HaltUnit> halts = {};
   /// Where a program begins that says relative places alone, or none before its first move [mm].
   std::optional<Point> start = {};
+  AxisLetters letters = {};  // of the machine's axes, in programs that name axes
 };
 
 }  // namespace dwell

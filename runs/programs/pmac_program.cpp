@@ -11,6 +11,7 @@
 #include "core/base/poll.h"
 #include "core/base/text_lines.h"
 #include "core/base/utf8_text.h"
+#include "runs/programs/axis_words.h"
 #include "runs/programs/number_text.h"
 #include "runs/programs/pvt_place.h"
 
@@ -54,8 +55,9 @@ std::string_view take_number(std::string_view& rest) {
 
 class PmacReader {
  public:
-  PmacReader(std::string_view text, const std::string& file, std::optional<Point> start, const Progress& progress)
-      : lines_(text), start_(start), ends_with_line_(text.ends_with('\n')), poll_(progress) {
+  PmacReader(std::string_view text, const std::string& file, std::optional<Point> start, const Progress& progress,
+             AxisLetters letters)
+      : lines_(text), letters_(letters), start_(start), ends_with_line_(text.ends_with('\n')), poll_(progress) {
     at_.file = file;
   }
 
@@ -144,8 +146,10 @@ class PmacReader {
       } else if (is_pvt_word(code)) {
         code.remove_prefix(3);
         milliseconds_ = at_.within("PVT", take_number(code), kPmacTimes);
-      } else if (code.front() == 'X' || code.front() == 'Y') {
+      } else if (is_axis(code.front())) {
         return read_step(code);
+      } else if (const std::string why = why_no_axis(code.front(), letters_); !why.empty()) {
+        at_.fail(why);
       } else {
         at_.fail(fmt::format("\"{}\" is not known or not honoured; accepted: {}",
                              with_escaped_bytes(code.substr(0, 40)), kPmacWords));
@@ -153,6 +157,8 @@ class PmacReader {
       code = trim(code);
     }
   }
+
+  bool is_axis(char letter) const { return letter == letters_.x || letter == letters_.y; }
 
   /// Whether the code begins with a word that ends there.
   static bool take_word(std::string_view& code, std::string_view word) {
@@ -173,8 +179,9 @@ class PmacReader {
     std::optional<double> places[2], speeds[2];
     while (!code.empty()) {
       const char axis = code.front();
-      const std::size_t k = axis == 'Y' ? 1 : 0;
-      if (axis != 'X' && axis != 'Y')
+      const std::size_t k = axis == letters_.y ? 1 : 0;
+      if (const std::string why = why_no_axis(axis, letters_); !why.empty()) at_.fail(why);
+      if (!is_axis(axis))
         at_.fail(fmt::format("\"{}\"; accepted: {}", with_escaped_bytes(code.substr(0, 40)), kPmacWords));
       if (places[k]) at_.fail(fmt::format("a second {} on a line; accepted: one", axis));
       code.remove_prefix(1);
@@ -188,7 +195,8 @@ class PmacReader {
       }
       code = trim(code);
     }
-    if (!places[0] || !places[1]) at_.fail("a step without X or Y; required both");
+    if (!places[0] || !places[1])
+      at_.fail(fmt::format("a step without {} or {}; required both", letters_.x, letters_.y));
     add(Point{*places[0], *places[1]}, (1.0 / (kMilli * *time_unit_)) * Point{*speeds[0], *speeds[1]});
   }
 
@@ -213,6 +221,7 @@ class PmacReader {
   }
 
   TextLines lines_;
+  AxisLetters letters_;
   std::optional<Point> start_;
   bool ends_with_line_;
   Poll poll_;
@@ -224,7 +233,8 @@ class PmacReader {
 
 }  // namespace
 
-std::string pmac_program_text(const PvtTable& table, std::size_t first, std::size_t last, const FeedTable& made) {
+std::string pmac_program_text(const PvtTable& table, std::size_t first, std::size_t last, const FeedTable& made,
+                              AxisLetters letters) {
   PvtTable stretch;
   const auto begin = table.rows.begin();
   stretch.rows.assign(begin + static_cast<std::ptrdiff_t>(first), begin + static_cast<std::ptrdiff_t>(last) + 1);
@@ -240,8 +250,8 @@ std::string pmac_program_text(const PvtTable& table, std::size_t first, std::siz
     std::string now = coordinate_text((row.seconds - stretch.rows[i - 1].seconds) / kMilli);
     if (now != time) fmt::format_to(out, "PVT{}\n", now);
     time = std::move(now);
-    fmt::format_to(out, "X{}:{} Y{}:{}\n", coordinate_text(row.place.x), coordinate_text(row.speed.x),
-                   coordinate_text(row.place.y), coordinate_text(row.speed.y));
+    fmt::format_to(out, "{}{}:{} {}{}:{}\n", letters.x, coordinate_text(row.place.x), coordinate_text(row.speed.x),
+                   letters.y, coordinate_text(row.place.y), coordinate_text(row.speed.y));
   }
   return fmt::to_string(text);
 }
@@ -263,8 +273,8 @@ bool is_pmac_program(std::string_view text) {
 }
 
 PvtTable parse_pmac_program(std::string_view text, const std::string& file, std::optional<Point> start,
-                            const Progress& progress) {
-  return PmacReader(text, file, start, progress).read();
+                            const Progress& progress, AxisLetters letters) {
+  return PmacReader(text, file, start, progress, letters).read();
 }
 
 }  // namespace dwell

@@ -59,36 +59,40 @@ std::vector<WrittenProgram> write_gcode(const ProgramToWrite& program, const Pro
   options.max_feed_mm_per_min = program.table.max_feed_mm_per_min;
   options.header = writing.header;
   options.style = writing.gcode;
+  options.machine = writing.machine;
   return {{"program.nc", gcode_text(program_of(program.table), options, progress)}};
 }
 
-PvtTable table_of_motion(const ProgramToWrite& program, const Progress& progress) {
+PvtTable table_of_motion(const ProgramToWrite& program, const ProgramWriting& writing, const Progress& progress) {
   if (!program.motion) throw std::logic_error("a program of positions, velocities and times needs the motion");
-  return pvt_table_of(*program.motion, progress);
+  return pvt_table_of(*program.motion, progress, writing.machine ? pvt_steps_of(*writing.machine) : PvtSteps{});
 }
 
 Program read_csv(std::string_view text, const std::string& file, const GcodeReading&, const Progress& progress) {
   return program_of(parse_pvt_csv(text, file, progress), file);
 }
 
-std::vector<WrittenProgram> write_csv(const ProgramToWrite& program, const ProgramWriting&, const Progress& progress) {
-  return {{"pvt.csv", pvt_csv_text(table_of_motion(program, progress), program.table, progress)}};
+std::vector<WrittenProgram> write_csv(const ProgramToWrite& program, const ProgramWriting& writing,
+                                      const Progress& progress) {
+  return {{"pvt.csv", pvt_csv_text(table_of_motion(program, writing, progress), program.table, progress)}};
 }
 
 Program read_json(std::string_view text, const std::string& file, const GcodeReading&, const Progress& progress) {
   return program_of(parse_pvt_json(text, file, progress), file);
 }
 
-std::vector<WrittenProgram> write_json(const ProgramToWrite& program, const ProgramWriting&, const Progress& progress) {
-  return {{"pvt.json", pvt_json_text(table_of_motion(program, progress), program.table, progress)}};
+std::vector<WrittenProgram> write_json(const ProgramToWrite& program, const ProgramWriting& writing,
+                                       const Progress& progress) {
+  return {{"pvt.json", pvt_json_text(table_of_motion(program, writing, progress), program.table, progress)}};
 }
 
 Program read_hdf5(std::string_view text, const std::string& file, const GcodeReading&, const Progress& progress) {
   return program_of(parse_pvt_hdf5(text, file, progress), file);
 }
 
-std::vector<WrittenProgram> write_hdf5(const ProgramToWrite& program, const ProgramWriting&, const Progress& progress) {
-  return {{"pvt.h5", pvt_hdf5_bytes(table_of_motion(program, progress), program.table)}};
+std::vector<WrittenProgram> write_hdf5(const ProgramToWrite& program, const ProgramWriting& writing,
+                                       const Progress& progress) {
+  return {{"pvt.h5", pvt_hdf5_bytes(table_of_motion(program, writing, progress), program.table)}};
 }
 
 template <StretchKind kind>
@@ -97,16 +101,19 @@ bool is_list(std::string_view text) {
 }
 
 template <StretchKind kind>
-Program read_list(std::string_view text, const std::string& file, const GcodeReading&, const Progress& progress) {
+Program read_list(std::string_view text, const std::string& file, const GcodeReading& reading,
+                  const Progress& progress) {
   const ReadBeside beside = [&file](const std::string& name) {
     return read_whole_file(std::filesystem::path(file).parent_path() / name);
   };
-  return program_of(parse_stretch_list(text, file, kind, beside, progress), file);
+  return program_of(parse_stretch_list(text, file, kind, beside, progress, reading.letters), file);
 }
 
 template <StretchKind kind>
-std::vector<WrittenProgram> write_list(const ProgramToWrite& program, const ProgramWriting&, const Progress& progress) {
-  return written_stretches(kind, table_of_motion(program, progress), program.table, progress);
+std::vector<WrittenProgram> write_list(const ProgramToWrite& program, const ProgramWriting& writing,
+                                       const Progress& progress) {
+  return written_stretches(kind, table_of_motion(program, writing, progress), program.table, progress,
+                           writing.machine ? writing.machine->letters : AxisLetters{});
 }
 
 Program read_xps(std::string_view text, const std::string& file, const GcodeReading& reading,
@@ -116,7 +123,7 @@ Program read_xps(std::string_view text, const std::string& file, const GcodeRead
 
 Program read_pmac(std::string_view text, const std::string& file, const GcodeReading& reading,
                   const Progress& progress) {
-  return program_of(parse_pmac_program(text, file, reading.start, progress), file);
+  return program_of(parse_pmac_program(text, file, reading.start, progress, reading.letters), file);
 }
 
 /// Whether a plan with these exports has the format.

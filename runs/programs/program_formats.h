@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/motion/program.h"
+#include "paths/feed/machine.h"
 #include "runs/programs/feed_table.h"
 #include "runs/programs/gcode_dialect.h"
 #include "runs/programs/gcode_reading.h"
@@ -20,6 +21,8 @@ struct ProgramWriting {
   double lift_height_mm = 10.0;          // Z of lifted moves
   std::vector<std::string> header = {};  // comment lines; a format whose table names its inputs itself ignores them
   GcodeStyle gcode{};                    // of G-code alone
+  /// Whose letters the axes have, of whose steps places and times are multiples, and whose speeds rounded moves keep.
+  std::optional<Machine> machine{};
 };
 
 /// A plan's program: as a table of dwell and feeds, and as the motion that is scheduled.

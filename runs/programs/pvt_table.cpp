@@ -21,10 +21,29 @@ constexpr double kNoSpeed = 1e-6;           // [mm/s] below what files hold
 double in_last_decimal(double value) { return number_of(coordinate_text(value)); }
 Point in_last_decimal(Point p) { return {in_last_decimal(p.x), in_last_decimal(p.y)}; }
 
-/// The time of a tick, as the text of a file reads back.
-double time_of(std::int64_t ticks) { return number_of(seconds_text(static_cast<double>(ticks) / kTicksPerSecond)); }
+/// The grid of a table's numbers.
+class PvtGrid {
+ public:
+  explicit PvtGrid(const PvtSteps& steps) : steps_(steps) {}
 
-std::int64_t ticks_of(double seconds) { return std::llround(seconds * kTicksPerSecond); }
+  bool has_clock() const { return steps_.seconds > 0.0; }
+  /// The time of a tick, as the text of a file reads back.
+  double time_of(std::int64_t ticks) const {
+    const auto count = static_cast<double>(ticks);
+    return number_of(seconds_text(has_clock() ? count * steps_.seconds : count / kTicksPerSecond));
+  }
+  std::int64_t ticks_of(double seconds) const {
+    return std::llround(has_clock() ? seconds / steps_.seconds : seconds * kTicksPerSecond);
+  }
+  Point place(Point p) const { return in_last_decimal(Point{stepped(p.x), stepped(p.y)}); }
+
+ private:
+  double stepped(double value) const {
+    return steps_.millimetres > 0.0 ? std::round(value / steps_.millimetres) * steps_.millimetres : value;
+  }
+
+  PvtSteps steps_;
+};
 
 Point even_speed(const ProgramStep& step) { return (1.0 / step.seconds) * (step.finish - step.start); }
 Point speed_in(const ProgramStep& step) { return step.speeds ? step.speeds->in : even_speed(step); }
@@ -40,13 +59,28 @@ Point speed_between(Point before, Point after, std::size_t number) {
       number, before.x, before.y, after.x, after.y));
 }
 
+struct PlaceAndSpeed {
+  Point place, speed;
+};
+
+/// Where a motion is a little later (or earlier, < 0) than at the end of a step, on that or on the next. At rest it
+/// stays there.
+PlaceAndSpeed state_near(const ProgramStep& step, const ProgramStep* next, Point speed, double late) {
+  if (speed == Point{}) return {step.finish, speed};
+  const ProgramStep* on = late <= 0.0 ? &step : next;
+  if (on == nullptr || !on->speeds || std::abs(late) > on->seconds) return {step.finish + late * speed, speed};
+  const CubicMove move{on->start, on->finish, on->speeds->in, on->speeds->out, on->seconds};
+  const double t = late <= 0.0 ? on->seconds + late : late;
+  return {move.place(t), move.speed(t)};
+}
+
 CubicMove cubic_of(const PvtRow& from, const PvtRow& to) {
   return {from.place, to.place, from.speed, to.speed, to.seconds - from.seconds};
 }
 
 }  // namespace
 
-PvtTable pvt_table_of(const Program& motion, const Progress& progress) {
+PvtTable pvt_table_of(const Program& motion, const Progress& progress, const PvtSteps& grid_steps) {
   std::vector<const ProgramStep*> steps;
   for (const ProgramStep& step : motion.steps) {
     if (step.seconds > 0.0) {
@@ -56,10 +90,11 @@ PvtTable pvt_table_of(const Program& motion, const Progress& progress) {
                                    &step - motion.steps.data() + 1, step.length()));
     }
   }
-  PvtTable table;
+  PvtTable table{{}, grid_steps};
   if (steps.empty()) return table;
+  const PvtGrid grid(grid_steps);
   speed_between({}, speed_in(*steps.front()), 0);
-  table.rows.push_back({0.0, in_last_decimal(steps.front()->start), {}, true});
+  table.rows.push_back({0.0, grid.place(steps.front()->start), {}, true});
   Poll poll(progress);
   double seconds = 0.0;
   std::int64_t last = 0;
@@ -67,15 +102,22 @@ PvtTable pvt_table_of(const Program& motion, const Progress& progress) {
     poll.step();
     const ProgramStep& step = *steps[i];
     seconds += step.seconds;
-    const Point after = i + 1 < steps.size() ? speed_in(*steps[i + 1]) : Point{};
-    const Point speed = speed_between(speed_out(step), after, i + 1);
-    const std::int64_t ticks = std::max(last + 1, ticks_of(seconds));
-    const double late = time_of(ticks) - seconds;
-    table.rows.push_back(
-        {time_of(ticks), in_last_decimal(step.finish + late * speed), in_last_decimal(speed), !step.removes});
+    const ProgramStep* next = i + 1 < steps.size() ? steps[i + 1] : nullptr;
+    const Point speed = speed_between(speed_out(step), next != nullptr ? speed_in(*next) : Point{}, i + 1);
+    const std::int64_t nearest = grid.ticks_of(seconds);
+    if (grid.has_clock() && nearest <= last && speed != Point{}) continue;  // within a step of the clock
+    const std::int64_t ticks = std::max(last + 1, nearest);
+    const double late = grid.time_of(ticks) - seconds;
+    const PlaceAndSpeed at =
+        grid.has_clock() ? state_near(step, next, speed, late) : PlaceAndSpeed{step.finish + late * speed, speed};
+    table.rows.push_back({grid.time_of(ticks), grid.place(at.place), in_last_decimal(at.speed), !step.removes});
     last = ticks;
   }
   return table;
+}
+
+PvtSteps pvt_steps_of(const Machine& machine) {
+  return {machine.controller.time_resolution, machine.controller.position_resolution};
 }
 
 Program program_of(const PvtTable& table, const std::string& file) {
@@ -96,17 +138,18 @@ Program program_of(const PvtTable& table, const std::string& file) {
 }
 
 PvtTable with_steps_of_at_most(double most, const PvtTable& table) {
-  PvtTable cut;
+  PvtTable cut{{}, table.steps};
+  const PvtGrid grid(table.steps);
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
     if (i > 0) {
       const PvtRow from = table.rows[i - 1], &to = table.rows[i];
       const CubicMove move = cubic_of(from, to);
       const auto parts = static_cast<std::int64_t>(std::ceil(move.seconds / most));
-      const std::int64_t first = ticks_of(from.seconds), all = ticks_of(to.seconds) - first;
+      const std::int64_t first = grid.ticks_of(from.seconds), all = grid.ticks_of(to.seconds) - first;
       for (std::int64_t k = 1; k < parts; ++k) {
         const std::int64_t ticks = first + all * k / parts;
-        const double t = time_of(ticks) - from.seconds;
-        cut.rows.push_back({time_of(ticks), in_last_decimal(move.place(t)), in_last_decimal(move.speed(t)), to.lifted});
+        const double t = grid.time_of(ticks) - from.seconds;
+        cut.rows.push_back({grid.time_of(ticks), grid.place(move.place(t)), in_last_decimal(move.speed(t)), to.lifted});
       }
     }
     cut.rows.push_back(table.rows[i]);

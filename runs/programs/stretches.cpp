@@ -44,8 +44,9 @@ std::vector<std::pair<std::size_t, std::size_t>> stretches_of(const PvtTable& ta
 
 class StretchReader {
  public:
-  StretchReader(const std::string& file, StretchKind kind, const ReadBeside& beside, const Progress& progress)
-      : kind_(kind), beside_(beside), progress_(progress) {
+  StretchReader(const std::string& file, StretchKind kind, const ReadBeside& beside, const Progress& progress,
+                AxisLetters letters)
+      : kind_(kind), beside_(beside), progress_(progress), letters_(letters) {
     at_.file = file;
   }
 
@@ -113,7 +114,7 @@ class StretchReader {
     }
     go_to(start, way);
     add(kind_ == StretchKind::XpsTrajectory ? parse_xps_trajectory(bytes, name, start, progress_)
-                                            : parse_pmac_program(bytes, name, start, progress_),
+                                            : parse_pmac_program(bytes, name, start, progress_, letters_),
         name, seconds);
     ++stretches_;
   }
@@ -144,6 +145,7 @@ class StretchReader {
   StretchKind kind_;
   const ReadBeside& beside_;
   const Progress& progress_;
+  AxisLetters letters_;
   PvtPlace at_;
   PvtTable table_;
   double count_ = 0.0;
@@ -153,7 +155,7 @@ class StretchReader {
 }  // namespace
 
 std::vector<WrittenProgram> written_stretches(StretchKind kind, const PvtTable& table, const FeedTable& made,
-                                              const Progress& progress) {
+                                              const Progress& progress, AxisLetters letters) {
   const auto stretches = stretches_of(table);
   fmt::memory_buffer list;
   const auto out = std::back_inserter(list);
@@ -167,8 +169,9 @@ std::vector<WrittenProgram> written_stretches(StretchKind kind, const PvtTable& 
     progress.check();
     const std::size_t first = stretch.first, last = stretch.second;
     const bool xps = kind == StretchKind::XpsTrajectory;
-    WrittenProgram file{fmt::format("program_{:03}.{}", files.size(), xps ? "trj" : "pmc"),
-                        xps ? xps_trajectory_text(table, first, last) : pmac_program_text(table, first, last, made)};
+    WrittenProgram file{
+        fmt::format("program_{:03}.{}", files.size(), xps ? "trj" : "pmc"),
+        xps ? xps_trajectory_text(table, first, last) : pmac_program_text(table, first, last, made, letters)};
     const PvtRow& begin = table.rows[first];
     const double way = begin.seconds - table.rows[end_before].seconds;
     fmt::format_to(out, "{},{},{},{},{},{}\n", file.file, coordinate_text(begin.place.x),
@@ -186,8 +189,8 @@ bool is_stretch_list(std::string_view text, StretchKind kind) {
 }
 
 PvtTable parse_stretch_list(std::string_view text, const std::string& file, StretchKind kind, const ReadBeside& beside,
-                            const Progress& progress) {
-  return StretchReader(file, kind, beside, progress).read(text);
+                            const Progress& progress, AxisLetters letters) {
+  return StretchReader(file, kind, beside, progress, letters).read(text);
 }
 
 }  // namespace dwell

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/progress.h"
+#include "core/motion/axis_letters.h"
 #include "runs/programs/feed_table.h"
 #include "runs/programs/pvt_table.h"
 
@@ -25,7 +26,7 @@ enum class StretchKind { XpsTrajectory, PmacProgram };
 /// The stretches of a table as numbered files (program_001.trj, program_001.pmc), and before them their list (xps.csv,
 /// pmac.csv): where each begins, how long the lifted way there takes, its time, and the SHA-256 of its file.
 std::vector<WrittenProgram> written_stretches(StretchKind kind, const PvtTable& table, const FeedTable& made,
-                                              const Progress& progress = {});
+                                              const Progress& progress = {}, AxisLetters letters = {});
 
 /// Whether a text is such a list.
 bool is_stretch_list(std::string_view text, StretchKind kind);
@@ -37,6 +38,6 @@ using ReadBeside = std::function<std::string(const std::string& name)>;
 /// accepted: another column, a name that is none of a file beside it, a file whose SHA-256 or time is not that of the
 /// list, and as the readers of the files.
 PvtTable parse_stretch_list(std::string_view text, const std::string& file, StretchKind kind, const ReadBeside& beside,
-                            const Progress& progress = {});
+                            const Progress& progress = {}, AxisLetters letters = {});
 
 }  // namespace dwell

@@ -18,12 +18,24 @@ std::string limit_words(double value, const char* unit) {
   return std::isfinite(value) ? fmt::format("{:.6g} {}", value, unit) : fmt::format("any {}", unit);
 }
 
-std::string axis_words(const char* name, const MachineAxis& axis) {
+std::string axis_words(char name, const MachineAxis& axis) {
   const bool travels = std::isfinite(axis.lowest) || std::isfinite(axis.highest);
   const std::string travel =
       travels ? fmt::format("from {:.6g} to {:.6g} mm", axis.lowest, axis.highest) : std::string("of any travel");
   return fmt::format("{} {}, at most {} and {}", name, travel, limit_words(axis.max_speed, "mm/s"),
                      limit_words(axis.max_acceleration, "mm/s^2"));
+}
+
+char lower(char letter) { return static_cast<char>(letter - 'A' + 'a'); }
+
+/// What its controller takes; empty if that is anything.
+std::string controller_line(const ControllerLimits& c) {
+  std::string words;
+  const auto add = [&words](const std::string& what) { words += (words.empty() ? "" : ", ") + what; };
+  if (std::isfinite(c.max_blocks_per_s)) add(fmt::format("{:.6g} blocks/s", c.max_blocks_per_s));
+  if (c.time_resolution > 0.0) add(fmt::format("times to {:.6g} s", c.time_resolution));
+  if (c.position_resolution > 0.0) add(fmt::format("places to {:.6g} mm", c.position_resolution));
+  return words.empty() ? "" : fmt::format("control   {}\n", words);
 }
 
 std::string corner_words(const Machine& m) {
@@ -70,9 +82,10 @@ std::string machine_lines(const NamedMachine& machine) {
           ? fmt::format("{:.6g} to {:.6g} mm/min", units::mm_per_min(m.min_feed), units::mm_per_min(m.max_feed))
           : fmt::format("from {:.6g} mm/min on", units::mm_per_min(m.min_feed));
   return fmt::format("machine   {}\naxes      {}\n          {}\npath      {}, {}\ncorners   {}\n",
-                     machine.name.empty() ? "without a name" : machine.name, axis_words("x", m.x), axis_words("y", m.y),
-                     feed, limit_words(m.path_acceleration, "mm/s^2"), corner_words(m)) +
-         lift_line(m.lift) + stop_line(m);
+                     machine.name.empty() ? "without a name" : machine.name, axis_words(lower(m.letters.x), m.x),
+                     axis_words(lower(m.letters.y), m.y), feed, limit_words(m.path_acceleration, "mm/s^2"),
+                     corner_words(m)) +
+         lift_line(m.lift) + controller_line(m.controller) + stop_line(m);
 }
 
 std::string lift_words(const LiftTotals& totals) {
@@ -98,6 +111,8 @@ nlohmann::ordered_json machine_block(const NamedMachine& machine) {
     const std::string prefix = field.section.empty() ? "" : field.section + "_";
     json[prefix + field.key] = finite_or_null(field.value(copy) / field.scale);
   }
+  json["x_letter"] = std::string(1, machine.machine.letters.x);
+  json["y_letter"] = std::string(1, machine.machine.letters.y);
   json["corner_rule"] = to_string(machine.machine.corner);
   return json;
 }

@@ -51,7 +51,8 @@ std::vector<WrittenProgram> write_program(const PlannedJob& plan, const OutputFo
   for (const InputFile& input : plan.job.inputs) table.inputs.emplace_back(input.role + " " + input.file, input.sha256);
   table.options = options_of_record(options);
   const ProgramWriting writing{options.gcode, options.lift_height_mm, program_comments(table),
-                               gcode_style(options, plan.job.machine, plan.job.header, plan.job.footer)};
+                               gcode_style(options, plan.job.machine, plan.job.header, plan.job.footer),
+                               plan.job.machine ? std::optional(plan.job.machine->machine) : std::nullopt};
   std::vector<WrittenProgram> programs =
       written_programs(to_write, writing, options.exports, plan.part().threads, progress);
   for (const WrittenProgram& program : programs) folder.write(program.file, program.bytes);
@@ -60,9 +61,12 @@ std::vector<WrittenProgram> write_program(const PlannedJob& plan, const OutputFo
 
 /// Reads a program of the plan back from disk. It is called by its own name in all messages, and not by the temporary
 /// folder in which it lies until the plan is whole.
-Program read_back(const OutputFolder& folder, const std::string& name, const Progress& progress) {
+Program read_back(const PlannedJob& plan, const OutputFolder& folder, const std::string& name,
+                  const Progress& progress) {
   try {
-    Program program = read_program(folder.path(name), {}, progress);
+    GcodeReading reading;
+    if (plan.job.machine) reading.letters = plan.job.machine->machine.letters;
+    Program program = read_program(folder.path(name), reading, progress);
     program.file = name;
     return program;
   } catch (const InputError& error) {
@@ -83,6 +87,21 @@ bool differs(double a, double b, double tolerance) {
   return !(std::abs(a - b) <= tolerance * std::max(std::abs(a), std::abs(b)));
 }
 
+/// Says so where a program on disk leaves over 0.1 % otherwise than with its numbers as they were before they were
+/// rounded to the steps of the controller.
+void say_rounding(const std::string& file, double left, double unrounded, WrittenPlan& written) {
+  constexpr double kMatters = 1e-3;
+  if (!differs(left, unrounded, kMatters)) return;
+  written.warnings.push_back(
+      fmt::format("{} leaves {:.6g} nm RMS, {:+.2g} % against the {:.6g} nm of its numbers before they were rounded to "
+                  "the steps of the machine's controller",
+                  file, left, 100.0 * (left / unrounded - 1.0), unrounded));
+}
+
+bool has_coarse_controller(const PlannedJob& plan) {
+  return plan.job.machine && plan.job.machine->machine.controller.is_coarse();
+}
+
 /// feed.csv and program.nc are two forms of one program and must remove the same. Where their steps differ by more than
 /// rounding, what the table removes is predicted as well, and a difference is a limit.
 void compare_with_table(const PlannedJob& plan, const Program& program, const Program& table, WrittenPlan& written,
@@ -93,6 +112,7 @@ void compare_with_table(const PlannedJob& plan, const Program& program, const Pr
   const ExactResidual from_table =
       predict_program(plan.part(), run_of(plan, table, progress), plan.dwell.lattice.kernel, progress);
   const double left = written.exact.statistics.rms_about_zero(), by_table = from_table.statistics.rms_about_zero();
+  if (has_coarse_controller(plan)) return say_rounding("program.nc", left, by_table, written);  // the table is not
   if (differs(left, by_table, std::max(1e-3, 3.0 * written.exact.standard_error / left))) {
     written.limits.push_back(fmt::format("program.nc leaves {:.6g} nm RMS{} but feed.csv {:.6g} nm", left,
                                          about_zero_in_words(written.exact.statistics), by_table));
@@ -141,10 +161,16 @@ void check_written_exports(const PlannedJob& plan, const OutputFolder& folder,
                            const std::vector<WrittenProgram>& programs, WrittenPlan& written,
                            const Progress& progress) {
   std::optional<Program> first;
+  std::optional<double> unrounded;
+  if (has_coarse_controller(plan) && plan.program.motion && !plan.job.options.exports.empty()) {
+    unrounded =
+        predict_program(plan.part(), run_of(plan, *plan.program.motion, progress), plan.dwell.lattice.kernel, progress)
+            .statistics.rms_about_zero();
+  }
   for (const ProgramFormat& format : program_formats()) {
     if (format.word.empty() || !is_among(format.word, plan.job.options.exports)) continue;
     progress.report("simulate: " + format.file + " as read back from disk");
-    Program program = read_back(folder, format.file, progress);
+    Program program = read_back(plan, folder, format.file, progress);
     WrittenExport now;
     now.word = format.word;
     now.file = format.file;
@@ -162,6 +188,7 @@ void check_written_exports(const PlannedJob& plan, const OutputFolder& folder,
              : predict_program(plan.part(), run_of(plan, program, progress), plan.dwell.lattice.kernel, progress)
                    .statistics;
     const double left = written.exact.statistics.rms_about_zero(), by_file = now.residual.rms_about_zero();
+    if (unrounded && !same) say_rounding(format.file, by_file, *unrounded, written);
     if (differs(left, by_file, std::max(kSimulationTolerance, 3.0 * written.exact.standard_error / left))) {
       written.limits.push_back(fmt::format("{} leaves {:.6g} nm RMS{} but {} on the machine {:.6g} nm", format.file,
                                            by_file, about_zero_in_words(now.residual), programs.front().file, left));
@@ -187,7 +214,7 @@ WrittenPlan write_plan(const PlannedJob& plan, const OutputFolder& folder, const
   progress.report("simulate: the program as read back from disk");
   const bool has_table = !says_speeds_alone(plan);
   const std::string file = has_table ? "program.nc" : programs.front().file;
-  const Program program = read_back(folder, file, progress);
+  const Program program = read_back(plan, folder, file, progress);
   WrittenPlan written;
   written.limits = plan.limits();
   const Program run = run_of(plan, program, progress);
@@ -198,7 +225,7 @@ WrittenPlan write_plan(const PlannedJob& plan, const OutputFolder& folder, const
   }
   Program table;
   study_surface(plan, written, progress, [&](const Progress& beside) {
-    if (has_table) table = read_back(folder, "feed.csv", beside);
+    if (has_table) table = read_back(plan, folder, "feed.csv", beside);
   });
   const DwellOptions options = dwell_options(plan.job);
   const double max_feed = options.machine.feed_limits().max_feed;

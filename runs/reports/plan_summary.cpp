@@ -73,6 +73,13 @@ Json motion_json(const MotionPlan& motion, ScheduleKind schedule, double planned
           {"strokes_too_short", motion.too_short}};
 }
 
+/// What the controller's block rate did to the path.
+Json blocks_json(const BlockMerging& blocks, double max_per_s, double planned) {
+  return {{"max_per_s", max_per_s},   {"before", blocks.before},   {"too_short_before", blocks.short_before},
+          {"after", blocks.after},    {"bounded", blocks.bounded}, {"planned_rms_nm_before", blocks.rms_before},
+          {"planned_rms_nm", planned}};
+}
+
 /// The program as read back, and how feed.csv was compared with it.
 Json program_json(const WrittenPlan& written) {
   Json program = program_block(written.program);
@@ -140,6 +147,9 @@ std::string plan_summary_text(const PlannedJob& plan, const WrittenPlan& written
     if (!written.exports.empty()) summary["exports"] = exports_json(written);
     summary["motion"] =
         motion_json(*plan.dwell.motion, plan.job.options.schedule, plan.dwell.residual.rms_about_zero());
+    if (plan.blocks)
+      summary["blocks"] = blocks_json(*plan.blocks, plan.job.machine->machine.controller.max_blocks_per_s,
+                                      plan.dwell.residual.rms_about_zero());
     if (written.travel.rests.any()) summary["motion"]["lift_rests"] = lift_block(written.travel.rests);
   }
   return json_text(std::move(summary));

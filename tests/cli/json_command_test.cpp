@@ -71,6 +71,7 @@ struct CommandInputs : SmallInputs {
     const ProgramResult machine = run({"machine", "--example"});
     EXPECT_EQ(machine.exit_code, 0);
     folder.file("machine.toml", machine.out);
+    folder.file("blocks.toml", "path_acceleration_mm_per_s2 = 500\n[controller]\nmax_blocks_per_s = 20\n");
     EXPECT_EQ(run(SmallInputs::plan()).exit_code, 0);
     const MotionLog log = test::made_up_log(read_program(*this / "plan/program.nc"), example_machine().machine);
     folder.file("run.csv", test::log_text(log, "t_s,x_mm,y_mm"));
@@ -85,7 +86,8 @@ std::map<std::string, std::vector<Words>> runs_of_commands() {
        {SmallInputs::plan({"--out", "a", "--time-price", "auto"}),
         SmallInputs::plan({"--out", "a", "--smoothness", "step<=0.05", "--tif-pedestal", "taper"}),
         SmallInputs::plan({"--map", "specked.csv", "--out", "a", "--blemishes", "leave-out"}),
-        SmallInputs::plan({"--out", "a", "--machine", "machine.toml", "--export", "pvt-csv,xps-trj"})}},
+        SmallInputs::plan({"--out", "a", "--machine", "machine.toml", "--export", "pvt-csv,xps-trj"}),
+        SmallInputs::plan({"--out", "a", "--machine", "blocks.toml"})}},
       {"paths",
        {{"paths", "--map", "wide.csv", "--tif", "gaussian:peak=10,fwhm=3,radius=4", "--threads", "1", "--paths",
          "raster:pitch=2;nearest:critical=1e9", "--out", "b"},

@@ -122,7 +122,9 @@ TEST(LiftRests, LeaveEveryStrokeItsDwellBySlowerOrFasterFeeds) {
   const Machine machine = lifting_machine();
   const StrokeMoves moves = stroke_moves(lifting_path(), Motion::Moving);
   const KinematicPath path = kinematic_path(moves.steps, machine);
-  const Eigen::VectorXd least = least_dwell(moves, path, machine), dwell = 1.3 * least;
+  const Eigen::VectorXd least = least_dwell(moves, path, machine);
+  Eigen::VectorXd dwell = least;
+  for (Index j = 0; j < dwell.size(); ++j) dwell[j] += 0.8 + 0.1 * static_cast<double>(j % 3);
   EXPECT_GE(least[3], machine.lift.settle);  // of the halt
   const ConstantSchedule schedule = schedule_constant(moves, path, machine, dwell);
   Program program{"", moves.steps};

@@ -17,6 +17,8 @@ NamedMachine unusual() {
   double next = 1.0;
   for (const MachineField& field : machine_fields()) field.value(m) = (next += 1.75) * field.scale;
   m.min_feed = 0.01;
+  m.controller = {50.0, 0.015, 0.25};
+  m.letters = {'V', 'B'};
   m.corner = CornerRule::JunctionDeviation;
   return named;
 }
@@ -26,6 +28,7 @@ TEST(MachineFile, ReadsBackWhatItWrites) {
     const NamedMachine read = parse_machine(machine_text(machine), "m.toml");
     EXPECT_EQ(read.name, machine.name);
     EXPECT_EQ(read.machine.corner, machine.machine.corner);
+    EXPECT_EQ(read.machine.letters, machine.machine.letters);
     Machine a = read.machine, b = machine.machine;
     for (const MachineField& field : machine_fields()) {
       EXPECT_DOUBLE_EQ(field.value(a), field.value(b)) << field.section << '.' << field.key;
@@ -58,7 +61,8 @@ TEST(MachineFile, RefusesByFileLineFieldAndValue) {
   EXPECT_EQ(refusal("max_feed = 3000\n").substr(0, 60), "m.toml: line 1: max_feed: unknown field; accepted: name, sch");
   EXPECT_EQ(refusal("[x]\n\nmax_jerk = 3\n").substr(0, 60),
             "m.toml: line 3: x.max_jerk: unknown field; accepted in [x]: ");
-  EXPECT_EQ(refusal("[spindle]\nspeed = 3\n"), "m.toml: unknown section [spindle]; accepted: corner, lift, x, y");
+  EXPECT_EQ(refusal("[spindle]\nspeed = 3\n"),
+            "m.toml: unknown section [spindle]; accepted: corner, lift, controller, x, y");
   EXPECT_EQ(refusal("path_acceleration_mm_per_s2 = \"500\"\n"),
             "m.toml: line 1: path_acceleration_mm_per_s2 = '500'; required a finite number > 0 (without quotes)");
   EXPECT_EQ(refusal("max_feed_mm_per_min = -2\n"),
@@ -73,6 +77,16 @@ TEST(MachineFile, RefusesByFileLineFieldAndValue) {
             "m.toml: machine: x.travel: lowest 4 mm and highest 2 mm; required lowest < highest");
   EXPECT_EQ(refusal("[lift]\nsettle_s = -1\n"),
             "m.toml: line 2: lift.settle_s = -1; required a finite number >= 0 (without quotes)");
+  EXPECT_EQ(refusal("[y]\nletter = \"Z\"\n"), "m.toml: line 2: y.letter = 'Z'; accepted: one of XYUVWABC (in quotes)");
+  EXPECT_EQ(refusal("[y]\nletter = \"X\"\n"), "m.toml: machine: x.letter = X and y.letter = X; required two letters");
+  EXPECT_EQ(
+      refusal("[controller]\nmax_blocks_per_s = 100\ntime_resolution_s = 0.02\n"),
+      "m.toml: machine: controller.time_resolution = 0.02 s and controller.max_blocks_per_s = 100 1/s; required at "
+      "least one step of its clock a block, time_resolution <= 0.01 s");
+  EXPECT_EQ(
+      refusal("[controller]\nposition_resolution_mm = 3\n[x]\nlowest_mm = -1\nhighest_mm = 1\n"),
+      "m.toml: machine: controller.position_resolution = 3 mm and x.travel from -1 to 1 mm; required less than the "
+      "travel");
   EXPECT_EQ(refusal("x = 3\n").substr(0, 34), "m.toml: line 1: x: unknown field; ");
   EXPECT_NE(refusal("max_feed_mm_per_min = \n"), "");
 }

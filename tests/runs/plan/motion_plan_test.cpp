@@ -4,13 +4,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
 #include "core/removal/simulate.h"
 #include "paths/feed/execution.h"
 #include "runs/job/planned_job.h"
+#include "runs/machine/machine_file.h"
 #include "runs/plan/least_dwell_of.h"
+#include "runs/programs/program_reader.h"
 #include "runs/reports/plan_files.h"
 #include "runs/reports/plan_output.h"
 #include "runs/reports/simulation.h"
@@ -122,6 +125,73 @@ TEST(MotionPlan, CountsTheRestsAtLifts) {
   EXPECT_NEAR(table.after.statistics.rms, written.exact.statistics.rms, 2e-3 * written.exact.statistics.rms);
   EXPECT_NEAR(table.executed->run_seconds - table.executed->commanded.run_seconds,
               0.5 * (plunges - 1.0) + 0.29 * plunges, 1e-6);
+}
+
+double least_seconds(const Program& program, const Machine& machine) {
+  const Execution run = execute(program, machine);
+  double least = 1e9;
+  for (std::size_t i = 0; i < program.steps.size(); ++i) {
+    if (program.steps[i].removes) least = std::min(least, run.seconds[i]);
+  }
+  return least;
+}
+
+/// Strokes that are shorter than the controller's blocks are merged, as far as they are straight on, and the plan is
+/// made again; what is still short is run slowly enough.
+TEST(MotionPlan, KeepsTheBlockRate) {
+  for (const ScheduleKind kind : {ScheduleKind::Constant, ScheduleKind::Linear}) {
+    TurningJob job;
+    job.options.path = parse_path_spec("raster:pitch=1.2,step=0.3,overrun=2");
+    job.options.schedule = kind;
+    if (kind != ScheduleKind::Constant) job.options.exports = {"pvt-csv"};
+    const PlannedJob plain = plan_job(job.options);
+    EXPECT_FALSE(plain.blocks);
+    NamedMachine machine = read_machine_file(job.options.machine);
+    machine.machine.controller.max_blocks_per_s = 12.0;
+    job.options.machine = job.folder.file("blocks.toml", machine_text(machine)).string();
+    const PlannedJob plan = plan_job(job.options);
+    ASSERT_TRUE(plan.blocks);
+    EXPECT_GT(plan.blocks->short_before, 20U);
+    EXPECT_LT(plan.blocks->after, plan.blocks->before);
+    EXPECT_LE(plan.dwell.motion->executed(), 1.3 * plain.dwell.motion->executed()) << to_string(kind);
+    OutputFolder folder(job.options.out, plan_files());
+    const WrittenPlan written = write_plan(plan, folder, {});
+    EXPECT_TRUE(written.limits.empty()) << to_string(kind) << ": " << written.limits.front();
+    const std::string file = kind == ScheduleKind::Constant ? "program.nc" : "pvt.csv";
+    EXPECT_GE(least_seconds(read_program(folder.path(file)), machine.machine), 1.0 / 12.0 * (1.0 - 1e-5));
+    // What was planned without the rate is beyond it, and says so.
+    OutputFolder other((job.folder.path() / "other").string(), plan_files());
+    write_plan(plain, other, {});
+    const Simulation s = simulate_file(other.path(file), {}, job.options, {});
+    ASSERT_FALSE(s.limits.empty());
+    EXPECT_NE(s.limits.front().find("shorter than the 83.33 ms that the controller takes for a block"),
+              std::string::npos)
+        << s.limits.front();
+  }
+}
+
+/// The program is in the controller's steps, keeps the limits, and its effect is said where it matters.
+TEST(MotionPlan, KeepsTheStepsOfTheController) {
+  for (const ScheduleKind kind : {ScheduleKind::Constant, ScheduleKind::Linear, ScheduleKind::Pvt}) {
+    TurningJob job;
+    job.options.path = parse_path_spec("raster:pitch=1.2,overrun=2");
+    job.options.schedule = kind;
+    job.options.exports = {"pvt-csv"};
+    NamedMachine machine = read_machine_file(job.options.machine);
+    machine.machine.controller.time_resolution = 0.002;
+    machine.machine.controller.position_resolution = 0.0005;
+    machine.machine.letters = {'U', 'V'};
+    job.options.machine = job.folder.file("steps.toml", machine_text(machine)).string();
+    const PlannedJob plan = plan_job(job.options);
+    OutputFolder folder(job.options.out, plan_files());
+    const WrittenPlan written = write_plan(plan, folder, {});
+    EXPECT_TRUE(written.limits.empty()) << to_string(kind) << ": " << written.limits.front();
+    EXPECT_LE(written.exact.lattice_rms, 1.1 * plan.dwell.residual.rms_about_zero()) << to_string(kind);
+    for (const ProgramStep& step : read_program(folder.path("pvt.csv")).steps)
+      EXPECT_NEAR(step.seconds / 0.002, std::round(step.seconds / 0.002), 1e-6);
+    const Simulation s = simulate_file(folder.path(written.program.file), {}, job.options, {});
+    EXPECT_NEAR(s.after.statistics.rms, written.exact.statistics.rms, 1e-9) << to_string(kind);
+  }
 }
 
 /// Schedules of speeds: what the file says is what the machine does, and feeds alone are not written.
