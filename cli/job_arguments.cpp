@@ -10,6 +10,7 @@
 #include "runs/job/input_files.h"
 #include "runs/job/job_file.h"
 #include "runs/job/keep_out_option.h"
+#include "runs/machine/machine_option.h"
 #include "runs/map_steps/map_steps.h"
 
 namespace dwell::cli {
@@ -78,9 +79,12 @@ std::vector<const JobOptionRecord*> JobArguments::given() const {
 }
 
 std::vector<ReadFile> JobArguments::files_read(const JobOptions& options) const {
-  std::vector<ReadFile> read{
-      {"the job file", job_},           {"the map", options.map},       {"the removal function", options.tif},
-      {"the machine", options.machine}, {"the header", options.header}, {"the footer", options.footer}};
+  std::vector<ReadFile> read{{"the job file", job_},
+                             {"the map", options.map},
+                             {"the removal function", options.tif},
+                             {"the machine", is_inline_machine(options.machine) ? "" : options.machine},
+                             {"the header", options.header},
+                             {"the footer", options.footer}};
   if (const auto* path = options.path.get_if<PathFromFile>()) read.push_back({"the path", path->file.string()});
   for (const std::string& file : keep_out_files(options.keep_out)) read.push_back({"the zones", file});
   for (const std::string* steps : {&options.map_steps, &options.tif_steps}) {

@@ -12,6 +12,7 @@
 #include "runs/job/input_files.h"
 #include "runs/job/keep_out_option.h"
 #include "runs/job/program_style.h"
+#include "runs/machine/machine_option.h"
 #include "runs/plan/pitch_choice.h"
 
 namespace dwell {
@@ -69,8 +70,9 @@ Job load_job(const JobOptions& options, const Progress& progress) {
   Job job;
   job.options = options;
   if (!options.machine.empty()) {
-    job.machine = read_machine_file(options.machine);
-    job.inputs.push_back({"machine", options.machine, sha256_of_file(options.machine)});
+    job.machine = machine_of_option(options.machine);
+    if (!is_inline_machine(options.machine))
+      job.inputs.push_back({"machine", options.machine, sha256_of_file(options.machine)});
   }
   job.keep_out = load_keep_out(options.keep_out, job.inputs);
   job.header = load_insert("header", options.header, job.inputs);

@@ -14,6 +14,8 @@
 #include "core/base/whole_file.h"
 #include "core/tif/models/removal_models.h"
 #include "runs/job/keep_out_option.h"
+#include "runs/machine/machine_option.h"
+#include "runs/machine/machine_table.h"
 #include "runs/map_steps/map_steps.h"
 
 namespace dwell {
@@ -45,6 +47,10 @@ std::optional<std::string> joined(const toml::node& node) {
 std::string text_of(const toml::node& node, const JobOptionRecord& record, const std::string& source) {
   if (record.takes_list) {
     if (const auto text = joined(node)) return *text;
+  }
+  if (const toml::table* fields = node.as_table(); fields && record.key == "machine") {
+    machine_of_table(*fields, source);  // refuses with the lines of this file
+    return inline_machine_text(*fields);
   }
   if (record.is_number) {
     if (const auto whole = node.as_integer()) return fmt::format("{}", whole->get());
@@ -78,8 +84,10 @@ void check_schema(const toml::node& node, const std::string& file) {
                                value.str().empty() ? "no number" : value.str(), kJobSchema, version()));
 }
 
-/// Whether the value of a file option names a file: a removal function may be a formula.
-bool names_a_file(const std::string& value) { return !is_removal_model(split_kind(value).first); }
+/// Whether the value of a file option names a file: a removal function may be a formula, a machine its fields.
+bool names_a_file(const std::string& value) {
+  return !is_inline_machine(value) && !is_removal_model(split_kind(value).first);
+}
 
 /// Says so where a word of layout 1 has another meaning now.
 void note_changed_words(int schema, const std::string& source, const std::string& value, JobOptions& options) {
@@ -153,7 +161,8 @@ std::string job_file_text(const JobOptions& options) {
     if (value.empty()) {
       text += fmt::format("# {} = {}\n", record.key, record.is_number ? "" : "\"\"");
     } else {
-      text += fmt::format("{} = {}\n", record.key, takes_text(record, value) ? quoted.str() : value);
+      const bool in_quotes = takes_text(record, value) && !(record.key == "machine" && is_inline_machine(value));
+      text += fmt::format("{} = {}\n", record.key, in_quotes ? quoted.str() : value);
     }
   }
   return text;

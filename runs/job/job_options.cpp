@@ -21,6 +21,7 @@
 #include "runs/job/keep_out_option.h"
 #include "runs/job/place_option.h"
 #include "runs/job/scatter_option.h"
+#include "runs/machine/machine_option.h"
 #include "runs/map_steps/map_steps.h"
 #include "runs/programs/gcode_dialect.h"
 #include "runs/programs/program_formats.h"
@@ -257,8 +258,12 @@ std::vector<JobOptionRecord> make_table() {
       {"machine", "machine", "FILE",
        "machine file (docs/motion.md): the plan keeps within its accelerations and corners, its feeds make up for "
        "them, and "
-       "what is left is of its motion; none: they are not considered",
-       true, false, [](Options& o, const std::string& t) { o.machine = t == "none" ? "" : t; },
+       "what is left is of its motion; or its fields as a TOML table {...}; none: they are not considered",
+       true, false,
+       [](Options& o, const std::string& t) {
+         if (is_inline_machine(t)) machine_of_option(t);  // refuses what is wrong
+         o.machine = t == "none" ? "" : t;
+       },
        [](const Options& o) { return o.machine; }},
       {"schedule", "schedule", "KIND",
        "with --machine: constant (one feed a stroke, as G-code says it), or speeds at nodes, which programs of "

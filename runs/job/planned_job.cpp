@@ -9,7 +9,7 @@
 #include "paths/feed/exported_motion.h"
 #include "runs/job/option_flags.h"
 #include "runs/job/program_style.h"
-#include "runs/machine/machine_file.h"
+#include "runs/machine/machine_option.h"
 #include "runs/plan/leave_out.h"
 #include "runs/plan/rounded_motion.h"
 #include "runs/programs/program_formats.h"
@@ -44,7 +44,7 @@ void check_exports(const JobOptions& options) {
         "one of the two",
         word));
   }
-  check_exported_motion(machine_for_program(read_machine_file(options.machine).machine, options), options.schedule);
+  check_exported_motion(machine_for_program(machine_of_option(options.machine).machine, options), options.schedule);
 }
 
 namespace {

@@ -145,10 +145,27 @@ class MachineReader {
   NamedMachine result_;
 };
 
+void set_inline(toml::table& table) {
+  table.is_inline(true);
+  for (auto&& [key, node] : table) {
+    if (toml::table* inner = node.as_table()) set_inline(*inner);
+  }
+}
+
 }  // namespace
 
 NamedMachine machine_of_table(const toml::table& table, const std::string& source, bool says_lines) {
   return MachineReader(source, says_lines).read(table);
+}
+
+std::string inline_machine_text(const toml::table& table) {
+  toml::table copy = table;
+  set_inline(copy);
+  std::ostringstream text;
+  text << toml::toml_formatter{
+      copy, toml::toml_formatter::default_flags &
+                ~(toml::format_flags::allow_multi_line_strings | toml::format_flags::allow_literal_strings)};
+  return text.str();
 }
 
 }  // namespace dwell

@@ -14,4 +14,7 @@ namespace dwell {
 /// that contradict each other.
 NamedMachine machine_of_table(const toml::table& table, const std::string& source, bool says_lines = true);
 
+/// Such a table as a text in one line, in braces, with every value as it stands there.
+std::string inline_machine_text(const toml::table& table);
+
 }  // namespace dwell

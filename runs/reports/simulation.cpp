@@ -17,7 +17,7 @@
 #include "runs/base/inputs_json.h"
 #include "runs/job/job.h"
 #include "runs/job/program_style.h"
-#include "runs/machine/machine_file.h"
+#include "runs/machine/machine_option.h"
 #include "runs/plan/program_prediction.h"
 #include "runs/programs/program_reader.h"
 #include "runs/reports/anatomy_lines.h"
@@ -81,7 +81,7 @@ Simulation simulate_file(const std::filesystem::path& program, const GcodeReadin
   Simulation s;
   progress.report("read: program, map and removal function");
   GcodeReading read_as = reading;
-  if (!options.machine.empty()) read_as.letters = read_machine_file(options.machine).machine.letters;
+  if (!options.machine.empty()) read_as.letters = machine_of_option(options.machine).machine.letters;
   s.program = read_program(program, read_as, progress);
   s.inputs.push_back({"program", program.string(), sha256_of_file(program)});
   const Job job = load_job(without_program_style(options), progress);

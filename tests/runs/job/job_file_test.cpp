@@ -114,6 +114,19 @@ TEST(JobFile, WrittenDefaultsReadBackAsDefaultsWithAllOptionsExplained) {
   }
 }
 
+TEST(JobFile, TakesTheFieldsOfAMachine) {
+  const TemporaryFolder folder;
+  const std::string fields =
+      "out = 'o'\n[machine]\nname = 'of the job'\npath_acceleration_mm_per_s2 = 50\n[machine.x]\nletter = 'U'\n";
+  const JobOptions options = read(folder, fields);
+  EXPECT_EQ(options.machine, "{ name = \"of the job\", path_acceleration_mm_per_s2 = 50, x = { letter = \"U\" } }");
+  EXPECT_EQ(read(folder, job_file_text(options)).machine, options.machine);
+  expect_input_error([&] { read(folder, "[machine]\n\nmax_feed = 3\n"); },
+                     {"job.toml: machine: line 3: max_feed: unknown field; accepted: "});
+  expect_input_error([&] { read(folder, "machine = 'm.toml'\n[machine]\nmax_feed_mm_per_min = 3\n"); },
+                     {"job.toml", "line 2", "machine"});
+}
+
 TEST(JobFile, ComesOverTheOptionsItIsReadInto) {
   const TemporaryFolder folder;
   JobOptions before;
