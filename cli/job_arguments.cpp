@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <string_view>
 #include <utility>
 
 #include "core/base/errors.h"
+#include "core/formats/map_name.h"
 #include "runs/job/input_files.h"
 #include "runs/job/job_file.h"
 #include "runs/job/keep_out_option.h"
@@ -84,7 +86,10 @@ std::vector<ReadFile> JobArguments::files_read(const JobOptions& options) const 
                              {"the removal function", options.tif},
                              {"the machine", is_inline_machine(options.machine) ? "" : options.machine},
                              {"the header", options.header},
-                             {"the footer", options.footer}};
+                             {"the footer", options.footer},
+                             {"the log", split_map_name(options.log).file.string()}};
+  if (!options.log_plan.empty())
+    read.push_back({"the log's plan", (std::filesystem::path(options.log_plan) / "summary.json").string()});
   if (const auto* path = options.path.get_if<PathFromFile>()) read.push_back({"the path", path->file.string()});
   for (const std::string& file : keep_out_files(options.keep_out)) read.push_back({"the zones", file});
   for (const std::string* steps : {&options.map_steps, &options.tif_steps}) {

@@ -20,6 +20,8 @@ class JobArguments {
   JobOptions options() const;
   /// What the command line says over other options, those of a plan for instance. Throws InputError.
   JobOptions options_over(JobOptions options) const;
+  /// Whether a job file is given.
+  bool has_file() const { return !job_.empty(); }
   /// The options that the command line gives.
   std::vector<const JobOptionRecord*> given() const;
 

@@ -1,6 +1,9 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <set>
+#include <string>
+#include <utility>
 
 #include "cli/commands.h"
 #include "cli/job_arguments.h"
@@ -16,11 +19,13 @@
 #include "runs/reports/aim.h"
 #include "runs/reports/anatomy_lines.h"
 #include "runs/reports/exact_lines.h"
+#include "runs/reports/log_report.h"
 #include "runs/reports/machine_report.h"
 #include "runs/reports/map_line.h"
 #include "runs/reports/plan_costs.h"
 #include "runs/reports/plan_files.h"
 #include "runs/reports/plan_output.h"
+#include "runs/reports/recorded_plan.h"
 #include "runs/reports/tool_sheet.h"
 #include "runs/reports/travel_words.h"
 #include "runs/reports/weight_lines.h"
@@ -61,6 +66,21 @@ std::string block_lines(const PlannedJob& plan) {
       plan.dwell.residual.rms_about_zero(), counted(b.bounded, "stroke"));
 }
 
+/// What the log of an earlier run has taught; empty without one.
+std::string lesson_lines(const PlannedJob& plan) {
+  if (!plan.job.lesson) return "";
+  const LogLesson& lesson = *plan.job.lesson;
+  const LearntFromRun& r = lesson.run;
+  return log_lines(lesson.log, lesson.aligned, lesson.program) +
+         fmt::format("learnt    from {}: the recorded run left {:.4g} nm RMS in {:.3f} s, {:.3f} s were expected\n",
+                     counted(static_cast<std::size_t>(r.learnt.logs), "log"), r.recorded_rms, r.recorded_seconds,
+                     r.expected_seconds) +
+         fmt::format(
+             "          strokes take {:.3g} ms more than on the machine, {:.3g} ms RMS; the removal differs by "
+             "{:.4g} nm RMS besides\n",
+             1e3 * r.late_mean, 1e3 * r.late_rms, r.removal_rms);
+}
+
 /// The programs besides feed.csv and program.nc; empty without any.
 std::string export_lines(const WrittenPlan& written) {
   std::string lines;
@@ -99,7 +119,7 @@ std::string plan_text(const PlannedJob& plan, const WrittenPlan& written) {
       "predicted {} by the solver, on a lattice of {}{}\n", rms_in_words(plan.dwell.residual),
       lattice_words(plan.dwell.lattice.kernel),
       plan.dwell.lattices > 1 ? fmt::format(" (solved {}, each finer)", counted(plan.dwell.lattices, "time")) : "");
-  text += block_lines(plan) + motion_lines(plan);
+  text += block_lines(plan) + lesson_lines(plan) + motion_lines(plan);
   text += fmt::format("program   {} by simulating {} as read back{}\n", in_words(written.exact.statistics),
                       written.program.file, plan.dwell.motion ? ", executed on the machine" : "");
   text += export_lines(written) + exact_lines(written.exact);
@@ -111,8 +131,25 @@ std::string plan_text(const PlannedJob& plan, const WrittenPlan& written) {
   return text;
 }
 
+/// The options of the command line and the job file; with the plan of a log, over its own.
+JobOptions options_of(const PlanArguments& arguments) {
+  JobOptions options = arguments.job->options();
+  if (options.log_plan.empty() || arguments.job->has_file()) return options;
+  const RecordedPlan plan = read_recorded_plan(options.log_plan);
+  JobOptions over = plan.options;
+  over.log_columns.clear();  // what an earlier log was like says nothing of this one
+  over.log_period_s.reset();
+  over.log_tolerance_mm = JobOptions().log_tolerance_mm;
+  options = arguments.job->options_over(std::move(over));
+  std::set<std::string> given;
+  for (const JobOptionRecord* record : arguments.job->given()) given.insert(record->flag);
+  if (!given.contains("log")) options.log.clear();
+  check_recorded_inputs(plan, given);
+  return options;
+}
+
 int run_plan(const PlanArguments& arguments) {
-  const JobOptions options = arguments.job->options();
+  const JobOptions options = options_of(arguments);
   if (arguments.write_job) {
     print(job_file_text(options));
     return kDone;
@@ -144,6 +181,7 @@ void add_plan_command(CLI::App& program, int& exit_code) {
       "Example:\n"
       "  dwell plan --map mirror.csv --map-pixel 0.0938 --tif spot.csv --tif-pixel 0.0938 \\\n"
       "             --path raster:pitch=1 --max-feed 3000 --out plan/\n"
+      "  dwell plan --log-plan plan/ --log run.csv --machine machine.toml --out next/\n"
       "Exit codes: 0 done, 1 internal fault, 2 bad usage or input, 3 done but a limit was reached, 130 interrupted.");
   command->callback([arguments, &exit_code] { exit_code = run_plan(*arguments); });
 }

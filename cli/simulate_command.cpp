@@ -113,6 +113,12 @@ SimulationRequest request_of_plan(const SimulateArguments& a) {
     request.program = a.program;
   }
   check_recorded_inputs(plan, flags);
+  request.source.learnt = read_learnt_files(a.plan);
+  if (request.source.learnt && (flags.contains("machine") || flags.contains("program"))) {
+    request.source.learnt.reset();
+    request.source.given.emplace_back(
+        "what logs have taught is left out, since it holds for the plan's own program on its own machine");
+  }
   return request;
 }
 
@@ -142,7 +148,7 @@ SimulationRequest request_of(const SimulateArguments& a) {
   return request;
 }
 
-void check_outputs(const SimulateArguments& a, const JobOptions& options, const std::string& program) {
+void check_outputs(const SimulateArguments& a, const JobOptions& options, const std::string& program, bool learnt) {
   std::vector<ReadFile> read = a.job->files_read(options);
   read.push_back({"the program", program});
   if (!a.log.empty()) read.push_back({"the log", split_map_name(a.log).file.string()});
@@ -151,6 +157,11 @@ void check_outputs(const SimulateArguments& a, const JobOptions& options, const 
   if (!a.motion_table.empty() && options.machine.empty()) {
     throw InputError(
         "--motion-table: of the motion of a machine; give --machine FILE, or a plan that was made for one");
+  }
+  if (!a.motion_table.empty() && learnt) {
+    throw InputError(
+        "--motion-table: what logs have taught of this plan are times of strokes and no speeds within them; give "
+        "--machine FILE for the motion of the machine alone");
   }
   check_output_files({{OutputFile::Kind::Map, "--residual", a.residual},
                       {OutputFile::Kind::Figure, "--png", a.png},
@@ -173,9 +184,11 @@ std::string executed_lines(const Simulation& s) {
   if (!s.executed) return "";
   const ExecutedProgram& e = *s.executed;
   return machine_lines(e.machine) +
-         fmt::format("executed  {} for the run, {} of {} take over 1 % longer than commanded; up to {:.4g} mm/s^2\n",
-                     duration_text(e.run_seconds), e.slow_steps, counted(e.removing_steps, "removing step"),
-                     e.max_acceleration) +
+         fmt::format(
+             "executed  {} for the run{}, {} of {} take over 1 % longer than commanded; up to {:.4g} mm/s^2\n",
+             duration_text(e.run_seconds),
+             e.logs > 0 ? fmt::format(" as learnt from {}", counted(static_cast<std::size_t>(e.logs), "log")) : "",
+             e.slow_steps, counted(e.removing_steps, "removing step"), e.max_acceleration) +
          (e.lifts.any() ? "          " + lift_words(e.lifts) + "\n" : "") +
          fmt::format(
              "commanded {} and {}, if every move had its speed from end to end; the removals differ by {:.4g} nm "
@@ -255,7 +268,7 @@ int run_simulate(const SimulateArguments& arguments) {
   if (!a.g4.empty()) reading.halts = of_option("--g4", [&a] { return parse_halt_unit(a.g4); });
   if (!a.start.empty()) reading.start = of_option("--start", [&a] { return parse_point(a.start); });
   const SimulationRequest request = request_of(arguments);
-  check_outputs(arguments, request.options, request.program);
+  check_outputs(arguments, request.options, request.program, request.source.learnt.has_value());
   const Progress progress = terminal_progress();
   const Simulation s = simulated(arguments, request, reading, progress);
   progress.step("writing");

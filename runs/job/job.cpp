@@ -63,6 +63,7 @@ DwellOptions dwell_options(const JobOptions& o) {
 DwellOptions dwell_options(const Job& job) {
   DwellOptions options = dwell_options(job.options);
   if (job.machine) options.machine.machine = machine_for_program(job.machine->machine, job.options);
+  if (job.lesson) options.machine.learnt = std::make_shared<const LearntMotion>(job.lesson->run.learnt);
   return options;
 }
 

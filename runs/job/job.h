@@ -7,6 +7,7 @@
 #include "core/map/aperture.h"
 #include "runs/base/input_file.h"
 #include "runs/job/job_options.h"
+#include "runs/job/log_lesson.h"
 #include "runs/machine/machine_file.h"
 #include "runs/plan/dwell_options.h"
 #include "runs/plan/dwell_plan.h"
@@ -23,8 +24,9 @@ struct Job {
   Index map_pixels = 0;           // valid pixels of the map before the aperture
   std::shared_ptr<const Part> part;
   std::optional<NamedMachine> machine;
-  std::vector<Aperture> keep_out;  // that the path spares
-  GcodeInsert header, footer;      // of program.nc
+  std::vector<Aperture> keep_out;     // that the path spares
+  GcodeInsert header, footer;         // of program.nc
+  std::optional<LogLesson> lesson{};  // of the log, once the path is laid
 };
 
 /// Reads map and removal function and makes the part; the path is not looked at. Throws InputError naming flag or file,

@@ -341,6 +341,10 @@ std::vector<JobOptionRecord> make_table() {
   const auto lift_height = std::find_if(table.begin(), table.end(),
                                         [](const JobOptionRecord& record) { return record.flag == "lift-height"; });
   table.insert(lift_height + 1, of_program.begin(), of_program.end());
+  const std::vector<JobOptionRecord> of_log = log_option_records();
+  const auto rounds =
+      std::find_if(table.begin(), table.end(), [](const JobOptionRecord& record) { return record.flag == "rounds"; });
+  table.insert(rounds + 1, of_log.begin(), of_log.end());
   return table;
 }
 

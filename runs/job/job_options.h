@@ -70,6 +70,11 @@ struct JobOptions {
   std::string machine;  // file of the machine; empty: accelerations and corners are not considered
   ScheduleKind schedule = ScheduleKind::Constant;  // how the program for the machine says its speeds
   int rounds = 5;                                  // of correction for its motion, at most
+  std::string log;  // of a controller, of a run of the program in the folder log_plan; empty: none
+  std::string log_plan;
+  std::string log_columns;             // empty: by their names
+  std::optional<double> log_period_s;  // nothing: the log holds the time
+  double log_tolerance_mm = 0.1;
   double certify = 0.0;  // share by which the objective may be above the optimum, to be proven; 0 = not asked for
   SolverKind solver = SolverKind::Auto;
   BlemishHandling blemishes = BlemishHandling::Report;
@@ -115,6 +120,9 @@ const std::vector<JobOptionRecord>& job_option_table();
 
 /// The part of the table about how program.nc is written.
 std::vector<JobOptionRecord> program_option_records();
+
+/// The part about the log of an earlier run.
+std::vector<JobOptionRecord> log_option_records();
 
 /// Sets one option, named `source` ("--max-feed" or "job.toml: max_feed_mm_per_min") in errors.
 void set_job_option(JobOptions& options, const JobOptionRecord& record, const std::string& text,

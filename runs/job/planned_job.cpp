@@ -51,16 +51,22 @@ namespace {
 
 /// `used` went of the time limit before [s].
 PlannedJob plan_loaded(Job job, JobPath path, double used, const Progress& progress) {
-  DwellOptions options = dwell_options(job);
-  options.used_seconds = used;
   PlannedJob planned;
   planned.job = std::move(job);
   if (auto file = path_input(planned.job.options)) planned.job.inputs.push_back(std::move(*file));
   planned.laid = std::move(path.laid);
+  DwellOptions options = dwell_options(planned.job);
   const TimeLimit limit = time_limit(options.max_seconds, used);
+  options.used_seconds = used;
   planned.blocks = merge_blocks(planned.part(), planned.laid, options, progress);
-  options.used_seconds = planned.blocks ? limit.used() : used;
-  const bool found = path.dwell && !(planned.blocks && planned.blocks->short_before > 0);
+  if (planned.job.machine) {
+    planned.job.lesson = learn_from_log(planned.job.options, planned.part(), planned.laid, *planned.job.machine,
+                                        *options.machine.machine, planned.job.inputs, progress);
+  }
+  options = dwell_options(planned.job);
+  options.used_seconds = planned.blocks || planned.job.lesson ? limit.used() : used;
+  // A dwell that was found with the path knows nothing of merged blocks and of the log.
+  const bool found = path.dwell && !planned.job.lesson && !(planned.blocks && planned.blocks->short_before > 0);
   planned.dwell = found ? std::move(*path.dwell) : find_dwell(planned.part(), planned.laid, options, progress);
   if (planned.job.options.blemishes == BlemishHandling::LeaveOut) {
     options.used_seconds += planned.dwell.solver.seconds;
@@ -85,6 +91,7 @@ PlannedJob plan_loaded(Job job, JobPath path, double used, const Progress& progr
 PlannedJob plan_job(const JobOptions& options, const Progress& progress) {
   check_weights(dwell_options(options));
   check_exports(options);
+  check_log_options(options);
   const TimeLimit limit = time_limit(options.max_solve_s);
   Job job = limit.run(progress, [&](const Progress& limited) { return load_job(options, limited); });
   JobPath path = lay_job_path(job, limit.used(), progress);

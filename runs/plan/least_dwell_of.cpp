@@ -11,8 +11,10 @@ Eigen::VectorXd least_dwell_of(const LaidPath& laid, const MachineLimits& limits
   Eigen::VectorXd least = minimum_dwell(laid.strokes, feeds);
   if (!limits.machine) return least;
   const StrokeMoves moves = stroke_moves(laid.path, laid.motion);
-  return least.cwiseMax(
-      least_dwell(moves, kinematic_path(moves.steps, *limits.machine, feeds.max_feed), *limits.machine));
+  Eigen::VectorXd of_machine =
+      least_dwell(moves, kinematic_path(moves.steps, *limits.machine, feeds.max_feed), *limits.machine);
+  if (limits.learnt) of_machine += limits.learnt->late;
+  return least.cwiseMax(of_machine);
 }
 
 }  // namespace dwell

@@ -11,6 +11,7 @@
 #include "paths/feed/execution.h"
 #include "paths/feed/exported_motion.h"
 #include "paths/feed/kinematic_path.h"
+#include "paths/feed/late_motion.h"
 #include "paths/feed/lift_rests.h"
 #include "paths/feed/linear_program.h"
 #include "paths/feed/linear_schedule.h"
@@ -29,6 +30,8 @@ class Loop {
  public:
   Loop(const Part& part, const LaidPath& laid, const RemovalKernel& kernel, const DwellOptions& options)
       : part_(part),
+        learnt_(options.machine.learnt.get()),
+        map_(learnt_ != nullptr ? with_learnt_removal(part, learnt_->removal).map : part.map),
         kernel_(kernel),
         machine_(*options.machine.machine),
         kind_(options.schedule),
@@ -54,7 +57,7 @@ class Loop {
 
  private:
   HeightMap left_by(const Program& motion) const {
-    return surface_after(part_.map, simulate(motion, part_.map, kernel_, part_.threads));
+    return surface_after(map_, simulate(motion, map_, kernel_, part_.threads));
   }
 
   Program program_of_speeds(const Eigen::VectorXd& dwell, double acceleration_share, MotionPlan& plan,
@@ -69,7 +72,9 @@ class Loop {
   }
 
   Program execute_feeds(const Eigen::VectorXd& dwell, MotionPlan& plan, const Progress& progress) const {
-    const ConstantSchedule schedule = schedule_constant(moves_, path_, machine_, dwell);
+    Eigen::VectorXd of_machine = dwell;  // what is left of it to the machine's own motion
+    if (learnt_ != nullptr) of_machine = (dwell - learnt_->late).cwiseMax(0.0);
+    const ConstantSchedule schedule = schedule_constant(moves_, path_, machine_, of_machine);
     plan.seconds = schedule.seconds;
     plan.too_short = schedule.too_short;
     plan.commanded = schedule.halt;
@@ -88,10 +93,15 @@ class Loop {
       }
       program.steps.push_back(step);
     }
-    return execute(program, machine_, progress).motion;
+    Execution execution = execute(program, machine_, progress);
+    if (learnt_ == nullptr) return std::move(execution.motion);
+    plan.seconds += learnt_->late;
+    return late_motion(execution, late_of_steps(moves_.stroke, execution.seconds, learnt_->late));
   }
 
   const Part& part_;
+  const LearntMotion* learnt_;  // null: nothing
+  HeightMap map_;               // of the part, less what is learnt of the removal
   const RemovalKernel& kernel_;
   Machine machine_;
   ScheduleKind kind_;

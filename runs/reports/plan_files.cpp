@@ -1,5 +1,6 @@
 #include "runs/reports/plan_files.h"
 
+#include "runs/job/learnt_files.h"
 #include "runs/programs/program_formats.h"
 
 namespace dwell {
@@ -8,7 +9,8 @@ namespace {
 ResultFiles make_plan_files() {
   ResultFiles files{"plan",
                     "summary.json",
-                    {"residual.npy", "residual.npy.json", "dwell.npy", "search.csv"},
+                    {"residual.npy", "residual.npy.json", "dwell.npy", "search.csv", kLateFile, kLearntRemovalFile,
+                     kLearntRemovalSidecar},
                     {"before", "after", "residual", "dwell", "path", "path_detail"},
                     nullptr};
   for (const ProgramFormat& format : program_formats()) {

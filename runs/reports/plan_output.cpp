@@ -19,7 +19,9 @@
 #include "core/formats/map_io.h"
 #include "core/formats/npy.h"
 #include "paths/feed/execution.h"
+#include "paths/feed/late_motion.h"
 #include "paths/feed/machine_check.h"
+#include "runs/job/learnt_files.h"
 #include "runs/job/option_flags.h"
 #include "runs/job/program_style.h"
 #include "runs/plan/program_prediction.h"
@@ -77,10 +79,30 @@ Program read_back(const PlannedJob& plan, const OutputFolder& folder, const std:
   }
 }
 
-/// A program as the job's machine runs it; as it is without a machine.
+/// A program as the job's machine runs it, with what a log has taught; as it is without a machine.
 Program run_of(const PlannedJob& plan, const Program& program, const Progress& progress) {
   if (!plan.job.machine) return program;
-  return execute(program, machine_for_program(plan.job.machine->machine, plan.job.options), progress).motion;
+  const LearntMotion* learnt = plan.job.lesson ? &plan.job.lesson->run.learnt : nullptr;
+  return learnt_execution(program, machine_for_program(plan.job.machine->machine, plan.job.options), learnt,
+                          stroke_moves(plan.laid.path, plan.laid.motion), progress);
+}
+
+/// The part on which a simulated motion leaves what the machine leaves.
+const Part& part_to_predict_on(const PlannedJob& plan, std::optional<Part>& changed) {
+  if (!plan.job.lesson) return plan.part();
+  return changed.emplace(with_learnt_removal(plan.part(), plan.job.lesson->run.learnt.removal));
+}
+
+/// What the job's log has taught goes into the folder, for the next log and for simulations.
+void write_learnt(const PlannedJob& plan, const OutputFolder& folder, const Program& program, WrittenPlan& written) {
+  if (!plan.job.lesson) return;
+  const LearntMotion& learnt = plan.job.lesson->run.learnt;
+  const std::vector<Index> stroke = strokes_of_steps(program, stroke_moves(plan.laid.path, plan.laid.motion));
+  const Execution execution = execute(program, machine_for_program(plan.job.machine->machine, plan.job.options));
+  folder.write(kLateFile, late_text(stroke, late_of_steps(stroke, execution.seconds, learnt.late)));
+  write_map(folder.path(kLearntRemovalFile), learnt.removal);
+  written.late_sha256 = sha256_of_file(folder.path(kLateFile));
+  written.learnt_removal_sha256 = sha256_of_file(folder.path(kLearntRemovalFile));
 }
 
 bool differs(double a, double b, double tolerance) {
@@ -109,8 +131,9 @@ void compare_with_table(const PlannedJob& plan, const Program& program, const Pr
   written.table_has_same_steps =
       same_removing_steps(program, table, units::mm_per_s(plan.job.options.max_feed_mm_per_min));
   if (*written.table_has_same_steps) return;
-  const ExactResidual from_table =
-      predict_program(plan.part(), run_of(plan, table, progress), plan.dwell.lattice.kernel, progress);
+  std::optional<Part> changed;
+  const ExactResidual from_table = predict_program(part_to_predict_on(plan, changed), run_of(plan, table, progress),
+                                                   plan.dwell.lattice.kernel, progress);
   const double left = written.exact.statistics.rms_about_zero(), by_table = from_table.statistics.rms_about_zero();
   if (has_coarse_controller(plan)) return say_rounding("program.nc", left, by_table, written);  // the table is not
   if (differs(left, by_table, std::max(1e-3, 3.0 * written.exact.standard_error / left))) {
@@ -218,7 +241,9 @@ WrittenPlan write_plan(const PlannedJob& plan, const OutputFolder& folder, const
   WrittenPlan written;
   written.limits = plan.limits();
   const Program run = run_of(plan, program, progress);
-  written.exact = predict_program(plan.part(), run, plan.dwell.lattice.kernel, progress);
+  std::optional<Part> changed;
+  written.exact = predict_program(part_to_predict_on(plan, changed), run, plan.dwell.lattice.kernel, progress);
+  write_learnt(plan, folder, program, written);
   if (plan.job.machine && has_table) {  // of others, check_written_exports says it
     for (std::string& fault : beyond_machine(program, plan.job.machine->machine))
       written.limits.push_back(std::move(fault));
@@ -231,6 +256,10 @@ WrittenPlan write_plan(const PlannedJob& plan, const OutputFolder& folder, const
   const double max_feed = options.machine.feed_limits().max_feed;
   written.run_seconds = run.run_seconds(max_feed);
   written.warnings = plan.job.options.notes;
+  if (plan.job.lesson) {
+    const std::vector<std::string>& notes = plan.job.lesson->notes;
+    written.warnings.insert(written.warnings.end(), notes.begin(), notes.end());
+  }
   written.travel = travel_times(plan.laid, plan.job.options.lift_height_mm, options.machine);
   written.travel.lifted = program.rapid_seconds(max_feed);  // as simulate reads it
   const bool moves = plan.laid.motion == Motion::Moving;

@@ -12,6 +12,7 @@
 #include "core/base/utf8_text.h"
 #include "runs/base/inputs_json.h"
 #include "runs/reports/aim.h"
+#include "runs/reports/log_report.h"
 #include "runs/reports/machine_report.h"
 #include "runs/reports/options_json.h"
 #include "runs/reports/plan_blocks.h"
@@ -78,6 +79,24 @@ Json blocks_json(const BlockMerging& blocks, double max_per_s, double planned) {
   return {{"max_per_s", max_per_s},   {"before", blocks.before},   {"too_short_before", blocks.short_before},
           {"after", blocks.after},    {"bounded", blocks.bounded}, {"planned_rms_nm_before", blocks.rms_before},
           {"planned_rms_nm", planned}};
+}
+
+/// What the log of an earlier run has taught.
+Json learnt_json(const PlannedJob& plan, const WrittenPlan& written) {
+  const LogLesson& lesson = *plan.job.lesson;
+  const LearntFromRun& run = lesson.run;
+  Json json{{"logs", run.learnt.logs},
+            {"recorded_rms_nm", run.recorded_rms},
+            {"recorded_s", run.recorded_seconds},
+            {"expected_s", run.expected_seconds},
+            {"late_mean_s", run.late_mean},
+            {"late_rms_s", run.late_rms},
+            {"removal_rms_nm", run.removal_rms},
+            {"late_sha256", written.late_sha256},
+            {"removal_sha256", written.learnt_removal_sha256}};
+  json["machine_sha256"] = sha256_of_machine(*plan.job.machine);
+  json["log"] = log_block(lesson.log, lesson.aligned);
+  return json;
 }
 
 /// The program as read back, and how feed.csv was compared with it.
@@ -151,6 +170,7 @@ std::string plan_summary_text(const PlannedJob& plan, const WrittenPlan& written
       summary["blocks"] = blocks_json(*plan.blocks, plan.job.machine->machine.controller.max_blocks_per_s,
                                       plan.dwell.residual.rms_about_zero());
     if (written.travel.rests.any()) summary["motion"]["lift_rests"] = lift_block(written.travel.rests);
+    if (plan.job.lesson) summary["motion"]["learnt"] = learnt_json(plan, written);
   }
   return json_text(std::move(summary));
 }

@@ -115,7 +115,8 @@ std::string difference_of_inputs(const ProgramRecord& record, const Job& job, bo
 }  // namespace
 
 bool is_of_program_alone(const std::string& role) {
-  return role == "path" || role == "machine" || role == "header" || role == "footer";
+  return role == "path" || role == "machine" || role == "header" || role == "footer" || role == "log" ||
+         role == "log-program";
 }
 
 std::string short_hash(const std::string& sha256) {

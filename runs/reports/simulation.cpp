@@ -13,6 +13,7 @@
 #include "core/map/part_distance.h"
 #include "core/removal/simulate.h"
 #include "paths/feed/execution.h"
+#include "paths/feed/late_motion.h"
 #include "paths/feed/machine_check.h"
 #include "runs/base/inputs_json.h"
 #include "runs/job/job.h"
@@ -44,10 +45,19 @@ void check_steps(const Program& program, const Part& part) {
 }
 
 /// A program as a machine runs it, in the place of the program as commanded.
-Program executed_on(const NamedMachine& machine, const Program& program, ExecutedProgram& executed,
-                    std::vector<std::string>& limits, const Progress& progress) {
+Program executed_on(const NamedMachine& machine, const Program& program, const std::optional<LearntFiles>& learnt,
+                    ExecutedProgram& executed, std::vector<std::string>& limits, const Progress& progress) {
   progress.report("simulate: motion of the machine");
   Execution run = execute(program, machine.machine, progress);
+  if (learnt) {
+    if (learnt->late.size() != program.steps.size())
+      throw InputError(fmt::format("{}: {} but {} has {}; required one for each", kLateFile,
+                                   counted(learnt->late.size(), "row"), program.file,
+                                   counted(program.steps.size(), "step")));
+    run.motion = late_motion(run, learnt->late);
+    for (std::size_t i = 0; i < run.seconds.size(); ++i) run.seconds[i] += learnt->late[i];
+    executed.logs = learnt->logs;
+  }
   limits = beyond_machine(program, machine.machine);
   executed.machine = machine;
   executed.run_seconds = run.motion.run_seconds();
@@ -102,16 +112,20 @@ Simulation simulate_file(const std::filesystem::path& program, const GcodeReadin
   s.volume_factor = part.kernel.volume_factor;
   check_steps(s.program, part);
   std::optional<Program> motion;
-  if (job.machine) motion = executed_on(*job.machine, s.program, s.executed.emplace(), s.limits, progress);
+  if (job.machine)
+    motion = executed_on(*job.machine, s.program, source.learnt, s.executed.emplace(), s.limits, progress);
   if (job.machine && keep_nodes) s.nodes = motion_nodes(s.program, job.machine->machine, progress);
   const Program& run = motion ? *motion : s.program;
   const Progress simulating = progress.of_part(fmt::format("simulate {}", counted(s.program.steps.size(), "step")));
   LatticeChoice lattice = choose_lattice(part, removing_steps(run).strokes, simulating);
-  s.after =
-      predict_program(part, run, lattice.kernel, simulating, every_pixel ? ExactCheck::EveryPixel : ExactCheck::Figure);
+  std::optional<Part> changed;
+  if (source.learnt) changed = with_learnt_removal(part, source.learnt->removal);
+  const Part& predicted = changed ? *changed : part;
+  s.after = predict_program(predicted, run, lattice.kernel, simulating,
+                            every_pixel ? ExactCheck::EveryPixel : ExactCheck::Figure);
   while (!s.after.all && lattice_too_coarse(s.after, part.before) && !lattice.finest) {
     lattice = finer_lattice(part, lattice);
-    s.after = predict_program(part, run, lattice.kernel, simulating);
+    s.after = predict_program(predicted, run, lattice.kernel, simulating);
   }
   if (s.executed) compare_with_commanded(part, s.program, lattice, s, simulating);
   if (source.log) {
@@ -141,6 +155,7 @@ std::string simulation_json(const Simulation& s) {
     const ExecutedProgram& e = *s.executed;
     json["machine"] = machine_block(e.machine);
     json["executed"] = {{"total_s", e.run_seconds},
+                        {"logs", e.logs},
                         {"slow_steps", e.slow_steps},
                         {"removing_steps", e.removing_steps},
                         {"max_acceleration_mm_per_s2", e.max_acceleration},

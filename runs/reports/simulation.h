@@ -16,6 +16,7 @@
 #include "runs/base/input_file.h"
 #include "runs/base/json_blocks.h"
 #include "runs/job/job_options.h"
+#include "runs/job/learnt_files.h"
 #include "runs/machine/machine_file.h"
 #include "runs/programs/gcode_reading.h"
 #include "runs/reports/program_record.h"
@@ -25,10 +26,11 @@ namespace dwell {
 
 /// Where a simulation's options come from, and what may be other than when the program was made.
 struct SimulationSource {
-  std::string plan;                // folder of the plan whose options these are; empty: the program stands alone
-  std::vector<std::string> given;  // a sentence for each option that is given in the place of the plan's
-  OtherInputs other;               // inputs that are meant to be others than the program's header says
-  std::optional<LogSource> log;    // of a run of the program
+  std::string plan;                     // folder of the plan whose options these are; empty: the program stands alone
+  std::vector<std::string> given;       // a sentence for each option that is given in the place of the plan's
+  OtherInputs other;                    // inputs that are meant to be others than the program's header says
+  std::optional<LogSource> log;         // of a run of the program
+  std::optional<LearntFiles> learnt{};  // of the plan's folder, where program and machine are the plan's
 };
 
 /// What a program would leave if every move had its commanded speed from end to end.
@@ -45,6 +47,7 @@ struct ExecutedProgram {
   double removal_change = 0.0;  // RMS of the executed removal less the commanded one, form terms removed [nm]
   std::size_t slow_steps = 0;   // removing steps that take more than 1 % longer than commanded
   std::size_t removing_steps = 0;
+  int logs = 0;                   // whose lessons are in the motion
   double max_acceleration = 0.0;  // along the path, at work [mm/s^2]
   LiftTotals lifts{};             // the machine's rests at them
 };

@@ -40,6 +40,7 @@ struct WrittenPlan {
   /// plan has no feed table.
   std::optional<bool> table_has_same_steps{};
   std::vector<WrittenExport> exports;
+  std::string late_sha256, learnt_removal_sha256;  // of kLateFile and kLearntRemovalFile, where there are any
   std::vector<std::string> limits;  // of the plan, and those that reading its files back has shown; a sentence each
   std::string summary;              // the text of summary.json
 };

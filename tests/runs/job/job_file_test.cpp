@@ -58,6 +58,11 @@ JobOptions unusual() {
   o.machine = "/data/machine.toml";
   o.rounds = 7;
   o.schedule = ScheduleKind::Pvt;
+  o.log = "/data/run.csv";
+  o.log_plan = "/data/plan";
+  o.log_columns = "Time:ms,PosX:um,PosY:um";
+  o.log_period_s = 0.002;
+  o.log_tolerance_mm = 0.25;
   o.smoothness = {1e-9};
   o.time_price_nm2_per_s = {1.0 / 3.0, GoalKind::TotalAtMost};
   o.solver = SolverKind::DenseNnls;
