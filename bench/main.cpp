@@ -12,6 +12,7 @@
 #include "bench/faults.h"
 #include "bench/field_method.h"
 #include "bench/measurements.h"
+#include "bench/motion_sweep.h"
 #include "bench/plan_run.h"
 #include "bench/planner_run.h"
 #include "bench/reference.h"
@@ -40,6 +41,7 @@ constexpr const char* kFooter =
     "  ./dev bench --full --out out/bench/full.json\n"
     "                                       # everything, some hour; after an interrupt the same command goes on\n"
     "  ./dev bench report out/bench/full.json --markdown docs/benchmarks.md --picture docs/images/benchmarks.png\n"
+    "  ./dev bench motion --picture docs/images/motion.png\n"
     "  ./dev bench reference --scenario c-3000 --new-weights\n";
 
 struct Options {
@@ -204,6 +206,14 @@ void reference(const Options& options) {
   }
 }
 
+void sweep(const Options& options) {
+  const std::vector<MotionLoss> losses = sweep_motion(options.threads, Progress());
+  const std::string text = motion_table_of(losses);
+  fmt::print("{}", text);
+  if (!options.markdown.empty()) write_whole_file(options.markdown, text);
+  if (!options.picture.empty()) write_whole_file(options.picture, motion_chart_of(losses));
+}
+
 void add_measuring(CLI::App& app, Options& options) {
   app.add_flag(
       "--quick", options.quick,
@@ -238,9 +248,11 @@ int run(int argc, char** argv) {
     command->add_option("--data", options.data, "folder of public mirrors");
     command->add_option("--references", options.references, "JSON file of reference objectives");
   }
-  for (CLI::App* command : {&app, report_command}) {
+  CLI::App* motion_command = app.add_subcommand(
+      "motion", "what accelerations of the machine cost, by path, planned without and with knowing them");
+  for (CLI::App* command : {&app, report_command, motion_command}) {
     command->add_option("--markdown", options.markdown, "write the tables to this file");
-    command->add_option("--picture", options.picture, "draw quality against time into this PNG file");
+    command->add_option("--picture", options.picture, "draw the figure of it into this PNG file");
   }
   std::string file;
   report_command->add_option("FILE", file, "what --out wrote")->required();
@@ -260,6 +272,8 @@ int run(int argc, char** argv) {
     solve(options);
   } else if (reference_command->parsed()) {
     reference(options);
+  } else if (motion_command->parsed()) {
+    sweep(options);
   } else if (report_command->parsed()) {
     deliver(options, nlohmann::json::parse(read_whole_file(file)));
   } else {
