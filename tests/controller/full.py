@@ -35,6 +35,7 @@ REMOVALS = {"raster": 0.05, "random": 0.50}
 OVER_PLAN = {("raster, rough", "50-50"): 1.1, ("random, seed 3", "50-500"): 1.2, ("random, seed 4", "50-500"): 1.2,
              ("random, seed 3", "50-50"): 1.5, ("random, seed 4", "50-50"): 1.5}
 
+LEARNING = PLANS[2]
 LOGS = 2  # rounds of correction by a run's own log
 CORRECTED = {"50-500": 1.1, "50-50": 1.2}  # after the last of them: left over planned
 
@@ -99,6 +100,8 @@ def judge(report, logs):
                     G64: runs.machine_file(case, f"blending-{machine}", limits, *learnt, found["deviation"])}
         for title, path, smoothness in PLANS:
             judge_plan(report, case, results, limits, machine, machines, title, path, smoothness, logs)
+        if machine in CORRECTED:
+            correct(report, case, results, limits, machine, logs)
 
 
 def folder_of(title, machine):
@@ -148,30 +151,30 @@ def judge_plan(report, case, results, limits, machine, machines, title, path, sm
                               "date": datetime.date.today().isoformat()})
         hold(report, results.runs[key])
         write_proof(results)
-    if title.startswith("random") and machine in CORRECTED:
-        correct(report, case, results, limits, machine, machines[G61], title, ("--path", path, "--smoothness", smoothness),
-                logs)
 
 
-def correct(report, case, results, limits, machine, file, title, words, logs):
-    """Plans again by the log of the run with G61, and by that of the next."""
-    last = folder_of(title, machine)
-    planned_nm = planned(case, results, last, *words, "--machine", file.name)["planned_nm"]
-    for number in range(1, LOGS + 1):
+def correct(report, case, results, limits, machine, logs):
+    """A path of corners that is planned for the machine of the data sheet, and again by the logs of its runs."""
+    title, path, smoothness = LEARNING
+    words = ("--path", path, "--smoothness", smoothness, "--machine", f"ideal-{machine}.toml")
+    last, planned_nm = None, None
+    for number in range(LOGS + 1):
         name = f"{folder_of(title, machine)}-log-{number}"
-        log = logs.resolve() / f"{last}-g61" / "log.csv"
-        plan = planned(case, results, name, *words, "--machine", file.name, "--log", str(log), "--log-plan", last)
+        by_log = ("--log", str(logs.resolve() / f"{last}-g61" / "log.csv"), "--log-plan", last) if last else ()
+        plan = planned(case, results, name, *words, *by_log)
+        planned_nm = planned_nm or plan["planned_nm"]
         program = runs.program_with(case, name, G61)
         key = "corrected " + key_of(program, limits, G61)
         if key not in results.runs:
-            run = recorded(logs, f"{name}-g61", program, limits, plan["total_s"], file)
+            run = recorded(logs, f"{name}-g61", program, limits, plan["total_s"], case.folder / f"ideal-{machine}.toml")
             left = case.part.heights - runs.removal_of(case, run.work)
             results.add(key, {"title": title, "machine": machine, "logs": number, "recorded_s": run.work.total(),
                               "said_s": plan["total_s"], "said_nm": plan["said_nm"], "planned_nm": planned_nm,
                               "residual_nm": runs.rms(case, left), "date": datetime.date.today().isoformat()})
         row = results.runs[key]
-        report.say(f"  corrected by {number} of its logs: {row['recorded_s']:.2f} s, {row['residual_nm']:.4g} nm left, "
-                   f"as dwell says {row['said_nm']:.4g} nm in {row['said_s']:.2f} s ({row['date']})")
+        report.say(f"\n{title} on {limits.name()} as set, corrected by {number} of its logs: {row['recorded_s']:.2f} s, "
+                   f"{row['residual_nm']:.4g} nm left, as dwell says {row['said_nm']:.4g} nm in {row['said_s']:.2f} s "
+                   f"({row['date']})")
         if number == LOGS:
             report.hold("left over planned", row["residual_nm"] / row["planned_nm"], CORRECTED[machine])
         write_proof(results)
@@ -221,14 +224,14 @@ def lines_of_corrected(results, machine):
     rows = [row for row in results.runs.values() if "logs" in row and row["machine"] == machine]
     if machine not in CORRECTED:
         return []
-    text = ["Planned again by the log of the run with G61 (`--log`), and by that of the next:", "",
+    text = ["Planned for axes as they are set in the controller, with no delay at a stop, and planned again by the log of "
+            "the run with G61 (`--log`), and by that of the next:", "",
             "| plan | logs | recorded, s | as dwell says, s | left as recorded, nm | as dwell says, nm | planned, nm | "
             "left over planned | date |", "|---|---|---|---|---|---|---|---|---|"]
-    for title, _, _ in PLANS:
-        for row in sorted((row for row in rows if row["title"] == title), key=lambda row: row["logs"]):
-            text.append(f"| {title} | {row['logs']} | {row['recorded_s']:.2f} | {row['said_s']:.2f} | "
-                        f"{row['residual_nm']:.4f} | {row['said_nm']:.4f} | {row['planned_nm']:.4f} | "
-                        f"{row['residual_nm'] / row['planned_nm']:.3f} | {row['date']} |")
+    for row in sorted(rows, key=lambda row: row["logs"]):
+        text.append(f"| {row['title']} | {row['logs']} | {row['recorded_s']:.2f} | {row['said_s']:.2f} | "
+                    f"{row['residual_nm']:.4f} | {row['said_nm']:.4f} | {row['planned_nm']:.4f} | "
+                    f"{row['residual_nm'] / row['planned_nm']:.3f} | {row['date']} |")
     return [*text, ""]
 
 
