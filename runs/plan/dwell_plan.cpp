@@ -39,6 +39,13 @@ void collect_limits(DwellPlan& plan, const DwellOptions& options) {
   }
   if (options.certify > 0.0 && !(plan.certificate.gap() <= options.certify))
     plan.limits.push_back(not_proven(plan, options));
+  if (plan.motion && options.time_price.kind == GoalKind::TotalAtMost) {
+    const double taken = plan.motion->seconds.sum(), most = options.time_price.value;
+    constexpr double kHeld = 1e-3;
+    if (!(taken <= (1.0 + kHeld) * most))
+      plan.limits.push_back(
+          fmt::format("`time price` is total<={:g} s, but on the machine the strokes take {:.6g} s", most, taken));
+  }
   if (plan.search) plan.limits.insert(plan.limits.end(), plan.search->limits.begin(), plan.search->limits.end());
 }
 

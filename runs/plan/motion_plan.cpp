@@ -18,6 +18,7 @@
 #include "paths/feed/stroke_moves.h"
 #include "runs/plan/least_dwell_of.h"
 #include "runs/plan/rounded_motion.h"
+#include "runs/plan/weight_choice.h"
 
 namespace dwell {
 namespace {
@@ -117,6 +118,19 @@ Index count_at_least(const Eigen::VectorXd& dwell, const Eigen::VectorXd& least)
   return count;
 }
 
+/// Solves for the target as it is now. A total that is to be held is held by another price, since what the motion
+/// removes on its own may ask for more time as well as for less.
+WeightedDwell solve_again(PlanProblem& problem, const DwellOptions& options, const Weights& weights,
+                          const Eigen::VectorXd& start, int round, const Progress& progress) {
+  const std::string stage = fmt::format("motion, round {}", round);
+  if (options.time_price.kind != GoalKind::TotalAtMost)
+    return problem.solve(weights, start, options.max_seconds, stage, progress);
+  DwellOptions held = options;
+  held.smoothness = {weights.smoothness};
+  WeightTrials trials;
+  return choose_weights(problem, held, options.max_seconds, progress.of_part(stage), trials);
+}
+
 }  // namespace
 
 MotionPlan plan_motion(PlanProblem& problem, const Part& part, const LaidPath& laid, const RemovalKernel& kernel,
@@ -127,6 +141,7 @@ MotionPlan plan_motion(PlanProblem& problem, const Part& part, const LaidPath& l
   best.at_least = count_at_least(dwell, least_dwell_of(laid, options.machine));
   std::vector<double> rounds;
   Eigen::VectorXd corrected = dwell;
+  double time_price = weights.time_price;
   for (int round = 0;; ++round) {
     progress.report(fmt::format("motion: round {}", round));
     MotionPlan now;
@@ -136,6 +151,7 @@ MotionPlan plan_motion(PlanProblem& problem, const Part& part, const LaidPath& l
     if (round == 0 || rounds.back() < before) {
       now.at_least = best.at_least;
       now.best = round;
+      now.time_price = time_price;
       best = std::move(now);
     }
     best.rounds = rounds;
@@ -144,9 +160,9 @@ MotionPlan plan_motion(PlanProblem& problem, const Part& part, const LaidPath& l
     HeightMap defect = problem.left_by(corrected);
     for (std::size_t i = 0; i < defect.values.size(); ++i) defect.values[i] -= left.values[i];
     problem.spare_target(defect);
-    corrected =
-        problem.solve(weights, corrected, options.max_seconds, fmt::format("motion, round {}", round + 1), progress)
-            .dwell;
+    WeightedDwell found = solve_again(problem, options, weights, corrected, round + 1, progress);
+    corrected = std::move(found.dwell);
+    time_price = found.weights.time_price;
   }
   problem.spare_target({});
   return best;

@@ -21,6 +21,7 @@ struct MotionPlan {
   Eigen::VectorXd seconds;         // that the machine then takes for every stroke [s]
   std::vector<double> rounds;      // what the motion leaves after each round, RMS about zero without form terms [nm]
   int best = 0;                    // the round that is taken; 0 = feeds made for the solver's dwell as it is
+  double time_price = 0.0;         // of that round's solve [nm^2/s]; the plan's, unless a total is to be held
   Index at_least = 0;              // strokes whose dwell is the least that the machine can
   Index too_short = 0;             // strokes that take longer than their dwell however fast they are run
 
@@ -30,7 +31,7 @@ struct MotionPlan {
 
 /// Closes the loop between plan and motion by defect correction: feeds or speeds are made for the dwell as
 /// options.schedule says, the machine's motion of them is simulated, and what its removal has over that of the dwell is
-/// taken off the target of the next solve. `dwell` [s] and `weights` are those of the solved plan; at most
+/// taken off the target of the next solve, which holds a total that is asked for by another price. `dwell` [s] and `weights` are those of the solved plan; at most
 /// options.rounds such solves, fewer when one gains less than 0.2 %. The best round is taken, the first included.
 /// `kernel` is that of the problem's lattice. Throws Interrupted. Cost: a schedule, a simulation and a solve a round.
 MotionPlan plan_motion(PlanProblem& problem, const Part& part, const LaidPath& laid, const RemovalKernel& kernel,

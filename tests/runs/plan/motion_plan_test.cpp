@@ -79,6 +79,19 @@ TEST(MotionPlan, NoRoundsLeaveTheFeedsForTheSolversDwell) {
   EXPECT_EQ(plan.dwell.motion->best, 0);
 }
 
+/// What the motion removes on its own asks for another total in each round, unless one is to be held.
+TEST(MotionPlan, HoldsATotalThroughAllRounds) {
+  TurningJob job;
+  const double free = plan_job(job.options).dwell.seconds.sum();
+  for (const double share : {0.97, 0.9}) {
+    job.options.time_price_nm2_per_s = {share * free, GoalKind::TotalAtMost};
+    const PlannedJob plan = plan_job(job.options);
+    const double taken = plan.dwell.motion->seconds.sum();
+    EXPECT_LE(taken, 1.003 * share * free) << share;
+    EXPECT_TRUE(plan.limits().empty()) << plan.limits().front();
+  }
+}
+
 TEST(MotionPlan, IsStatedByTheMotionOfTheProgramOnDisk) {
   const TurningJob job;
   const PlannedJob plan = plan_job(job.options);
