@@ -66,6 +66,19 @@ std::string block_lines(const PlannedJob& plan) {
       plan.dwell.residual.rms_about_zero(), counted(b.bounded, "stroke"));
 }
 
+/// How long which limit of the machine binds; empty without one.
+std::string limit_lines(const WrittenPlan& written) {
+  if (written.nodes.empty()) return "";
+  const auto seconds = time_at_limits(written.nodes, written.binding);
+  double total = 0.0;
+  for (const double s : seconds) total += s;
+  const auto share = [&](BindingLimit limit) { return 100.0 * seconds[static_cast<std::size_t>(limit)] / total; };
+  return fmt::format(
+      "limits    of the time at work, acceleration binds in {:.1f} %, speed in {:.1f} %, rests at corners "
+      "take {:.1f} %\n",
+      share(BindingLimit::Acceleration), share(BindingLimit::Speed), share(BindingLimit::Rest));
+}
+
 /// What the log of an earlier run has taught; empty without one.
 std::string lesson_lines(const PlannedJob& plan) {
   if (!plan.job.lesson) return "";
@@ -119,7 +132,7 @@ std::string plan_text(const PlannedJob& plan, const WrittenPlan& written) {
       "predicted {} by the solver, on a lattice of {}{}\n", rms_in_words(plan.dwell.residual),
       lattice_words(plan.dwell.lattice.kernel),
       plan.dwell.lattices > 1 ? fmt::format(" (solved {}, each finer)", counted(plan.dwell.lattices, "time")) : "");
-  text += block_lines(plan) + lesson_lines(plan) + motion_lines(plan);
+  text += block_lines(plan) + lesson_lines(plan) + motion_lines(plan) + limit_lines(written);
   text += fmt::format("program   {} by simulating {} as read back{}\n", in_words(written.exact.statistics),
                       written.program.file, plan.dwell.motion ? ", executed on the machine" : "");
   text += export_lines(written) + exact_lines(written.exact);

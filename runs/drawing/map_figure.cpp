@@ -46,17 +46,25 @@ PanelLayout lay_out(const MapPanel& panel) {
   l.bar_below = f.cols >= kLongAspect * f.rows;
   l.bar = colour_bar(panel.limits, panel.unit, l.bar_below ? l.field.width : l.field.height,
                      l.bar_below ? AxisDirection::Across : AxisDirection::Up);
-  const double right = l.bar_below ? std::max(l.field.width, l.bar.size) : l.field.width + 14.0 + l.bar.size;
+  const double right =
+      l.bar_below || !panel.key.empty() ? std::max(l.field.width, l.bar.size) : l.field.width + 14.0 + l.bar.size;
   // The last label of the x axis may stand out of the field.
   const double last_label = l.x.labels.empty() ? 0.0 : 0.5 * Sheet::text_width(l.x.labels.back(), kLabel);
   l.width = l.field.left + std::max(right, l.field.width + last_label);
+  for (const PanelKey& entry : panel.key)
+    l.width = std::max(l.width, l.field.left + 32.0 + Sheet::text_width(entry.label, kLabel));
   l.title = break_into_lines(panel.title, kPanelTitle, l.width);
-  const double above = title_height(l.title, kPanelTitle) + (l.bar_below || !panel.limits.any ? 0.0 : kLabel.size);
+  const double above =
+      title_height(l.title, kPanelTitle) + (l.bar_below || !panel.key.empty() || !panel.limits.any ? 0.0 : kLabel.size);
   // The name of the y axis may stand out of a thin field.
   const double name_above = 0.5 * (Sheet::text_width("y [mm]", kLabel) - l.field.height);
   l.field.top = std::ceil(std::max({above + kGap, 0.6 * kLabel.size, name_above}));
   l.height = l.field.bottom() + kTickLength + 2.0 * kGap + 2.0 * kLineHeight * kLabel.size;
-  if (l.bar_below && panel.limits.any) l.height += kColourBarBelowHeight;
+  if (!panel.key.empty()) {
+    l.height += kGap + static_cast<double>(panel.key.size()) * kLineHeight * kLabel.size;
+  } else if (l.bar_below && panel.limits.any) {
+    l.height += kColourBarBelowHeight;
+  }
   return l;
 }
 
@@ -108,6 +116,15 @@ void draw_no_data(Sheet& sheet, const SheetBox& field) {
   sheet.text({field.centre().x, field.centre().y + kMiddleToBaseline * style.size}, "no data", style);
 }
 
+void draw_key(Sheet& sheet, const std::vector<PanelKey>& key, Point at) {
+  const double line = kLineHeight * kLabel.size;
+  for (const PanelKey& entry : key) {
+    sheet.line({at.x, at.y + 0.5 * line}, {at.x + 24.0, at.y + 0.5 * line}, {entry.colour, 3.0});
+    sheet.text({at.x + 32.0, at.y + 0.5 * line + kMiddleToBaseline * kLabel.size}, entry.label, kLabel);
+    at.y += line;
+  }
+}
+
 /// Returns the place of the field.
 SheetBox draw_panel(Sheet& sheet, const MapPanel& panel, const PanelLayout& l, double left, double top) {
   const SheetBox field{left + l.field.left, top + l.field.top, l.field.width, l.field.height};
@@ -119,11 +136,13 @@ SheetBox draw_panel(Sheet& sheet, const MapPanel& panel, const PanelLayout& l, d
     sheet.unclip();
   }
   draw_axes(sheet, panel, l, field);
-  if (!panel.limits.any) {
+  const double below = field.bottom() + kTickLength + 3.0 * kGap + 2.0 * kLineHeight * kLabel.size;
+  if (!panel.key.empty()) {
+    draw_key(sheet, panel.key, {field.left, below});
+  } else if (!panel.limits.any) {
     draw_no_data(sheet, field);
   } else if (l.bar_below) {
-    const double bar_top = field.bottom() + kTickLength + 3.0 * kGap + 2.0 * kLineHeight * kLabel.size;
-    draw_colour_bar(sheet, l.bar, panel.colours, {field.left, bar_top});
+    draw_colour_bar(sheet, l.bar, panel.colours, {field.left, below});
   } else {
     draw_colour_bar(sheet, l.bar, panel.colours, {field.right() + 14.0, field.top});
   }

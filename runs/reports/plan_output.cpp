@@ -244,6 +244,11 @@ WrittenPlan write_plan(const PlannedJob& plan, const OutputFolder& folder, const
   std::optional<Part> changed;
   written.exact = predict_program(part_to_predict_on(plan, changed), run, plan.dwell.lattice.kernel, progress);
   write_learnt(plan, folder, program, written);
+  if (plan.job.machine) {
+    const Machine machine = machine_for_program(plan.job.machine->machine, plan.job.options);
+    written.nodes = motion_nodes(program, machine, progress);
+    written.binding = binding_limits(written.nodes, machine, dwell_options(plan.job).machine.feed_limits().max_feed);
+  }
   if (plan.job.machine && has_table) {  // of others, check_written_exports says it
     for (std::string& fault : beyond_machine(program, plan.job.machine->machine))
       written.limits.push_back(std::move(fault));

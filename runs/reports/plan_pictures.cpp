@@ -4,11 +4,13 @@
 
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/base/counted.h"
 #include "core/base/side_by_side.h"
 #include "core/form/map_statistics.h"
+#include "runs/drawing/limit_picture.h"
 #include "runs/drawing/path_picture.h"
 #include "runs/drawing/picture.h"
 #include "runs/drawing/residual_picture.h"
@@ -21,6 +23,21 @@ struct PlanPicture {
   std::string name;
   std::function<std::string(FigureFormat format, const Progress& progress)> draw;
 };
+
+/// Of the machine's motion; none without one. Both must outlive the result.
+std::vector<PlanPicture> motion_pictures(const PlannedJob& plan, const WrittenPlan& written) {
+  if (!plan.job.machine) return {};
+  const std::string machine = plan.job.machine->name;
+  return {{"limits",
+           [&plan, &written, machine](FigureFormat format, const Progress& progress) {
+             return limit_picture(plan.part().map, written.nodes, written.binding,
+                                  fmt::format("What limits the motion (machine: {})", machine), format, progress);
+           }},
+          {"motion", [&written, machine](FigureFormat format, const Progress&) {
+             return speed_picture(written.nodes, fmt::format("Motion of {} (machine: {})", written.program.file, machine),
+                                  format);
+           }}};
+}
 
 /// Both must outlive the result.
 std::vector<PlanPicture> plan_pictures(const PlannedJob& plan, const WrittenPlan& written) {
@@ -69,7 +86,8 @@ std::vector<PlanPicture> plan_pictures(const PlannedJob& plan, const WrittenPlan
 
 void write_plan_pictures(const PlannedJob& plan, const WrittenPlan& written, const OutputFolder& folder,
                          const Progress& progress) {
-  const std::vector<PlanPicture> pictures = plan_pictures(plan, written);
+  std::vector<PlanPicture> pictures = plan_pictures(plan, written);
+  for (PlanPicture& picture : motion_pictures(plan, written)) pictures.push_back(std::move(picture));
   run_side_by_side(plan.part().threads, progress, pictures.size(), [&](std::size_t k, const Progress& shared) {
     write_figure(folder, plan.job.options.figures, pictures[k].name,
                  [&](FigureFormat format) { return pictures[k].draw(format, shared); });

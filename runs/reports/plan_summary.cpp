@@ -67,10 +67,15 @@ Json feed_json(const FeedSchedule& feed, Motion motion) {
 
 /// What the machine makes of the dwell.
 Json motion_json(const MotionPlan& motion, ScheduleKind schedule, double planned) {
-  return {{"schedule", to_string(schedule)},      {"planned_rms_nm", planned},
-          {"one_shot_rms_nm", motion.one_shot()}, {"executed_rms_nm", motion.executed()},
-          {"rounds_rms_nm", motion.rounds},       {"best_round", motion.best},
-          {"dwell_s", motion.seconds.sum()},      {"strokes_at_least", motion.at_least},
+  return {{"schedule", to_string(schedule)},
+          {"planned_rms_nm", planned},
+          {"one_shot_rms_nm", motion.one_shot()},
+          {"executed_rms_nm", motion.executed()},
+          {"rounds_rms_nm", motion.rounds},
+          {"best_round", motion.best},
+          {"time_price_nm2_per_s", motion.time_price},
+          {"dwell_s", motion.seconds.sum()},
+          {"strokes_at_least", motion.at_least},
           {"strokes_too_short", motion.too_short}};
 }
 
@@ -79,6 +84,16 @@ Json blocks_json(const BlockMerging& blocks, double max_per_s, double planned) {
   return {{"max_per_s", max_per_s},   {"before", blocks.before},   {"too_short_before", blocks.short_before},
           {"after", blocks.after},    {"bounded", blocks.bounded}, {"planned_rms_nm_before", blocks.rms_before},
           {"planned_rms_nm", planned}};
+}
+
+/// The time at work in which each limit of the machine binds.
+Json limits_json(const WrittenPlan& written) {
+  const auto seconds = time_at_limits(written.nodes, written.binding);
+  const auto of = [&](BindingLimit limit) { return seconds[static_cast<std::size_t>(limit)]; };
+  return {{"none_s", of(BindingLimit::None)},
+          {"speed_s", of(BindingLimit::Speed)},
+          {"acceleration_s", of(BindingLimit::Acceleration)},
+          {"rest_s", of(BindingLimit::Rest)}};
 }
 
 /// What the log of an earlier run has taught.
@@ -170,6 +185,7 @@ std::string plan_summary_text(const PlannedJob& plan, const WrittenPlan& written
       summary["blocks"] = blocks_json(*plan.blocks, plan.job.machine->machine.controller.max_blocks_per_s,
                                       plan.dwell.residual.rms_about_zero());
     if (written.travel.rests.any()) summary["motion"]["lift_rests"] = lift_block(written.travel.rests);
+    summary["motion"]["limits"] = limits_json(written);
     if (plan.job.lesson) summary["motion"]["learnt"] = learnt_json(plan, written);
   }
   return json_text(std::move(summary));

@@ -8,6 +8,8 @@
 #include "core/anatomy/residual_anatomy.h"
 #include "core/form/map_statistics.h"
 #include "core/removal/exact_residual.h"
+#include "paths/feed/binding_limits.h"
+#include "paths/feed/motion_nodes.h"
 #include "runs/base/json_blocks.h"
 #include "runs/plan/machine_program.h"
 #include "runs/reports/surface_sheet.h"
@@ -40,6 +42,8 @@ struct WrittenPlan {
   /// plan has no feed table.
   std::optional<bool> table_has_same_steps{};
   std::vector<WrittenExport> exports;
+  std::vector<MotionNode> nodes;      // of the machine's motion, where there is one, without what logs have taught
+  std::vector<BindingLimit> binding;  // of every stretch between two of them
   std::string late_sha256, learnt_removal_sha256;  // of kLateFile and kLearntRemovalFile, where there are any
   std::vector<std::string> limits;  // of the plan, and those that reading its files back has shown; a sentence each
   std::string summary;              // the text of summary.json
