@@ -14,6 +14,7 @@
 #include "runs/job/keep_out_option.h"
 #include "runs/machine/machine_option.h"
 #include "runs/map_steps/map_steps.h"
+#include "runs/programs/shipped_templates.h"
 
 namespace dwell::cli {
 
@@ -90,6 +91,8 @@ std::vector<ReadFile> JobArguments::files_read(const JobOptions& options) const 
                              {"the log", split_map_name(options.log).file.string()}};
   if (!options.log_plan.empty())
     read.push_back({"the log's plan", (std::filesystem::path(options.log_plan) / "summary.json").string()});
+  if (!options.program_template.empty() && !is_shipped_template(options.program_template))
+    read.push_back({"the template", options.program_template});
   if (const auto* path = options.path.get_if<PathFromFile>()) read.push_back({"the path", path->file.string()});
   for (const std::string& file : keep_out_files(options.keep_out)) read.push_back({"the zones", file});
   for (const std::string* steps : {&options.map_steps, &options.tif_steps}) {

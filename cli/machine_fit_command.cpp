@@ -22,6 +22,7 @@
 #include "runs/logs/machine_fit.h"
 #include "runs/machine/machine_file.h"
 #include "runs/programs/program_reader.h"
+#include "runs/programs/shipped_templates.h"
 #include "runs/reports/log_report.h"
 #include "runs/reports/machine_report.h"
 
@@ -29,7 +30,7 @@ namespace dwell::cli {
 namespace {
 
 struct FitArguments {
-  std::string log, program, machine, out, gcode, g4;
+  std::string log, program, machine, out, gcode, g4, layout;
   LogArguments reading;
   JsonOption json;
 };
@@ -38,6 +39,7 @@ GcodeReading program_reading(const FitArguments& a, const Machine& start) {
   GcodeReading reading;
   reading.letters = start.letters;
   if (!a.gcode.empty()) reading.dialect = of_option("--gcode", [&a] { return parse_gcode_dialect(a.gcode); });
+  if (!a.layout.empty()) reading.layout = of_option("--template", [&a] { return find_program_template(a.layout); });
   if (!a.g4.empty()) reading.halts = of_option("--g4", [&a] { return parse_halt_unit(a.g4); });
   return reading;
 }
@@ -107,6 +109,10 @@ void add_machine_fit_command(CLI::App& machine, int& exit_code) {
       ->type_name("DIALECT");
   command->add_option("--g4", arguments->g4, "unit of P in G4 of a program that does not say so: s or ms")
       ->type_name("UNIT");
+  command
+      ->add_option("--template", arguments->layout,
+                   "template by which the program is read: a file (docs/formats.md), or " + shipped_template_names())
+      ->type_name("FILE");
   arguments->json.add_to(*command);
   command->footer(
       "Example:\n  dwell machine fit run.csv --program plan/program.nc --out machine.toml\n  dwell machine fit "

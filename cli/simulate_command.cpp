@@ -27,6 +27,7 @@
 #include "runs/job/option_flags.h"
 #include "runs/job/place_option.h"
 #include "runs/programs/program_formats.h"
+#include "runs/programs/shipped_templates.h"
 #include "runs/reports/anatomy_lines.h"
 #include "runs/reports/exact_lines.h"
 #include "runs/reports/log_report.h"
@@ -63,6 +64,7 @@ struct SimulationRequest {
   std::string program;
   JobOptions options;
   SimulationSource source;
+  std::optional<ProgramTemplate> layout{};  // by which the program is read
 };
 
 /// "map given instead of the plan's: second.csv, the plan's is map.csv".
@@ -85,6 +87,22 @@ std::string given_file_sentence(const std::string& flag, const std::string& now,
   return given_sentence(flag, now, then) + (copy ? ", which holds the same" : "");
 }
 
+/// The template by which a program of a plan is read: one that is given, or the plan's for its own program.
+std::optional<ProgramTemplate> layout_of_plan(const RecordedPlan& plan, const SimulationRequest& request, bool given) {
+  const std::string& name = request.options.program_template;
+  const bool own = std::filesystem::path(request.program).stem() == kTemplateProgram;
+  if (name.empty() || (!given && !own)) return std::nullopt;
+  const std::string text = program_template_text(name);
+  for (const InputFile& input : plan.inputs) {
+    if (given || input.role != "template" || input.sha256 == sha256_of(text)) continue;
+    throw InputError(fmt::format(
+        "{}: the template has changed since the plan was made, and the program may mean something else by it; required "
+        "the same, or --template {} to take it as it is now",
+        name, name));
+  }
+  return parse_program_template(text, name);
+}
+
 SimulationRequest request_of_plan(const SimulateArguments& a) {
   const RecordedPlan plan = read_recorded_plan(a.plan);
   std::set<std::string> flags;
@@ -93,7 +111,8 @@ SimulationRequest request_of_plan(const SimulateArguments& a) {
     flags.insert(record->flag);
     if (record->flag == "threads" || record->flag == "max-pixels") continue;  // change no result
     const std::string now = record->get(request.options), then = record->get(plan.options);
-    const bool file = record->flag == "map" || record->flag == "tif" || record->flag == "machine";
+    const bool file =
+        record->flag == "map" || record->flag == "tif" || record->flag == "machine" || record->flag == "template";
     if (file && !are_same_file(now, then)) {
       request.source.given.push_back(given_file_sentence(record->flag, now, then));
     } else if (!file && now != then) {
@@ -119,6 +138,7 @@ SimulationRequest request_of_plan(const SimulateArguments& a) {
     request.source.given.emplace_back(
         "what logs have taught is left out, since it holds for the plan's own program on its own machine");
   }
+  request.layout = layout_of_plan(plan, request, flags.contains("template"));
   return request;
 }
 
@@ -138,7 +158,9 @@ SimulationRequest program_request(const SimulateArguments& a) {
   }
   const JobOptions options = a.job->options();
   JobArguments::require(options, {"map", "tif"});
-  return {a.program, options, {"", {}, a.other, {}}};
+  SimulationRequest request{a.program, options, {"", {}, a.other, {}}};
+  if (!options.program_template.empty()) request.layout = find_program_template(options.program_template);
+  return request;
 }
 
 SimulationRequest request_of(const SimulateArguments& a) {
@@ -268,6 +290,7 @@ int run_simulate(const SimulateArguments& arguments) {
   if (!a.g4.empty()) reading.halts = of_option("--g4", [&a] { return parse_halt_unit(a.g4); });
   if (!a.start.empty()) reading.start = of_option("--start", [&a] { return parse_point(a.start); });
   const SimulationRequest request = request_of(arguments);
+  reading.layout = request.layout;
   check_outputs(arguments, request.options, request.program, request.source.learnt.has_value());
   const Progress progress = terminal_progress();
   const Simulation s = simulated(arguments, request, reading, progress);
@@ -302,7 +325,7 @@ void add_simulate_command(CLI::App& program, int& exit_code) {
       "map",       "map-pixel", "map-unit", "wavelength", "wave-scale",     "map-origin", "map-no-data",  "map-max-pv",
       "map-table", "map-rows",  "map-grid", "map-steps",  "max-pixels",     "tif",        "tif-pixel",    "tif-no-data",
       "tif-table", "tif-rows",  "tif-grid", "tif-unit",   "tif-dwell-time", "tif-steps",  "tif-pedestal", "tif-centre",
-      "tif-angle", "tif-flip",  "remove",   "aperture",   "machine",        "threads"};
+      "tif-angle", "tif-flip",  "remove",   "aperture",   "machine",        "template",   "threads"};
   command
       ->add_option("plan", arguments->plan,
                    "folder of a plan: its program, with the map, the removal function and all options that it was made "

@@ -16,9 +16,7 @@ namespace dwell {
 namespace {
 
 constexpr double kSpeedMargin = 0.999;
-constexpr double kFileStep = 1e-6;     // [mm]
 constexpr double kRoundedPlace = 1.5;  // of a step of places: both ends, in both axes
-constexpr double kLeastPiece = 1e-3;   // [s]
 constexpr double kLeastTicks = 4.0;    // of the clock, a piece
 constexpr int kRounds = 3;             // of schedules
 
@@ -78,20 +76,20 @@ Machine with_margins(const Machine& machine, double acceleration_share) {
   return tight;
 }
 
-double least_piece_seconds(const Machine& machine, double acceleration_share) {
+double least_piece_seconds(const Machine& machine, const RoundingMargins& margins) {
   // A place that is off by d changes the accelerations at the ends of a cubic of T by 6 d / T^2.
-  const double margin = 0.5 * (1.0 - acceleration_share) * least_acceleration(machine);
-  const double place = kRoundedPlace * std::max(kFileStep, machine.controller.position_resolution);
-  return std::max({kLeastPiece, std::sqrt(6.0 * place / margin), kLeastTicks * machine.controller.time_resolution,
-                   least_block_seconds(machine)});
+  const double margin = 0.5 * (1.0 - margins.acceleration) * least_acceleration(machine);
+  const double place = std::max(margins.place, kRoundedPlace * machine.controller.position_resolution);
+  return std::max({margins.least_piece, std::sqrt(6.0 * place / margin),
+                   kLeastTicks * machine.controller.time_resolution, least_block_seconds(machine)});
 }
 
 Program exported_motion(const ToolPath& path, Motion motion, const Machine& machine, double max_feed,
-                        const Eigen::VectorXd& seconds, const Progress& progress, double acceleration_share) {
+                        const Eigen::VectorXd& seconds, const Progress& progress, const RoundingMargins& margins) {
   check_exported_motion(machine);
-  Machine tight = with_margins(machine, acceleration_share);
+  Machine tight = with_margins(machine, margins.acceleration);
   tight.corner_delay = listed_corner_delay(machine);
-  const double least = least_piece_seconds(machine, acceleration_share), most = kSpeedMargin * max_feed;
+  const double least = least_piece_seconds(machine, margins), most = kSpeedMargin * max_feed;
   const StrokeMoves moves = stroke_moves(path, motion);
   const KinematicPath kinematic = kinematic_path(moves.steps, tight, most);
   Eigen::VectorXd aimed = seconds;

@@ -24,14 +24,21 @@ void check_exported_motion(const Machine& machine, ScheduleKind schedule = Sched
 /// The share of a machine's accelerations that is scheduled, so that the rounded numbers of files keep all of them.
 inline constexpr double kAccelerationShare = 0.995;
 
+/// What a schedule leaves to the rounding of its numbers.
+struct RoundingMargins {
+  double acceleration = kAccelerationShare;  // share of the machine's that is scheduled
+  double place = 1.5e-6;      // by how much a step is off for the rounding of both ends, in both axes [mm]
+  double least_piece = 1e-3;  // [s]
+};
+
 /// The machine with such a share of its accelerations and 0.999 of its speeds, so that what is scheduled for it keeps
 /// the limits of the machine itself after its numbers were rounded to 1e-6 mm and 1e-6 mm/s.
 Machine with_margins(const Machine& machine, double acceleration_share = kAccelerationShare);
 
-/// The shortest piece of which rounding of its places changes the acceleration by no more than half of that margin, at
-/// least 1 ms, as controllers take such tables, four steps of the controller's clock, and what its block rate asks for
-/// [s].
-double least_piece_seconds(const Machine& machine, double acceleration_share = kAccelerationShare);
+/// The shortest piece of which rounding of its places, in the file's steps or the controller's, changes the
+/// acceleration by no more than half of that margin, at least 1 ms, as controllers take such tables, four steps of the
+/// controller's clock, and what its block rate asks for [s].
+double least_piece_seconds(const Machine& machine, const RoundingMargins& margins = {});
 
 /// The motion of a plan with one feed a stroke, as pieces of constant acceleration within the machine's margins: every
 /// stroke takes the time that it has in the plan's own motion (`seconds`, one a stroke), so that it removes the same.
@@ -39,6 +46,6 @@ double least_piece_seconds(const Machine& machine, double acceleration_share = k
 /// InputError as check_exported_motion and trapezoid_program, Interrupted. Cost: three schedules.
 Program exported_motion(const ToolPath& path, Motion motion, const Machine& machine, double max_feed,
                         const Eigen::VectorXd& seconds, const Progress& progress = {},
-                        double acceleration_share = kAccelerationShare);
+                        const RoundingMargins& margins = {});
 
 }  // namespace dwell

@@ -83,6 +83,8 @@ bool ResultFiles::has(std::string_view name) const {
   if (name == always || std::find(others.begin(), others.end(), name) != others.end()) return true;
   const std::size_t dot = std::min(name.rfind('.'), name.size());
   const std::string_view extension = name.substr(dot);
+  if (extension.size() > 1 && std::find(any_ending.begin(), any_ending.end(), name.substr(0, dot)) != any_ending.end())
+    return true;
   return (extension == ".png" || extension == ".svg" || extension == ".pdf") &&
          std::find(figures.begin(), figures.end(), name.substr(0, dot)) != figures.end();
 }

@@ -23,6 +23,7 @@ struct ResultFiles {
   const ResultFiles* in_folders = nullptr;  // what folders in it may hold, of any name: a result of this kind each
   /// Beginnings and ends of names with a number between: program_001.trj.
   std::vector<std::pair<std::string_view, std::string_view>> numbered{};
+  std::vector<std::string_view> any_ending{};  // names without their endings, which may be any
 
   bool has(std::string_view name) const;
 };

@@ -14,6 +14,7 @@
 #include "runs/job/program_style.h"
 #include "runs/machine/machine_option.h"
 #include "runs/plan/pitch_choice.h"
+#include "runs/programs/shipped_templates.h"
 
 namespace dwell {
 namespace {
@@ -79,6 +80,11 @@ Job load_job(const JobOptions& options, const Progress& progress) {
   job.header = load_insert("header", options.header, job.inputs);
   job.footer = load_insert("footer", options.footer, job.inputs);
   check_program_style(options, job.machine, job.header, job.footer);
+  if (!options.program_template.empty()) {
+    const std::string text = program_template_text(options.program_template);
+    job.inputs.push_back({"template", options.program_template, sha256_of(text)});
+    job.layout = parse_program_template(text, options.program_template);
+  }
   HeightMap map = load_map_of(options, job.inputs, progress);
   job.map_pixels = map.valid_pixels();
   map = within(std::move(map), options.aperture, progress);

@@ -14,6 +14,7 @@
 #include "runs/plan/laid_path.h"
 #include "runs/plan/part.h"
 #include "runs/programs/gcode_insert.h"
+#include "runs/programs/program_template.h"
 
 namespace dwell {
 
@@ -24,9 +25,10 @@ struct Job {
   Index map_pixels = 0;           // valid pixels of the map before the aperture
   std::shared_ptr<const Part> part;
   std::optional<NamedMachine> machine;
-  std::vector<Aperture> keep_out;     // that the path spares
-  GcodeInsert header, footer;         // of program.nc
-  std::optional<LogLesson> lesson{};  // of the log, once the path is laid
+  std::vector<Aperture> keep_out;         // that the path spares
+  GcodeInsert header, footer;             // of program.nc
+  std::optional<ProgramTemplate> layout;  // of one more program
+  std::optional<LogLesson> lesson{};      // of the log, once the path is laid
 };
 
 /// Reads map and removal function and makes the part; the path is not looked at. Throws InputError naming flag or file,

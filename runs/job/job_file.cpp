@@ -104,6 +104,7 @@ void note_changed_words(int schema, const std::string& source, const std::string
 std::string rebased_option(const JobOptionRecord& record, const std::string& value, const std::filesystem::path& folder,
                            const std::string& source) {
   if (value.empty()) return value;
+  if (record.key == "template" && is_shipped_template(value)) return value;
   if (record.is_file && names_a_file(value)) return (folder / value).lexically_normal().string();
   if (record.key == "map_steps" || record.key == "tif_steps") {
     try {

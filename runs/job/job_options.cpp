@@ -25,6 +25,7 @@
 #include "runs/map_steps/map_steps.h"
 #include "runs/programs/gcode_dialect.h"
 #include "runs/programs/program_formats.h"
+#include "runs/programs/shipped_templates.h"
 #include "solvers/solver_catalogue.h"
 #include "solvers/weights/weight_option.h"
 
@@ -325,6 +326,12 @@ std::vector<JobOptionRecord> make_table() {
            "; or none. They are positions, velocities and times, and take --machine",
        false, false, [](Options& o, const std::string& t) { o.exports = parse_exports(t); },
        [](const Options& o) { return exports_text(o.exports); }},
+      {"template", "template", "FILE",
+       "layout of one more program, or of the program that is read: a file (docs/formats.md), or one that comes with "
+       "dwell: " +
+           shipped_template_names(),
+       true, false, [](Options& o, const std::string& t) { o.program_template = t; },
+       [](const Options& o) { return o.program_template; }},
       {"figures", "figures", "FORMATS", "formats of the figures, separated by commas: png, svg, pdf", false, false,
        [](Options& o, const std::string& t) { o.figures = parse_figure_formats(t); },
        [](const Options& o) { return to_string(o.figures); }},

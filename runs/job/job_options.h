@@ -83,6 +83,7 @@ struct JobOptions {
   GcodeDialect gcode = GcodeDialect::G94;
   double lift_height_mm = 10.0;
   std::vector<std::string> exports;  // formats besides feed.csv and program.nc, by their words
+  std::string program_template;      // file or name of a layout of programs; empty: none
   PathModeOption path_mode;
   std::string header, footer;  // files with lines of G-code; empty: none
   int block_numbers = 0;       // step; 0: none

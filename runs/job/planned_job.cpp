@@ -13,6 +13,7 @@
 #include "runs/plan/leave_out.h"
 #include "runs/plan/rounded_motion.h"
 #include "runs/programs/program_formats.h"
+#include "runs/programs/shipped_templates.h"
 
 namespace dwell {
 
@@ -23,26 +24,48 @@ std::vector<std::string> PlannedJob::limits() const {
   return all;
 }
 
-void check_exports(const JobOptions& options) {
+namespace {
+
+/// The option by which a plan has a program of positions, velocities and times: "`export` = pmac"; empty without one.
+/// Throws InputError for a template of feeds with a schedule of speeds.
+std::string option_that_needs_motion(const JobOptions& options) {
   const std::string word = export_that_needs_motion(options.exports);
-  if (options.schedule != ScheduleKind::Constant && (word.empty() || options.machine.empty())) {
+  if (!options.program_template.empty()) {
+    const std::string option = fmt::format("`template` = {}", options.program_template);
+    const bool speeds = find_program_template(options.program_template).speeds;
+    if (!speeds && options.schedule != ScheduleKind::Constant) {
+      throw InputError(
+          fmt::format("{}: its moves say feeds, which cannot say the speeds of `schedule` = {}; required "
+                      "constant, or a template with speeds = true",
+                      option, to_string(options.schedule)));
+    }
+    if (speeds && word.empty()) return option;
+  }
+  return word.empty() ? "" : fmt::format("`export` = {}", word);
+}
+
+}  // namespace
+
+void check_exports(const JobOptions& options) {
+  const std::string option = option_that_needs_motion(options);
+  if (options.schedule != ScheduleKind::Constant && (option.empty() || options.machine.empty())) {
     throw InputError(
         fmt::format("`schedule` = {}: feeds cannot say speeds between nodes, and no acceleration is known without a "
-                    "machine; required a `machine` file and an `export`: {}",
+                    "machine; required a `machine` file and an `export`: {}; or a `template` with speeds = true",
                     to_string(options.schedule), export_words()));
   }
-  if (word.empty()) return;
+  if (option.empty()) return;
   if (options.machine.empty()) {
-    throw InputError(fmt::format(
-        "`export` = {}: such a program is the motion of a machine; required a `machine` file (dwell machine --example "
-        "prints one)",
-        word));
+    throw InputError(
+        fmt::format("{}: such a program is the motion of a machine; required a `machine` file (dwell machine --example "
+                    "prints one)",
+                    option));
   }
   if (!program_frame(options).is_of_part()) {
     throw InputError(fmt::format(
-        "`export` = {}: with `zero`, `rotate` or `swap axes`: places in such a program are those of the part; required "
+        "{}: with `zero`, `rotate` or `swap axes`: places in such a program are those of the part; required "
         "one of the two",
-        word));
+        option));
   }
   check_exported_motion(machine_for_program(machine_of_option(options.machine).machine, options), options.schedule);
 }
@@ -76,11 +99,11 @@ PlannedJob plan_loaded(Job job, JobPath path, double used, const Progress& progr
   planned.program = make_machine_program(planned.laid, planned.dwell, options.machine, progress);
   if (planned.dwell.motion && planned.dwell.motion->program) {
     planned.program.motion = planned.dwell.motion->program;
-  } else if (!export_that_needs_motion(planned.job.options.exports).empty() && planned.dwell.motion) {
+  } else if (!option_that_needs_motion(planned.job.options).empty() && planned.dwell.motion) {
     planned.program.motion = motion_to_be_rounded(*options.machine.machine, [&](double acceleration_share) {
       return exported_motion(planned.program.table.path, planned.laid.motion, *options.machine.machine,
                              options.machine.feed_limits().max_feed, planned.dwell.motion->seconds, progress,
-                             acceleration_share);
+                             {acceleration_share});
     });
   }
   return planned;

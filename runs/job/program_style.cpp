@@ -84,6 +84,7 @@ JobOptions without_program_style(JobOptions options) {
   options.rotate_deg = defaults.rotate_deg;
   options.swap_axes = defaults.swap_axes;
   options.inches = defaults.inches;
+  options.program_template = defaults.program_template;
   return options;
 }
 

@@ -6,6 +6,7 @@
 #include "core/base/point.h"
 #include "core/motion/axis_letters.h"
 #include "runs/programs/gcode_dialect.h"
+#include "runs/programs/program_template.h"
 
 namespace dwell {
 
@@ -25,6 +26,8 @@ struct GcodeReading {
   /// Where a program begins that says relative places alone, or none before its first move [mm].
   std::optional<Point> start = {};
   AxisLetters letters = {};  // of the machine's axes, in programs that name axes
+  /// By which the program is read, whatever its content looks like.
+  std::optional<ProgramTemplate> layout = {};
 };
 
 }  // namespace dwell

@@ -2,6 +2,7 @@
 
 #include "runs/job/learnt_files.h"
 #include "runs/programs/program_formats.h"
+#include "runs/programs/program_template.h"
 
 namespace dwell {
 namespace {
@@ -16,6 +17,7 @@ ResultFiles make_plan_files() {
   for (const ProgramFormat& format : program_formats()) {
     if (!format.file.empty()) files.others.emplace_back(format.file);
   }
+  files.any_ending = {kTemplateProgram};
   files.numbered = {{"program_", ".trj"}, {"program_", ".pmc"}};
   return files;
 }

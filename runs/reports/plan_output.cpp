@@ -35,10 +35,13 @@
 #include "runs/reports/plan_warnings.h"
 #include "runs/reports/program_record.h"
 #include "runs/reports/residual_advice.h"
+#include "runs/reports/template_program.h"
 #include "runs/reports/weight_lines.h"
 
 namespace dwell {
 namespace {
+
+const std::string kTemplateWord = "template";  // of the program by a template among the exports
 
 /// Whether the plan has a schedule of speeds, which feeds cannot say: then it has no feed table and no G-code.
 bool says_speeds_alone(const PlannedJob& plan) { return plan.dwell.motion && plan.dwell.motion->program; }
@@ -57,6 +60,10 @@ std::vector<WrittenProgram> write_program(const PlannedJob& plan, const OutputFo
                                plan.job.machine ? std::optional(plan.job.machine->machine) : std::nullopt};
   std::vector<WrittenProgram> programs =
       written_programs(to_write, writing, options.exports, plan.part().threads, progress);
+  if (const auto& layout = plan.job.layout) {
+    progress.step("write: " + layout->output());
+    programs.push_back({layout->output(), template_program_text(plan, table, writing.header, progress), kTemplateWord});
+  }
   for (const WrittenProgram& program : programs) folder.write(program.file, program.bytes);
   return programs;
 }
@@ -65,9 +72,10 @@ std::vector<WrittenProgram> write_program(const PlannedJob& plan, const OutputFo
 /// folder in which it lies until the plan is whole.
 Program read_back(const PlannedJob& plan, const OutputFolder& folder, const std::string& name,
                   const Progress& progress) {
+  GcodeReading reading;
+  if (plan.job.machine) reading.letters = plan.job.machine->machine.letters;
+  if (plan.job.layout && name == plan.job.layout->output()) reading.layout = plan.job.layout;
   try {
-    GcodeReading reading;
-    if (plan.job.machine) reading.letters = plan.job.machine->machine.letters;
     Program program = read_program(folder.path(name), reading, progress);
     program.file = name;
     return program;
@@ -82,7 +90,10 @@ Program read_back(const PlannedJob& plan, const OutputFolder& folder, const std:
 /// A program as the job's machine runs it, with what a log has taught; as it is without a machine.
 Program run_of(const PlannedJob& plan, const Program& program, const Progress& progress) {
   if (!plan.job.machine) return program;
-  const LearntMotion* learnt = plan.job.lesson ? &plan.job.lesson->run.learnt : nullptr;
+  const bool of_speeds =
+      std::any_of(program.steps.begin(), program.steps.end(), [](const auto& step) { return step.speeds.has_value(); });
+  // A table of positions, velocities and times says its own times: what logs of feeds have taught is not of it.
+  const LearntMotion* learnt = plan.job.lesson && !of_speeds ? &plan.job.lesson->run.learnt : nullptr;
   return learnt_execution(program, machine_for_program(plan.job.machine->machine, plan.job.options), learnt,
                           stroke_moves(plan.laid.path, plan.laid.motion), progress);
 }
@@ -178,8 +189,45 @@ void study_surface(const PlannedJob& plan, WrittenPlan& written, const Progress&
   written.advice = residual_advice(written.anatomy, advice_facts(plan));
 }
 
-/// Reads the exported programs back from disk: each must keep the machine's limits as it stands in its file, and leave
-/// what the plan's program leaves.
+/// An exported program, read back from disk: it must keep the machine's limits as it stands in its file, and leave what
+/// the plan's program leaves. `first`: the one before, whose figure holds for the same steps.
+WrittenExport check_written_export(const PlannedJob& plan, const OutputFolder& folder, const WrittenProgram& one,
+                                   const std::vector<WrittenProgram>& programs, std::optional<Program>& first,
+                                   WrittenPlan& written, const Progress& progress) {
+  progress.report("simulate: " + one.file + " as read back from disk");
+  Program program = read_back(plan, folder, one.file, progress);
+  WrittenExport now;
+  now.word = one.word;
+  now.file = one.file;
+  now.sha256 = sha256_of_file(folder.path(one.file));
+  now.files = static_cast<std::size_t>(
+      std::count_if(programs.begin(), programs.end(), [&](const auto& file) { return file.word == one.word; }));
+  now.steps = program.steps.size();
+  if (plan.job.machine) {
+    for (const std::string& fault : beyond_machine(program, plan.job.machine->machine))
+      written.limits.push_back(fmt::format("{}: {}", one.file, fault));
+  }
+  const bool feeds = one.word == kTemplateWord && !plan.job.layout->speeds;
+  const Program run = run_of(plan, program, progress);
+  now.total_s =
+      feeds ? run.run_seconds(dwell_options(plan.job).machine.feed_limits().max_feed) : program.total_seconds();
+  const bool same =
+      !feeds && first && same_removing_steps(program, *first, units::mm_per_s(plan.job.options.max_feed_mm_per_min));
+  std::optional<Part> changed;
+  const Part& part = feeds ? part_to_predict_on(plan, changed) : plan.part();
+  now.residual = same ? written.exports.front().residual
+                      : predict_program(part, run, plan.dwell.lattice.kernel, progress).statistics;
+  const double left = written.exact.statistics.rms_about_zero(), by_file = now.residual.rms_about_zero();
+  if (differs(left, by_file, std::max(kSimulationTolerance, 3.0 * written.exact.standard_error / left))) {
+    written.limits.push_back(fmt::format("{} leaves {:.6g} nm RMS{} but {}{} {:.6g} nm", one.file, by_file,
+                                         about_zero_in_words(now.residual), programs.front().file,
+                                         plan.job.machine ? " on the machine" : "", left));
+  }
+  if (!first && !feeds) first = std::move(program);
+  return now;
+}
+
+/// Reads the exported programs back from disk.
 void check_written_exports(const PlannedJob& plan, const OutputFolder& folder,
                            const std::vector<WrittenProgram>& programs, WrittenPlan& written,
                            const Progress& progress) {
@@ -190,33 +238,14 @@ void check_written_exports(const PlannedJob& plan, const OutputFolder& folder,
         predict_program(plan.part(), run_of(plan, *plan.program.motion, progress), plan.dwell.lattice.kernel, progress)
             .statistics.rms_about_zero();
   }
-  for (const ProgramFormat& format : program_formats()) {
-    if (format.word.empty() || !is_among(format.word, plan.job.options.exports)) continue;
-    progress.report("simulate: " + format.file + " as read back from disk");
-    Program program = read_back(plan, folder, format.file, progress);
-    WrittenExport now;
-    now.word = format.word;
-    now.file = format.file;
-    now.sha256 = sha256_of_file(folder.path(format.file));
-    now.files = static_cast<std::size_t>(
-        std::count_if(programs.begin(), programs.end(), [&](const auto& file) { return file.word == format.word; }));
-    now.steps = program.steps.size();
-    now.total_s = program.total_seconds();
-    for (const std::string& fault : beyond_machine(program, plan.job.machine->machine))
-      written.limits.push_back(fmt::format("{}: {}", format.file, fault));
-    const bool same =
-        first && same_removing_steps(program, *first, units::mm_per_s(plan.job.options.max_feed_mm_per_min));
-    now.residual =
-        same ? written.exports.front().residual
-             : predict_program(plan.part(), run_of(plan, program, progress), plan.dwell.lattice.kernel, progress)
-                   .statistics;
-    const double left = written.exact.statistics.rms_about_zero(), by_file = now.residual.rms_about_zero();
-    if (unrounded && !same) say_rounding(format.file, by_file, *unrounded, written);
-    if (differs(left, by_file, std::max(kSimulationTolerance, 3.0 * written.exact.standard_error / left))) {
-      written.limits.push_back(fmt::format("{} leaves {:.6g} nm RMS{} but {} on the machine {:.6g} nm", format.file,
-                                           by_file, about_zero_in_words(now.residual), programs.front().file, left));
-    }
-    if (!first) first = std::move(program);
+  std::string before;
+  for (const WrittenProgram& one : programs) {
+    if (one.word.empty() || one.word == before) continue;  // the first file of a format names the others
+    before = one.word;
+    WrittenExport now = check_written_export(plan, folder, one, programs, first, written, progress);
+    const double by_file = now.residual.rms_about_zero();
+    const bool said = !written.exports.empty() && by_file == written.exports.front().residual.rms_about_zero();
+    if (unrounded && !said) say_rounding(one.file, by_file, *unrounded, written);
     written.exports.push_back(std::move(now));
   }
 }

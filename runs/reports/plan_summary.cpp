@@ -176,9 +176,9 @@ std::string plan_summary_text(const PlannedJob& plan, const WrittenPlan& written
                   {"options", options_json(plan.job)},
                   {"names_from", names_from(plan)},
                   {"inputs", inputs_json(plan.job.inputs)}});
+  if (!written.exports.empty()) summary["exports"] = exports_json(written);
   if (plan.dwell.motion) {
     summary["machine"] = machine_block(*plan.job.machine);
-    if (!written.exports.empty()) summary["exports"] = exports_json(written);
     summary["motion"] =
         motion_json(*plan.dwell.motion, plan.job.options.schedule, plan.dwell.residual.rms_about_zero());
     if (plan.blocks)

@@ -11,6 +11,7 @@
 #include "core/base/number_text.h"
 #include "core/base/spec_text.h"
 #include "core/base/text_lines.h"
+#include "core/base/utf8_text.h"
 #include "core/base/whole_file.h"
 #include "core/tif/models/removal_models.h"
 #include "runs/programs/program_comments.h"
@@ -21,11 +22,17 @@ namespace {
 
 /// The text of a line that holds a comment and nothing else; nothing for any other line. A blank at its end may be one
 /// within an option that goes on in the next line.
-std::optional<std::string_view> comment_of(std::string_view line) {
+std::optional<std::string_view> comment_of(std::string_view line, const ProgramTemplate* layout) {
   const auto begun = [](std::string_view text) {
     return text.substr(std::min(text.find_first_not_of(" \t"), text.size()));
   };
   line = trim(line);
+  if (layout != nullptr) {
+    const std::string_view begin = trim(layout->comment_begin), end = trim(layout->comment_end);
+    if (line.size() < begin.size() + end.size() || !line.starts_with(begin) || !line.ends_with(end))
+      return std::nullopt;
+    return begun(line.substr(begin.size(), line.size() - begin.size() - end.size()));
+  }
   if (line.starts_with('#')) return begun(line.substr(1));
   if (line.starts_with('(') && line.ends_with(')')) return begun(line.substr(1, line.size() - 2));
   return std::nullopt;
@@ -112,11 +119,26 @@ std::string difference_of_inputs(const ProgramRecord& record, const Job& job, bo
                      with_hashes(then, formula), with_hashes(now, job.options.tif));
 }
 
+/// Of a program by a template, whose header's lines come before its comments.
+ProgramRecord record_by_template(std::string_view text, const std::string& program, const ProgramTemplate& layout) {
+  ProgramRecord record;
+  for (TextLines lines(text); lines.next();) {
+    const auto comment = comment_of(lines.line(), &layout);
+    if (!comment) continue;
+    take_comment(layout.upper_case ? lower_case(*comment) : std::string(*comment), program, record);
+  }
+  if (layout.upper_case) {
+    record.options.clear();
+    record.stated_hash.clear();
+  }
+  return record;
+}
+
 }  // namespace
 
 bool is_of_program_alone(const std::string& role) {
-  return role == "path" || role == "machine" || role == "header" || role == "footer" || role == "log" ||
-         role == "log-program";
+  return role == "path" || role == "machine" || role == "header" || role == "footer" || role == "template" ||
+         role == "log" || role == "log-program";
 }
 
 std::string short_hash(const std::string& sha256) {
@@ -124,8 +146,9 @@ std::string short_hash(const std::string& sha256) {
   return sha256.size() <= kDigits ? sha256 : sha256.substr(0, kDigits) + "...";
 }
 
-ProgramRecord read_program_record(const std::filesystem::path& program) {
+ProgramRecord read_program_record(const std::filesystem::path& program, const ProgramTemplate* layout) {
   const std::string text = read_whole_file(program);
+  if (layout != nullptr) return record_by_template(text, program.string(), *layout);
   std::string_view rest = without_byte_order_mark(text);
   ProgramRecord record;
   if (rest.starts_with('{')) {  // pvt.json
@@ -140,7 +163,7 @@ ProgramRecord read_program_record(const std::filesystem::path& program) {
     const std::size_t newline = rest.find('\n');
     const std::string_view line = rest.substr(0, newline);
     rest.remove_prefix(newline == std::string_view::npos ? rest.size() : newline + 1);
-    if (const auto comment = comment_of(line)) {
+    if (const auto comment = comment_of(line, nullptr)) {
       take_comment(*comment, program.string(), record);
     } else if (!trim(line).empty() && trim(line) != "%") {
       break;

@@ -8,6 +8,7 @@
 
 #include "runs/base/input_file.h"
 #include "runs/job/job.h"
+#include "runs/programs/program_template.h"
 
 namespace dwell {
 
@@ -20,7 +21,8 @@ struct ProgramRecord {
 
 /// Reads the header of a feed table or of G-code: the comments before all else, those that are no record skipped.
 /// Throws InputError if the file cannot be read, or if an input is stated without its SHA-256.
-ProgramRecord read_program_record(const std::filesystem::path& program);
+/// `layout`: that of a program by a template; of one in upper case only the inputs are known.
+ProgramRecord read_program_record(const std::filesystem::path& program, const ProgramTemplate* layout = nullptr);
 
 /// The options that a program's header states, by job-file key: those that change its removal, or the map that it is
 /// subtracted from. Options that are not given are left out.

@@ -100,7 +100,8 @@ Simulation simulate_file(const std::filesystem::path& program, const GcodeReadin
   if (!s.plan.empty()) s.max_feed = dwell_options(job).machine.feed_limits().max_feed;
   s.differences = source.given;
   for (std::string& difference :
-       differences_from_record(read_program_record(program), program.string(), job, source.other, s.plan.empty())) {
+       differences_from_record(read_program_record(program, reading.layout ? &*reading.layout : nullptr),
+                               program.string(), job, source.other, s.plan.empty())) {
     s.differences.push_back(std::move(difference));
   }
   s.inputs.insert(s.inputs.end(), job.inputs.begin(), job.inputs.end());

@@ -63,7 +63,7 @@ const std::vector<Library>& libraries() {
       {"HDF5", {"hdf5", "H5"}, {"core/formats/hdf5_"}},
       {"CFITSIO", {"fitsio"}, {"core/formats/fits_"}},
       {"OpenSSL", {"openssl/"}, {"core/base/"}},
-      {"toml++", {"toml"}, {"runs/job/", "runs/machine/"}},
+      {"toml++", {"toml"}, {"runs/job/", "runs/machine/", "runs/programs/program_template.cpp"}},
       {"nlohmann", {"nlohmann/"}, {"core/formats/", "runs/", "cli/", "bench/"}},
       {"CLI11", {"CLI/"}, {"cli/", "bench/"}},
       {"libpng", {"png.h"}, {"runs/drawing/"}},

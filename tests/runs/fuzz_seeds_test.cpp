@@ -18,6 +18,8 @@
 #include "paths/path_file.h"
 #include "runs/programs/program_formats.h"
 #include "runs/programs/program_reader.h"
+#include "runs/programs/shipped_templates.h"
+#include "runs/programs/template_reader.h"
 
 namespace dwell {
 namespace {
@@ -33,6 +35,13 @@ void read_as_map(const std::filesystem::path& file) {
   read_map(file, options);
 }
 
+/// Seeds of programs by templates name theirs in the first line.
+void read_by_named_template(const std::filesystem::path& file) {
+  const std::string text = read_whole_file(file);
+  const std::size_t end = text.find('\n');
+  read_by_template(std::string_view(text).substr(end + 1), "seed", find_program_template(text.substr(0, end)));
+}
+
 /// The readers by their fuzz targets: those of both tables of formats, text maps, which no row of a table claims, and
 /// the texts that are no format of a map or program.
 std::map<std::string, Read> readers() {
@@ -44,6 +53,8 @@ std::map<std::string, Read> readers() {
       {"path_file", [](const auto& file) { read_path_file(file); }},
       {"path_spec", [](const auto& file) { parse_path_spec(read_whole_file(file)); }},
       {"spec_text", [](const auto& file) { parse_spec_text(read_whole_file(file), "seed"); }},
+      {"program_template", [](const auto& file) { parse_program_template(read_whole_file(file), "seed"); }},
+      {"template_program", read_by_named_template},
       {"aperture", [](const auto& file) { parse_aperture(read_whole_file(file)); }}};
   for (const MapFormat& format : map_formats()) all[format.fuzz] = read_as_map;
   for (const ProgramFormat& format : program_formats()) {

@@ -74,6 +74,7 @@ JobOptions unusual() {
   o.gcode = GcodeDialect::G93PerMinute;
   o.lift_height_mm = 3.0;
   o.exports = {"pvt-csv", "pmac"};
+  o.program_template = "/data/shop.toml";
   o.path_mode = parse_path_mode("blend:0.05");
   o.header = "/data/start.nc";
   o.footer = "/data/end.nc";

@@ -114,7 +114,7 @@ TEST(ControllerSteps, LeaveTheLimitsOfTheMachineInTheFile) {
     int tries = 0;
     const Program motion = motion_to_be_rounded(machine, [&](double share) {
       ++tries;
-      return exported_motion(table.path, Motion::Moving, machine, 20.0, seconds, {}, share);
+      return exported_motion(table.path, Motion::Moving, machine, 20.0, seconds, {}, {share});
     });
     const std::vector<std::string> faults = cubics_beyond_machine(rounded_motion(motion, machine), machine);
     EXPECT_TRUE(faults.empty()) << clock << ", " << place << ": " << faults.front();
