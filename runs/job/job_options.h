@@ -87,6 +87,7 @@ struct JobOptions {
   PathModeOption path_mode;
   std::string header, footer;  // files with lines of G-code; empty: none
   int block_numbers = 0;       // step; 0: none
+  int max_lines = 0;           // of a file of G-code; 0: any
   Point zero_mm;               // of the part, at the origin of program.nc
   double rotate_deg = 0.0;
   bool swap_axes = false;

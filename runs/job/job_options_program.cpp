@@ -36,6 +36,14 @@ int step_of_numbers(const std::string& text) {
   throw InputError(fmt::format("'{}'; required a whole number from 0 to 1000", text));
 }
 
+/// The comments and what stands before the work take some lines of each file.
+int most_lines(const std::string& text) {
+  constexpr ValueRange kLines{100.0, 1e9, "lines"};
+  const auto value = parse_number(text);
+  if (value && (*value == 0.0 || kLines.holds(*value)) && *value == std::floor(*value)) return static_cast<int>(*value);
+  throw InputError(fmt::format("'{}'; required 0 or a whole number from 100 to 1000000000", text));
+}
+
 }  // namespace
 
 std::vector<JobOptionRecord> program_option_records() {
@@ -57,6 +65,12 @@ std::vector<JobOptionRecord> program_option_records() {
        "numbers the lines of program.nc in such steps, 10: N10 N20 ...; 0: no numbers", false, true,
        [](Options& o, const std::string& t) { o.block_numbers = step_of_numbers(t); },
        [](const Options& o) { return fmt::format("{}", o.block_numbers); }},
+      {"max-lines", "max_lines", "N",
+       "lines that the controller takes: a longer program.nc is written in parts as well, program_001.nc and so on, "
+       "with "
+       "the tool lifted between; 0: any",
+       false, true, [](Options& o, const std::string& t) { o.max_lines = most_lines(t); },
+       [](const Options& o) { return fmt::format("{}", o.max_lines); }},
       {"zero", "zero_mm", "X,Y", "place of the part that is the origin of program.nc, in mm", false, false,
        [](Options& o, const std::string& t) { o.zero_mm = parse_point(t); },
        [](const Options& o) { return to_string(o.zero_mm); }},

@@ -58,8 +58,9 @@ Machine machine_for_program(const Machine& machine, const JobOptions& options) {
 
 GcodeStyle gcode_style(const JobOptions& options, const std::optional<NamedMachine>& machine, const GcodeInsert& before,
                        const GcodeInsert& after) {
-  return {path_mode_to_write(options.path_mode, machine), options.inches, options.block_numbers, before.lines,
-          after.lines};
+  return {
+      path_mode_to_write(options.path_mode, machine), options.inches, options.block_numbers, before.lines, after.lines,
+      static_cast<std::size_t>(options.max_lines)};
 }
 
 void check_program_style(const JobOptions& options, const std::optional<NamedMachine>& machine,
@@ -80,6 +81,7 @@ JobOptions without_program_style(JobOptions options) {
   options.header = defaults.header;
   options.footer = defaults.footer;
   options.block_numbers = defaults.block_numbers;
+  options.max_lines = defaults.max_lines;
   options.zero_mm = defaults.zero_mm;
   options.rotate_deg = defaults.rotate_deg;
   options.swap_axes = defaults.swap_axes;

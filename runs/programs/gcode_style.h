@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,6 +17,7 @@ struct GcodeStyle {
   int block_numbers = 0;              // N in steps of this; 0 = none
   std::vector<std::string> before{};  // lines as they are, after the comments and before all else
   std::vector<std::string> after{};   // lines as they are, with the tool lifted, before the end
+  std::size_t max_lines = 0;          // of a file; longer programs are written in parts as well; 0 = any
 };
 
 }  // namespace dwell

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <stdexcept>
 #include <utility>
@@ -15,6 +16,7 @@
 #include "core/base/word_list.h"
 #include "core/formats/hdf5_map.h"
 #include "runs/programs/gcode.h"
+#include "runs/programs/gcode_parts.h"
 #include "runs/programs/gcode_reader.h"
 #include "runs/programs/pmac_program.h"
 #include "runs/programs/pvt_csv.h"
@@ -60,7 +62,15 @@ std::vector<WrittenProgram> write_gcode(const ProgramToWrite& program, const Pro
   options.header = writing.header;
   options.style = writing.gcode;
   options.machine = writing.machine;
-  return {{"program.nc", gcode_text(program_of(program.table), options, progress)}};
+  const Program steps = program_of(program.table);
+  std::vector<WrittenProgram> files{{"program.nc", gcode_text(steps, options, progress)}};
+  const std::string& text = files.front().bytes;
+  const std::size_t most = writing.gcode.max_lines;
+  if (most > 0 && static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) > most) {
+    for (WrittenProgram& part : written_gcode_parts(steps, options, most, program.table, progress))
+      files.push_back(std::move(part));
+  }
+  return files;
 }
 
 PvtTable table_of_motion(const ProgramToWrite& program, const ProgramWriting& writing, const Progress& progress) {
@@ -95,6 +105,16 @@ std::vector<WrittenProgram> write_hdf5(const ProgramToWrite& program, const Prog
   return {{"pvt.h5", pvt_hdf5_bytes(table_of_motion(program, writing, progress), program.table)}};
 }
 
+/// The files that lie beside a list.
+ReadBeside files_beside(const std::string& file) {
+  return [&file](const std::string& name) { return read_whole_file(std::filesystem::path(file).parent_path() / name); };
+}
+
+Program read_parts(std::string_view text, const std::string& file, const GcodeReading& reading,
+                   const Progress& progress) {
+  return parse_gcode_part_list(text, file, reading, files_beside(file), progress);
+}
+
 template <StretchKind kind>
 bool is_list(std::string_view text) {
   return is_stretch_list(text, kind);
@@ -103,10 +123,7 @@ bool is_list(std::string_view text) {
 template <StretchKind kind>
 Program read_list(std::string_view text, const std::string& file, const GcodeReading& reading,
                   const Progress& progress) {
-  const ReadBeside beside = [&file](const std::string& name) {
-    return read_whole_file(std::filesystem::path(file).parent_path() / name);
-  };
-  return program_of(parse_stretch_list(text, file, kind, beside, progress, reading.letters), file);
+  return program_of(parse_stretch_list(text, file, kind, files_beside(file), progress, reading.letters), file);
 }
 
 template <StretchKind kind>
@@ -153,6 +170,8 @@ const std::vector<ProgramFormat>& program_formats() {
       {"a list of PMAC programs (first line \"# pmac: ...\")", "pmac.csv",
        "PMAC programs in PVT mode program_001.pmc, ... and their list", "stretches", false, "pmac", true, false,
        is_list<StretchKind::PmacProgram>, read_list<StretchKind::PmacProgram>, write_list<StretchKind::PmacProgram>},
+      {"a list of parts of a G-code program (first line \"# parts: ...\")", "", "program.nc in files of so many lines",
+       "gcode_parts", true, "", false, false, is_gcode_part_list, read_parts, nullptr},
       {"an XPS trajectory (lines dt, dx, vx, dy, vy)", "", "one stretch of work", "xps_trajectory", false, "", true,
        true, is_xps_trajectory, read_xps, nullptr},
       {"a PMAC program in PVT mode", "", "one stretch of work", "pmac_program", false, "", true, true, is_pmac_program,
@@ -219,7 +238,7 @@ std::vector<WrittenProgram> written_programs(const ProgramToWrite& program, cons
   std::vector<WrittenProgram> programs;
   for (std::size_t k = 0; k < formats.size(); ++k) {
     for (WrittenProgram& file : written[k]) {
-      file.word = formats[k]->word;
+      if (file.word.empty()) file.word = formats[k]->word;
       programs.push_back(std::move(file));
     }
   }

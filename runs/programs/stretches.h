@@ -16,7 +16,7 @@ namespace dwell {
 struct WrittenProgram {
   std::string file;  // its name in the plan's folder
   std::string bytes;
-  std::string word{};  // of its format (ProgramFormat)
+  std::string word{};  // of its format (ProgramFormat), or of the parts of program.nc
 };
 
 /// The two kinds of files that hold one stretch of work each, from one lift of the tool to the next: controllers take

@@ -1,6 +1,7 @@
 #include "runs/reports/plan_files.h"
 
 #include "runs/job/learnt_files.h"
+#include "runs/programs/gcode_parts.h"
 #include "runs/programs/program_formats.h"
 #include "runs/programs/program_template.h"
 
@@ -18,7 +19,8 @@ ResultFiles make_plan_files() {
     if (!format.file.empty()) files.others.emplace_back(format.file);
   }
   files.any_ending = {kTemplateProgram};
-  files.numbered = {{"program_", ".trj"}, {"program_", ".pmc"}};
+  files.others.push_back(kGcodePartsFile);
+  files.numbered = {{"program_", ".trj"}, {"program_", ".pmc"}, {"program_", ".nc"}};
   return files;
 }
 

@@ -25,6 +25,7 @@
 #include "runs/job/option_flags.h"
 #include "runs/job/program_style.h"
 #include "runs/plan/program_prediction.h"
+#include "runs/programs/gcode_parts.h"
 #include "runs/programs/program_comments.h"
 #include "runs/programs/program_formats.h"
 #include "runs/programs/program_reader.h"
@@ -189,10 +190,16 @@ void study_surface(const PlannedJob& plan, WrittenPlan& written, const Progress&
   written.advice = residual_advice(written.anatomy, advice_facts(plan));
 }
 
+/// The first program of positions, velocities and times, whose figure holds for others of the same steps.
+struct FirstExport {
+  Program program;
+  MapStatistics residual;
+};
+
 /// An exported program, read back from disk: it must keep the machine's limits as it stands in its file, and leave what
 /// the plan's program leaves. `first`: the one before, whose figure holds for the same steps.
 WrittenExport check_written_export(const PlannedJob& plan, const OutputFolder& folder, const WrittenProgram& one,
-                                   const std::vector<WrittenProgram>& programs, std::optional<Program>& first,
+                                   const std::vector<WrittenProgram>& programs, std::optional<FirstExport>& first,
                                    WrittenPlan& written, const Progress& progress) {
   progress.report("simulate: " + one.file + " as read back from disk");
   Program program = read_back(plan, folder, one.file, progress);
@@ -207,23 +214,22 @@ WrittenExport check_written_export(const PlannedJob& plan, const OutputFolder& f
     for (const std::string& fault : beyond_machine(program, plan.job.machine->machine))
       written.limits.push_back(fmt::format("{}: {}", one.file, fault));
   }
-  const bool feeds = one.word == kTemplateWord && !plan.job.layout->speeds;
+  const bool feeds = one.word == kGcodePartsWord || (one.word == kTemplateWord && !plan.job.layout->speeds);
   const Program run = run_of(plan, program, progress);
   now.total_s =
       feeds ? run.run_seconds(dwell_options(plan.job).machine.feed_limits().max_feed) : program.total_seconds();
-  const bool same =
-      !feeds && first && same_removing_steps(program, *first, units::mm_per_s(plan.job.options.max_feed_mm_per_min));
+  const bool same = !feeds && first &&
+                    same_removing_steps(program, first->program, units::mm_per_s(plan.job.options.max_feed_mm_per_min));
   std::optional<Part> changed;
   const Part& part = feeds ? part_to_predict_on(plan, changed) : plan.part();
-  now.residual = same ? written.exports.front().residual
-                      : predict_program(part, run, plan.dwell.lattice.kernel, progress).statistics;
+  now.residual = same ? first->residual : predict_program(part, run, plan.dwell.lattice.kernel, progress).statistics;
   const double left = written.exact.statistics.rms_about_zero(), by_file = now.residual.rms_about_zero();
   if (differs(left, by_file, std::max(kSimulationTolerance, 3.0 * written.exact.standard_error / left))) {
     written.limits.push_back(fmt::format("{} leaves {:.6g} nm RMS{} but {}{} {:.6g} nm", one.file, by_file,
                                          about_zero_in_words(now.residual), programs.front().file,
                                          plan.job.machine ? " on the machine" : "", left));
   }
-  if (!first && !feeds) first = std::move(program);
+  if (!first && !feeds) first = FirstExport{std::move(program), now.residual};
   return now;
 }
 
@@ -231,7 +237,7 @@ WrittenExport check_written_export(const PlannedJob& plan, const OutputFolder& f
 void check_written_exports(const PlannedJob& plan, const OutputFolder& folder,
                            const std::vector<WrittenProgram>& programs, WrittenPlan& written,
                            const Progress& progress) {
-  std::optional<Program> first;
+  std::optional<FirstExport> first;
   std::optional<double> unrounded;
   if (has_coarse_controller(plan) && plan.program.motion && !plan.job.options.exports.empty()) {
     unrounded =
@@ -242,10 +248,10 @@ void check_written_exports(const PlannedJob& plan, const OutputFolder& folder,
   for (const WrittenProgram& one : programs) {
     if (one.word.empty() || one.word == before) continue;  // the first file of a format names the others
     before = one.word;
+    const bool any = first.has_value();
     WrittenExport now = check_written_export(plan, folder, one, programs, first, written, progress);
-    const double by_file = now.residual.rms_about_zero();
-    const bool said = !written.exports.empty() && by_file == written.exports.front().residual.rms_about_zero();
-    if (unrounded && !said) say_rounding(one.file, by_file, *unrounded, written);
+    const bool is_first = !any && first;
+    if (unrounded && is_first) say_rounding(one.file, now.residual.rms_about_zero(), *unrounded, written);
     written.exports.push_back(std::move(now));
   }
 }

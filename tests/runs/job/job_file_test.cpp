@@ -79,6 +79,7 @@ JobOptions unusual() {
   o.header = "/data/start.nc";
   o.footer = "/data/end.nc";
   o.block_numbers = 5;
+  o.max_lines = 5000;
   o.zero_mm = {12.5, -1.0 / 3.0};
   o.rotate_deg = 37.5;
   o.swap_axes = true;

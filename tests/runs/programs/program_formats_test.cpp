@@ -52,8 +52,11 @@ TEST(ProgramFormats, AreWrittenOnlyWhereTheyAreAskedFor) {
 TEST(ProgramFormats, ArePartOfEveryPlan) {
   for (const ProgramFormat& format : program_formats())
     EXPECT_TRUE(format.file.empty() || plan_files().has(format.file)) << format.file;
-  for (const char* name : {"program_001.trj", "program_12345.pmc"}) EXPECT_TRUE(plan_files().has(name)) << name;
-  for (const char* name : {"program_.trj", "program_1a.trj", "program_001.txt", "other_001.trj"})
+  for (const char* name :
+       {"program_001.trj", "program_12345.pmc", "program_002.nc", "program_parts.csv", "program_by_template.mpf"})
+    EXPECT_TRUE(plan_files().has(name)) << name;
+  for (const char* name : {"program_.trj", "program_1a.trj", "program_001.txt", "other_001.trj", "program_by_template",
+                           "program_by_template."})
     EXPECT_FALSE(plan_files().has(name)) << name;
   EXPECT_EQ(program_format_of("<xml>"), nullptr);
   EXPECT_EQ(program_format_of(" \n"), nullptr);

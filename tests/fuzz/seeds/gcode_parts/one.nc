@@ -1,0 +1,12 @@
+(dwell: gcode=g94, g4=seconds)
+G21
+G90
+G17
+G94
+G0 Z10
+G0 X0 Y0.5
+G1 Z0 F600
+G1 X2 Y1 F300
+G4 P0.5
+G0 Z10
+M2
