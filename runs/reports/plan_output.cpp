@@ -196,6 +196,11 @@ struct FirstExport {
   MapStatistics residual;
 };
 
+/// Whether an exported program is one of feeds, which the machine makes a motion of.
+bool says_feeds(const PlannedJob& plan, const WrittenProgram& one) {
+  return one.word == kGcodePartsWord || (one.word == kTemplateWord && !plan.job.layout->speeds);
+}
+
 /// An exported program, read back from disk: it must keep the machine's limits as it stands in its file, and leave what
 /// the plan's program leaves. `first`: the one before, whose figure holds for the same steps.
 WrittenExport check_written_export(const PlannedJob& plan, const OutputFolder& folder, const WrittenProgram& one,
@@ -214,7 +219,7 @@ WrittenExport check_written_export(const PlannedJob& plan, const OutputFolder& f
     for (const std::string& fault : beyond_machine(program, plan.job.machine->machine))
       written.limits.push_back(fmt::format("{}: {}", one.file, fault));
   }
-  const bool feeds = one.word == kGcodePartsWord || (one.word == kTemplateWord && !plan.job.layout->speeds);
+  const bool feeds = says_feeds(plan, one);
   const Program run = run_of(plan, program, progress);
   now.total_s =
       feeds ? run.run_seconds(dwell_options(plan.job).machine.feed_limits().max_feed) : program.total_seconds();
@@ -250,8 +255,9 @@ void check_written_exports(const PlannedJob& plan, const OutputFolder& folder,
     before = one.word;
     const bool any = first.has_value();
     WrittenExport now = check_written_export(plan, folder, one, programs, first, written, progress);
-    const bool is_first = !any && first;
-    if (unrounded && is_first) say_rounding(one.file, now.residual.rms_about_zero(), *unrounded, written);
+    const double by_file = now.residual.rms_about_zero();
+    const bool said = any && by_file == first->residual.rms_about_zero();
+    if (unrounded && !said && !says_feeds(plan, one)) say_rounding(one.file, by_file, *unrounded, written);
     written.exports.push_back(std::move(now));
   }
 }
