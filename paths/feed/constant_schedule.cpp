@@ -14,7 +14,9 @@ namespace {
 
 constexpr int kMostRounds = 60;
 constexpr int kUndampedRounds = 5;
-constexpr double kAtRest = 1e-10;  // of the feeds
+constexpr double kAtRest = 1e-10;   // of the feeds
+constexpr int kMostPaths = 10;      // whose arcs are those of the feeds found on the one before
+constexpr double kSamePath = 1e-6;  // of the feeds
 
 /// The moves of one stroke: [first, last).
 struct Range {
@@ -110,7 +112,14 @@ class Scheduling {
   const std::vector<Trapezoid>& trapezoids(std::size_t j) {
     scratch_.clear();
     for (std::size_t i = ranges_[j].first; i < ranges_[j].last; ++i) {
-      scratch_.push_back({path_.moves[i].length, path_.moves[i].acceleration, std::sqrt(u_[i]), std::sqrt(u_[i + 1])});
+      if (path_.arcs.empty()) {
+        scratch_.push_back(
+            {path_.moves[i].length, path_.moves[i].acceleration, std::sqrt(u_[i]), std::sqrt(u_[i + 1])});
+        continue;
+      }
+      move_parts(path_, i, feed_[i], u_[i], u_[i + 1]).for_each([this](const Trapezoid& part, std::size_t) {
+        scratch_.push_back(part);
+      });
     }
     return scratch_;
   }
@@ -135,6 +144,27 @@ ConstantSchedule schedule_constant(const StrokeMoves& moves, const KinematicPath
   result.seconds += delays;
   result.halt.reserve(result.feed.size());
   for (Index j = 0; j < dwell.size(); ++j) result.halt.push_back(commanded_halt(dwell[j], delays[j]));
+  return result;
+}
+
+ConstantSchedule schedule_blended(const StrokeMoves& moves, const Machine& machine, double max_feed,
+                                  const Eigen::VectorXd& dwell) {
+  std::vector<ProgramStep> steps = moves.steps;
+  ConstantSchedule result = schedule_constant(moves, kinematic_path(steps, machine, max_feed), machine, dwell);
+  if (machine.corner != CornerRule::Blend || machine.blend_size != BlendSize::AsNeeded) return result;
+  for (int round = 1; round <= kMostPaths; ++round) {
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      const double feed =
+          moves.stroke[i] == StrokeMoves::kNoStroke ? 0.0 : result.feed[static_cast<std::size_t>(moves.stroke[i])];
+      steps[i].seconds = feed > 0.0 ? steps[i].length() / feed : 0.0;
+    }
+    const std::vector<double> before = std::exchange(result.feed, {});
+    result = schedule_constant(moves, kinematic_path(steps, machine, max_feed), machine, dwell);
+    double change = 0.0;
+    for (std::size_t j = 0; j < before.size(); ++j)
+      change = std::max(change, std::abs(result.feed[j] - before[j]) / std::max(result.feed[j], 1e-300));
+    if (change <= kSamePath) break;
+  }
   return result;
 }
 

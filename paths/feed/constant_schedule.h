@@ -23,9 +23,16 @@ struct ConstantSchedule {
 /// spends on every stroke its dwell [s]. For known speeds at the nodes the feed of a stroke follows from its dwell
 /// (feed_for_time), and for known feeds the speeds at the nodes follow from two passes (node_speeds_squared): this is
 /// repeated until both hold, from the fifth round on with half the change, which ends the swinging of strokes that hold
-/// each other back. A stroke at a corner must be faster elsewhere. dwell: n values, finite, >= 0. Cost: about 20 rounds
-/// of O(moves).
+/// each other back. A stroke at a corner must be faster elsewhere. The arcs of a machine
+/// that blends are as the path has them: where their size depends on the feeds, schedule_blended makes both. dwell: n
+/// values, finite, >= 0. Cost: about 20 rounds of O(moves).
 ConstantSchedule schedule_constant(const StrokeMoves& moves, const KinematicPath& path, const Machine& machine,
                                    const Eigen::VectorXd& dwell);
+
+/// The same for a machine whose arcs are as large as the feeds need (BlendSize::AsNeeded): the path is made anew for
+/// the feeds found on it, until no feed changes by more than 1e-6 of it, 10 times at most. For others one schedule on
+/// the path of the moves. `max_feed` as in kinematic_path. Cost: schedule_constant a round.
+ConstantSchedule schedule_blended(const StrokeMoves& moves, const Machine& machine, double max_feed,
+                                  const Eigen::VectorXd& dwell);
 
 }  // namespace dwell

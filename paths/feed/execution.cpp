@@ -16,6 +16,8 @@ namespace {
 // A stretch of constant acceleration is cut into so many parts of equal change of speed if it begins or ends at rest,
 // and into fewer where the speed changes by less.
 constexpr double kPartsFromRest = 12.0;
+// Arcs are run as chords, each in its exact time, that lie beside them by no more than this.
+constexpr double kChordWithin = 1e-4;  // [mm]
 
 class Runner {
  public:
@@ -76,22 +78,29 @@ class Runner {
       keep_step(step);
       return step.seconds;
     }
-    const Trapezoid trapezoid{move.length, move.acceleration, std::sqrt(u_[i]), std::sqrt(u_[i + 1])};
     if (!std::isfinite(feed_[i])) {  // nothing says how fast: it takes no time
       keep_step(step);
       return 0.0;
     }
+    const BlendArc none;
+    const BlendArc& in = path_.arcs.empty() ? none : path_.arcs[i];
+    const BlendArc& out = path_.arcs.empty() ? none : path_.arcs[i + 1];
+    const BlendedStep way(step, in, out);
     double travelled = 0.0, seconds = 0.0;
-    from_ = step.start;
-    for (const MotionPiece& piece : pieces_at_feed(trapezoid, feed_[i])) {
-      const Point from = from_;
-      add_piece(step, move.length, travelled, piece);
-      if (nodes_ != nullptr) nodes_->run(from, from_, piece.speed_in, piece.speed_out, piece.seconds(), step.removes);
-      travelled += piece.length;
-      seconds += piece.seconds();
-      if (step.removes) note(piece, move.acceleration);
-    }
-    result_.motion.steps.back().finish = step.finish;  // chained exactly
+    if (!(in.radius > 0.0)) from_ = step.start;
+    move_parts(path_, i, feed_[i], u_[i], u_[i + 1]).for_each([&](const Trapezoid& part, std::size_t which) {
+      for (const MotionPiece& piece : pieces_at_feed(part, feed_[i])) {
+        if (which == 1) {
+          add_straight(step, way, travelled, piece);
+        } else {
+          add_arc(step, way, which == 0 ? in.radius : out.radius, travelled, piece);
+        }
+        travelled += piece.length;
+        seconds += piece.seconds();
+        if (step.removes) note(piece, part.acceleration);
+      }
+    });
+    if (!(out.radius > 0.0)) result_.motion.steps.back().finish = step.finish;  // chained exactly
     return seconds;
   }
 
@@ -100,17 +109,45 @@ class Runner {
     if (piece.speed_in != piece.speed_out) result_.max_acceleration = std::max(result_.max_acceleration, acceleration);
   }
 
-  void add_piece(const ProgramStep& step, double length, double travelled, const MotionPiece& piece) {
+  static double parts_of(const MotionPiece& piece) {
     const double change = std::abs(piece.speed_out - piece.speed_in);
-    const double parts = std::max(1.0, std::ceil(kPartsFromRest * change / std::max(piece.speed_in, piece.speed_out)));
-    const double seconds = piece.seconds() / parts;
-    const double gain = (piece.speed_out - piece.speed_in) / piece.seconds();
+    return std::max(1.0, std::ceil(kPartsFromRest * change / std::max(piece.speed_in, piece.speed_out)));
+  }
+
+  /// A piece in so many parts of equal time; `after`(s, v, seconds) is told the end of each.
+  template <class After>
+  static void cut(const MotionPiece& piece, double parts, const After& after) {
+    const double seconds = piece.seconds() / parts, gain = (piece.speed_out - piece.speed_in) / piece.seconds();
     for (double k = 1.0; k <= parts; ++k) {
-      const double t = k * seconds, along = travelled + (piece.speed_in + 0.5 * gain * t) * t;
-      const Point to = step.start + std::min(1.0, along / length) * (step.finish - step.start);
+      const double t = k * seconds;
+      after((piece.speed_in + 0.5 * gain * t) * t, piece.speed_in + gain * t, seconds);
+    }
+  }
+
+  void add_straight(const ProgramStep& step, const BlendedStep& way, double travelled, const MotionPiece& piece) {
+    const Point begin = from_;
+    cut(piece, parts_of(piece), [&](double s, double, double seconds) {
+      const Point to = way.place(std::min(way.length(), travelled + s));
       result_.motion.steps.push_back({from_, to, seconds, step.removes});
       from_ = to;
-    }
+    });
+    if (nodes_ != nullptr) nodes_->run(begin, from_, piece.speed_in, piece.speed_out, piece.seconds(), step.removes);
+  }
+
+  void add_arc(const ProgramStep& step, const BlendedStep& way, double radius, double travelled,
+               const MotionPiece& piece) {
+    // A chord of the angle b lies beside its arc by R (1 - cos(b / 2)) < R b^2 / 8. Parts of equal time are up to twice
+    // as long as their mean where the speed changes.
+    const double uneven = 2.0 * std::max(piece.speed_in, piece.speed_out) / (piece.speed_in + piece.speed_out);
+    const double chords = std::ceil(uneven * piece.length / std::sqrt(8.0 * kChordWithin * radius));
+    double before = piece.speed_in;
+    cut(piece, std::max(chords, parts_of(piece)), [&](double s, double v, double seconds) {
+      const Point to = way.place(std::min(way.length(), travelled + s));
+      result_.motion.steps.push_back({from_, to, seconds, step.removes});
+      if (nodes_ != nullptr) nodes_->run(from_, to, before, v, seconds, step.removes);
+      from_ = to;
+      before = v;
+    });
   }
 
   const Program& program_;

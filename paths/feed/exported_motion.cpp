@@ -58,6 +58,11 @@ void check_exported_motion(const Machine& machine, ScheduleKind schedule) {
         "path_acceleration_mm_per_s2",
         along.x > 0.0 ? "x" : "y"));
   }
+  if (machine.corner == CornerRule::Blend) {
+    throw InputError(
+        "`export`: the `machine` has the corner rule blend, whose arcs no table of positions, velocities and times is "
+        "made for; required exact-stop");
+  }
   if (machine.corner == CornerRule::ExactStop || schedule == ScheduleKind::Pvt) return;
   throw InputError(fmt::format(
       "`export`: the `machine` has the corner rule {}, by which its velocity jumps at corners, which no table of "

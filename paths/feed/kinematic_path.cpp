@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
+#include <utility>
 
 #include "core/base/errors.h"
 
@@ -16,100 +18,223 @@ namespace {
 // straight on.
 constexpr double kFilePlaces = 1e-6;  // [mm]
 constexpr double kStraightOn = 1e-4;  // [rad]
+// Moves that turn back so far meet at a stop, also where the machine blends.
+constexpr double kTurnsBack = 178.0 / 180.0 * std::numbers::pi;  // [rad]
+constexpr double kAnySpeed = std::numeric_limits<double>::infinity();
 
-/// The highest squared speed between two moves.
-double corner_speed_squared(const ProgramStep& before, const ProgramStep& after, double acceleration, CornerRule rule,
-                            const Machine& machine) {
+/// How much two moves turn [rad], counter-clockwise positive; 0 where rounding may be all of it.
+double turn_between(const ProgramStep& before, const ProgramStep& after, const Machine& machine) {
   const Point a = before.finish - before.start, b = after.finish - after.start;
-  const double la = length(a), lb = length(b);
-  const double turn = std::atan2(std::abs(a.x * b.y - a.y * b.x), dot(a, b));
   const double rounding = 2.0 * std::max(kFilePlaces, machine.controller.position_resolution);
-  if (turn <= kStraightOn + rounding * (1.0 / la + 1.0 / lb)) return std::numeric_limits<double>::infinity();
-  switch (rule) {
-    case CornerRule::ExactStop:
-      return 0.0;
-    case CornerRule::Free:
-      return std::numeric_limits<double>::infinity();
-    case CornerRule::JunctionDeviation:
-      break;
-  }
-  const double s = std::cos(0.5 * turn);  // the angle between the moves is what the turn lacks to a half circle
-  return acceleration * machine.junction_deviation * s / (1.0 - s);
+  const double turn = std::atan2(a.x * b.y - a.y * b.x, dot(a, b));
+  return std::abs(turn) <= kStraightOn + rounding * (1.0 / length(a) + 1.0 / length(b)) ? 0.0 : turn;
 }
 
-/// What holds at the end of a step: a rule for corners, and whether it holds straight on as well.
+/// What holds at the end of a step: a rule for corners, whether it holds straight on as well, and the tolerance of the
+/// rule Blend.
 struct EndRule {
   CornerRule corner;
   bool everywhere;
+  double tolerance;
 };
 
-template <class RuleAt>
-KinematicPath make_path(const std::vector<ProgramStep>& steps, const Machine& machine, const RuleAt& rule_at) {
-  KinematicPath path;
-  path.moves.reserve(steps.size());
-  for (const ProgramStep& step : steps) {
-    const Point along = step.finish - step.start;
-    path.moves.push_back({length(along), speed_limit(machine, along), acceleration_limit(machine, along)});
+class PathMaker {
+ public:
+  /// `least`: the shortest time of a move at work [s].
+  PathMaker(const std::vector<ProgramStep>& steps, const Machine& machine, double max_feed, double least)
+      : steps_(steps), machine_(machine) {
+    path_.moves.reserve(steps.size());
+    for (const ProgramStep& step : steps) {
+      const Point along = step.finish - step.start;
+      path_.moves.push_back(
+          {length(along), std::min(speed_limit(machine, along), max_feed), acceleration_limit(machine, along)});
+      KinematicMove& move = path_.moves.back();
+      if (least > 0.0 && step.removes && move.length > 0.0)
+        move.max_speed = std::min(move.max_speed, move.length / least);
+    }
+    path_.corner.assign(steps.size() + 1, 0.0);
+    path_.stops.assign(steps.size() + 1, 0);
   }
-  path.corner.assign(steps.size() + 1, 0.0);
-  path.stops.assign(steps.size() + 1, 0);
-  for (std::size_t i = 0; i + 1 < steps.size(); ++i) {
-    const KinematicMove &before = path.moves[i], &after = path.moves[i + 1];
-    if (!(before.length > 0.0) || !(after.length > 0.0) || steps[i].removes != steps[i + 1].removes) continue;
-    const EndRule rule = rule_at(i);
-    const double acceleration = std::min(before.acceleration, after.acceleration);
-    path.corner[i + 1] =
-        rule.everywhere ? 0.0 : corner_speed_squared(steps[i], steps[i + 1], acceleration, rule.corner, machine);
-    path.stops[i + 1] = static_cast<char>(path.corner[i + 1] == 0.0);
+
+  template <class RuleAt>
+  KinematicPath make(const RuleAt& rule_at) {
+    for (std::size_t i = 0; i + 1 < steps_.size(); ++i) {
+      const EndRule rule = rule_at(i);
+      if (!(path_.moves[i].length > 0.0) || !(path_.moves[i + 1].length > 0.0) ||
+          steps_[i].removes != steps_[i + 1].removes) {
+        continue;
+      }
+      path_.corner[i + 1] = rule.everywhere ? 0.0 : corner_between(i, rule);
+      path_.stops[i + 1] = static_cast<char>(path_.corner[i + 1] == 0.0);
+    }
+    return std::move(path_);
   }
-  return path;
+
+ private:
+  /// The highest squared speed between move i and the next; where it blends, the arc besides.
+  double corner_between(std::size_t i, const EndRule& rule) {
+    const double turn = turn_between(steps_[i], steps_[i + 1], machine_);
+    if (turn == 0.0) return kAnySpeed;
+    switch (rule.corner) {
+      case CornerRule::ExactStop:
+        return 0.0;
+      case CornerRule::Free:
+        return kAnySpeed;
+      case CornerRule::Blend:
+        return blend(i, turn, rule.tolerance);
+      case CornerRule::JunctionDeviation:
+        break;
+    }
+    const double acceleration = std::min(path_.moves[i].acceleration, path_.moves[i + 1].acceleration);
+    const double s = std::cos(0.5 * std::abs(turn));  // the angle between the moves lacks the turn to a half circle
+    return acceleration * machine_.junction_deviation * s / (1.0 - s);
+  }
+
+  double blend(std::size_t i, double turn, double tolerance) {
+    if (std::abs(turn) > kTurnsBack) return 0.0;
+    if (path_.arcs.empty()) path_.arcs.resize(steps_.size() + 1);
+    const BlendArc arc = blend_arc(blend_move(i), blend_move(i + 1), turn, tolerance, machine_);
+    if (!(arc.radius > 0.0)) return kAnySpeed;  // the acceleration has no limit
+    path_.arcs[i + 1] = arc;
+    return arc.max_speed * arc.max_speed;
+  }
+
+  BlendMove blend_move(std::size_t i) const {
+    const ProgramStep& step = steps_[i];
+    const KinematicMove& move = path_.moves[i];
+    const double feed = step.seconds > 0.0 ? std::min(move.max_speed, move.length / step.seconds) : move.max_speed;
+    return {move.length, feed};
+  }
+
+  const std::vector<ProgramStep>& steps_;
+  const Machine& machine_;
+  KinematicPath path_;
+};
+
+/// The tolerance within which a machine blends after a change of the path mode [mm]. Throws where none is known.
+double blend_tolerance(const Program& program, const PathModeChange& change, const Machine& machine) {
+  if (change.mode.merging_mm.value_or(0.0) > 0.0) {
+    throw InputError(fmt::format(
+        "{}: from step {} on the controller may put one move in the place of several that lie within {:.6g} "
+        "mm of it (G64 Q), which is not simulated; required Q0, or no Q",
+        program.file, change.first_step + 1, *change.mode.merging_mm));
+  }
+  if (change.mode.tolerance_mm.value_or(0.0) > 0.0) return *change.mode.tolerance_mm;
+  if (machine.corner == CornerRule::Blend) return machine.blend_tolerance;
+  throw InputError(
+      fmt::format("{}: from step {} on the controller rounds corners as far as it likes (G64 without P), and where the "
+                  "tool then goes is not in the program; required G64 with P, or a machine with the corner rule blend "
+                  "and its tolerance",
+                  program.file, change.first_step + 1));
 }
 
-void refuse_blending(const Program& program) {
-  for (const PathModeChange& change : program.path_modes) {
-    if (change.mode.kind != PathMode::Kind::Blended) continue;
-    throw InputError(fmt::format(
-        "{}: from step {} on the controller may round corners (G64), and where the tool then goes is not in the "
-        "program; its motion on a machine can be told for G61 and G61.1, or without a path mode",
-        program.file, change.first_step + 1));
+EndRule rule_of(const Program& program, const PathModeChange& change, const Machine& machine) {
+  switch (change.mode.kind) {
+    case PathMode::Kind::ExactPath:
+      return {CornerRule::ExactStop, false, 0.0};
+    case PathMode::Kind::ExactStop:
+      return {CornerRule::ExactStop, true, 0.0};
+    case PathMode::Kind::Blended:
+      break;
   }
+  return {CornerRule::Blend, false, blend_tolerance(program, change, machine)};
 }
+
+/// One part of a move while it is put together.
+struct StretchLimits {
+  double length = 0.0, acceleration = 0.0, most = kAnySpeed;
+
+  double gain() const { return length > 0.0 ? 2.0 * acceleration * length : 0.0; }
+};
+
+using Parts = std::array<StretchLimits, 3>;
+
+Parts parts_of(const KinematicPath& path, std::size_t i, double feed) {
+  const KinematicMove& move = path.moves[i];
+  Parts parts;
+  double straight = move.length;
+  for (const std::size_t end : {0U, 1U}) {
+    const BlendArc& arc = path.arcs[i + end];
+    if (!(arc.radius > 0.0)) continue;
+    parts[2 * end] = {arc.half_length(), arc.acceleration, std::min({arc.max_speed, move.max_speed, feed})};
+    straight -= arc.cut;
+  }
+  parts[1] = {std::max(0.0, straight), move.acceleration, std::min(move.max_speed, feed)};
+  return parts;
+}
+
+double square_of(double v) { return v * v; }
+
+/// Between two parts, the squared speed that both allow.
+double between(const StretchLimits& a, const StretchLimits& b) { return square_of(std::min(a.most, b.most)); }
 
 }  // namespace
 
 KinematicPath kinematic_path(const std::vector<ProgramStep>& steps, const Machine& machine, double max_feed) {
-  KinematicPath path = make_path(steps, machine, [&machine](std::size_t) { return EndRule{machine.corner, false}; });
-  const double least = least_block_seconds(machine);
-  for (std::size_t i = 0; i < path.size(); ++i) {
-    KinematicMove& move = path.moves[i];
-    move.max_speed = std::min(move.max_speed, max_feed);
-    if (least > 0.0 && steps[i].removes && move.length > 0.0)
-      move.max_speed = std::min(move.max_speed, move.length / least);
-  }
-  return path;
+  return PathMaker(steps, machine, max_feed, least_block_seconds(machine)).make([&machine](std::size_t) {
+    return EndRule{machine.corner, false, machine.blend_tolerance};
+  });
 }
 
-KinematicPath kinematic_path(const Program& program, const Machine& machine) {
-  refuse_blending(program);
+KinematicPath kinematic_path(const Program& program, const Machine& machine_of_part) {
+  const Machine machine = machine_on(machine_of_part, program);
+  std::vector<EndRule> rules;
+  for (const PathModeChange& change : program.path_modes) rules.push_back(rule_of(program, change, machine));
   std::size_t next = 0;
-  EndRule rule{machine.corner, false};
-  return make_path(program.steps, machine_on(machine, program), [&](std::size_t step) {
-    for (; next < program.path_modes.size() && program.path_modes[next].first_step <= step; ++next)
-      rule = {CornerRule::ExactStop, program.path_modes[next].mode.kind == PathMode::Kind::ExactStop};
+  EndRule rule{machine.corner, false, machine.blend_tolerance};
+  return PathMaker(program.steps, machine, kAnySpeed, 0.0).make([&](std::size_t step) {
+    for (; next < rules.size() && program.path_modes[next].first_step <= step; ++next) rule = rules[next];
     return rule;
   });
+}
+
+MoveParts move_parts(const KinematicPath& path, std::size_t i, double feed, double u_in, double u_out) {
+  const KinematicMove& move = path.moves[i];
+  MoveParts made{};
+  if (path.arcs.empty()) {
+    made.part[1] = {move.length, move.acceleration, std::sqrt(u_in), std::sqrt(u_out)};
+    return made;
+  }
+  const Parts parts = parts_of(path, i, feed);
+  const double first = std::min(between(parts[0], parts[1]), u_in + parts[0].gain());
+  double second = std::min(between(parts[1], parts[2]), first + parts[1].gain());
+  second = std::min(second, u_out + parts[2].gain());
+  const std::array<double, 4> v{std::sqrt(u_in), std::sqrt(std::min(first, second + parts[1].gain())),
+                                std::sqrt(second), std::sqrt(u_out)};
+  for (std::size_t k = 0; k < parts.size(); ++k)
+    made.part[k] = {parts[k].length, parts[k].acceleration, v[k], v[k + 1],
+                    k == 1 ? move.max_speed : path.arcs[i + k / 2].max_speed};
+  return made;
+}
+
+double MoveParts::seconds(double feed) const {
+  double sum = 0.0;
+  for_each([&](const Trapezoid& trapezoid, std::size_t) { sum += time_at_feed(trapezoid, feed); });
+  return sum;
 }
 
 std::vector<double> node_speeds_squared(const KinematicPath& path, const std::vector<double>& feed) {
   const std::size_t n = path.size();
   std::vector<double> u = path.corner;
-  const auto highest = [&](std::size_t i) {
-    const double v = std::min(feed[i], path.moves[i].max_speed);
-    return v * v;
-  };
   for (std::size_t i = 0; i < n; ++i) {
-    u[i] = std::min(u[i], highest(i));
-    u[i + 1] = std::min(u[i + 1], highest(i));
+    const double highest = square_of(std::min(feed[i], path.moves[i].max_speed));
+    u[i] = std::min(u[i], highest);
+    u[i + 1] = std::min(u[i + 1], highest);
+  }
+  if (!path.arcs.empty()) {
+    for (std::size_t i = 0; i < n; ++i) {
+      const Parts parts = parts_of(path, i, feed[i]);
+      const double first = std::min(between(parts[0], parts[1]), u[i] + parts[0].gain());
+      const double second = std::min(between(parts[1], parts[2]), first + parts[1].gain());
+      u[i + 1] = std::min(u[i + 1], second + parts[2].gain());
+    }
+    for (std::size_t i = n; i-- > 0;) {
+      const Parts parts = parts_of(path, i, feed[i]);
+      const double second = std::min(between(parts[1], parts[2]), u[i + 1] + parts[2].gain());
+      const double first = std::min(between(parts[0], parts[1]), second + parts[1].gain());
+      u[i] = std::min(u[i], first + parts[0].gain());
+    }
+    return u;
   }
   const auto gain = [&](std::size_t i) { return 2.0 * path.moves[i].acceleration * path.moves[i].length; };
   for (std::size_t i = 0; i < n; ++i) u[i + 1] = std::min(u[i + 1], u[i] + gain(i));

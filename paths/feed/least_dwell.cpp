@@ -1,9 +1,6 @@
 #include "paths/feed/least_dwell.h"
 
-#include <cmath>
-
 #include "paths/feed/lift_rests.h"
-#include "paths/feed/trapezoid.h"
 
 namespace dwell {
 
@@ -32,8 +29,7 @@ Eigen::VectorXd least_dwell(const StrokeMoves& moves, const KinematicPath& path,
       least[moves.stroke[i]] += least_block_seconds(machine);
       continue;
     }
-    least[moves.stroke[i]] +=
-        time_at_feed({move.length, move.acceleration, std::sqrt(u[i]), std::sqrt(u[i + 1])}, move.max_speed);
+    least[moves.stroke[i]] += move_parts(path, i, move.max_speed, u[i], u[i + 1]).seconds(move.max_speed);
   }
   return least;
 }

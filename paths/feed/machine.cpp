@@ -95,9 +95,13 @@ std::string_view to_string(CornerRule rule) {
       return "junction-deviation";
     case CornerRule::Free:
       return "free";
+    case CornerRule::Blend:
+      return "blend";
   }
   return "";
 }
+
+std::string_view to_string(BlendSize size) { return size == BlendSize::Largest ? "largest" : "as-needed"; }
 
 Machine machine_on(Machine machine, const Program& program) {
   if (!program.frame.is_of_part()) machine.frame = program.frame;
@@ -114,12 +118,23 @@ double acceleration_limit(const Machine& machine, Point along) {
                      machine.frame.direction_to_program(along));
 }
 
+double acceleration_everywhere(const Machine& machine) {
+  return std::min({machine.path_acceleration, machine.x.max_acceleration, machine.y.max_acceleration});
+}
+
+double speed_everywhere(const Machine& machine) {
+  return std::min({machine.max_feed, machine.x.max_speed, machine.y.max_speed});
+}
+
 void validate(const Machine& machine) {
   check_axis("x", machine.x);
   check_axis("y", machine.y);
   check_positive("max_feed", machine.max_feed, "mm/s");
   check_positive("path_acceleration", machine.path_acceleration, "mm/s^2");
   check_positive("junction_deviation", machine.junction_deviation, "mm");
+  check_positive("blend_tolerance", machine.blend_tolerance, "mm");
+  check_positive("across_share", machine.across_share, "of the acceleration");
+  check_positive("along_share", machine.along_share, "of the acceleration");
   check_not_negative("corner_delay", machine.corner_delay, "s");
   check_not_negative("min_feed", machine.min_feed, "mm/s");
   check_not_negative("lift.up", machine.lift.lift, "s");

@@ -24,9 +24,17 @@ enum class CornerRule {
   ExactStop,          // it comes to rest there
   JunctionDeviation,  // at the speed of an arc that would leave the corner by junction_deviation
   Free,               // at any speed
+  Blend,              // on an arc that leaves the first move before the corner and joins the second after it
+};
+
+/// How large a machine makes the arcs of CornerRule::Blend.
+enum class BlendSize {
+  Largest,   // as large as the tolerance and the lengths of the moves allow
+  AsNeeded,  // no larger than the commanded feeds need
 };
 
 std::string_view to_string(CornerRule rule);
+std::string_view to_string(BlendSize size);
 
 /// How long a machine rests where the tool is lifted and lowered [s], >= 0, beside the ways up and down that a program
 /// says itself: with the tool up when it is lifted and when it is lowered, and then with the tool down until it has
@@ -55,8 +63,12 @@ struct Machine {
   double path_acceleration = std::numeric_limits<double>::infinity();  // along the path [mm/s^2], > 0
   CornerRule corner = CornerRule::ExactStop;
   double junction_deviation = 0.01;  // [mm], > 0
-  double corner_delay = 0.0;         // at rest at each exact stop [s], >= 0
-  double min_feed = 0.0;             // [mm/s], >= 0
+  double blend_tolerance = 0.01;     // how far arcs of the rule Blend leave the corner [mm], > 0
+  BlendSize blend_size = BlendSize::Largest;
+  /// Of the acceleration that all directions have, what arcs use across the path and along it; both > 0.
+  double across_share = 1.0, along_share = 1.0;
+  double corner_delay = 0.0;  // at rest at each exact stop [s], >= 0
+  double min_feed = 0.0;      // [mm/s], >= 0
   LiftTimes lift{};
   ControllerLimits controller{};
   AxisLetters letters{};
@@ -77,6 +89,10 @@ double acceleration_limit(const Machine& machine, Point along);
 /// The shortest time that a line of a program may take at work [s]: that of the controller's block rate and, since
 /// times are rounded to it, its clock's resolution; 0 without a block rate.
 double least_block_seconds(const Machine& machine);
+
+/// The acceleration that the machine has in every direction [mm/s^2], and likewise the speed [mm/s].
+double acceleration_everywhere(const Machine& machine);
+double speed_everywhere(const Machine& machine);
 
 /// Throws InputError naming the fields of the machine that contradict each other, with both values: a travel of no
 /// length, a minimum feed above what an axis or the path can do, a clock slower than the block rate, one letter for two

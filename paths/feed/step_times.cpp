@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "paths/feed/trapezoid.h"
-
 namespace dwell {
 
 std::vector<double> commanded_feeds(const Program& program, const KinematicPath& path) {
@@ -38,9 +36,7 @@ std::vector<double> step_times(const Program& program, const Machine& machine) {
     const KinematicMove& move = path.moves[i];
     double own = program.steps[i].seconds;
     if (move.length > 0.0) {
-      own = std::isfinite(feeds[i])
-                ? time_at_feed({move.length, move.acceleration, std::sqrt(u[i]), std::sqrt(u[i + 1])}, feeds[i])
-                : 0.0;
+      own = std::isfinite(feeds[i]) ? move_parts(path, i, feeds[i], u[i], u[i + 1]).seconds(feeds[i]) : 0.0;
     }
     seconds.push_back(own + half_rest(i) + half_rest(i + 1));
   }

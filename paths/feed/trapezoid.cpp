@@ -10,14 +10,14 @@ namespace {
 double squared(double v) { return v * v; }
 
 double held(const Trapezoid& move, double feed) {
-  return std::clamp(feed, std::max(move.speed_in, move.speed_out), peak_speed(move));
+  return std::max({move.speed_in, move.speed_out, std::min({feed, move.most, peak_speed(move)})});
 }
 
 /// The time of a move at a feed v, T = (2 v - in - out) / a + (L - (2 v^2 - in^2 - out^2) / 2 a) / v, with the same
 /// formula for feeds below the ends' speeds: it grows without end as the feed goes to 0, so that every time has a feed,
 /// and the speeds at the ends, which follow from the feeds, are too high only until the next round.
 double extended_time(const Trapezoid& m, double feed) {
-  const double v = std::min(feed, peak_speed(m));
+  const double v = std::min({feed, m.most, peak_speed(m)});
   const double ramps = (2.0 * squared(v) - squared(m.speed_in) - squared(m.speed_out)) / (2.0 * m.acceleration);
   return (2.0 * v - m.speed_in - m.speed_out) / m.acceleration + (m.length - ramps) / v;
 }
@@ -28,11 +28,11 @@ double time_of_all(const std::vector<Trapezoid>& moves, double feed) {
   return sum;
 }
 
-/// d T / d feed: 1 / a - (L + (in^2 + out^2) / 2 a) / v^2, and 0 above the peak.
+/// d T / d feed: 1 / a - (L + (in^2 + out^2) / 2 a) / v^2, and 0 above the peak and above `most`.
 double slope_of_all(const std::vector<Trapezoid>& moves, double feed) {
   double sum = 0.0;
   for (const Trapezoid& m : moves) {
-    if (feed >= peak_speed(m)) continue;
+    if (feed >= std::min(m.most, peak_speed(m))) continue;
     const double ends = (squared(m.speed_in) + squared(m.speed_out)) / (2.0 * m.acceleration);
     sum += 1.0 / m.acceleration - (m.length + ends) / squared(feed);
   }
@@ -47,7 +47,7 @@ double feed_below_peaks(const std::vector<Trapezoid>& moves, double seconds) {
     a += 1.0 / m.acceleration;
     b += (m.speed_in + m.speed_out) / m.acceleration;
     c += m.length + (squared(m.speed_in) + squared(m.speed_out)) / (2.0 * m.acceleration);
-    peak = std::min(peak, peak_speed(m));
+    peak = std::min({peak, m.most, peak_speed(m)});
   }
   const double discriminant = b * b - 4.0 * a * c;
   const double feed =

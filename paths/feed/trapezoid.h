@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <vector>
 
 namespace dwell {
@@ -12,12 +13,15 @@ struct Trapezoid {
   double acceleration;  // [mm/s^2], > 0; may be infinite
   double speed_in;      // [mm/s], >= 0
   double speed_out;
+  /// What the machine allows here, whatever the feed [mm/s]; at least the speeds at the ends but for rounding.
+  double most = std::numeric_limits<double>::infinity();
 };
 
-/// The highest speed that a move reaches if the feed does not hold it back [mm/s].
+/// The highest speed that a move reaches if neither the feed nor `most` holds it back [mm/s].
 double peak_speed(const Trapezoid& move);
 
-/// Time of a move at a feed [s]. The feed counts as at least the speeds at the ends and at most the peak. Infinite at a
+/// Time of a move at a feed [s]. The feed counts as at least the speeds at the ends and at most the peak and
+/// `most`. Infinite at a
 /// feed of 0.
 double time_at_feed(const Trapezoid& move, double feed);
 

@@ -72,6 +72,11 @@ class Pieces {
         machine_(machine),
         least_(std::max(least_seconds, kAnyTime)),
         path_(kinematic_path(program, machine)) {
+    if (!path_.arcs.empty()) {
+      throw InputError(
+          "the machine blends corners, on arcs which are no pieces of constant acceleration; required another rule for "
+          "corners");
+    }
     feed_ = commanded_feeds(program, path_);
     u_ = node_speeds_squared(path_, feed_);
     result_.motion.file = program.file;

@@ -17,7 +17,8 @@ struct TrapezoidProgram {
 /// velocity and time have them. No piece takes less than `least_seconds` where a move has room for that: a change of
 /// speed then takes so long at a lower acceleration, and a stretch at one speed that is shorter becomes part of its
 /// neighbours. With 0 the motion is that of execute(). Lifted moves are steps of their own, as fast as the machine can.
-/// Throws InputError as kinematic_path, and for a machine that has no limit of acceleration, for then the speed jumps.
+/// Throws InputError as kinematic_path, and for a machine that has no limit of acceleration, for then the speed jumps,
+/// and for a machine that blends corners.
 TrapezoidProgram trapezoid_program(const Program& program, const Machine& machine, double least_seconds = 0.0);
 
 }  // namespace dwell

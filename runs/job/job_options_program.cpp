@@ -52,7 +52,7 @@ std::vector<JobOptionRecord> program_option_records() {
       {"path-mode", "path_mode", "MODE",
        "how program.nc asks for corners: exact-stop (G61.1), exact-path (G61), blend or blend:TOL (G64, G64 P, TOL in "
        "mm), none (nothing is written: as the machine was set before), or auto: exact-path for a --machine that stops "
-       "at corners, else none",
+       "at corners, blend with its tolerance for one that blends them, else none",
        false, false, [](Options& o, const std::string& t) { o.path_mode = parse_path_mode(t); },
        [](const Options& o) { return to_string(o.path_mode); }},
       {"header", "header", "FILE",

@@ -9,27 +9,35 @@
 namespace dwell {
 namespace {
 
-/// What the preamble says of corners. A machine that stops at them does so by its own rule or by G61; of others no path
-/// mode is what they do.
+/// What the preamble says of corners. A machine that stops at them does so by its own rule or by G61, one that blends
+/// them by G64 with its tolerance; of others no path mode is what they do. A plan for a machine that blends forbids
+/// that rows of moves are merged (Q0), which it does not consider.
 std::optional<PathMode> path_mode_to_write(const PathModeOption& option, const std::optional<NamedMachine>& machine) {
   switch (option.choice) {
-    case PathModeOption::Choice::Given:
-      return option.mode;
+    case PathModeOption::Choice::Given: {
+      PathMode mode = option.mode;
+      if (machine && mode.kind == PathMode::Kind::Blended && mode.tolerance_mm) mode.merging_mm = 0.0;
+      return mode;
+    }
     case PathModeOption::Choice::None:
       return std::nullopt;
     case PathModeOption::Choice::Auto:
       break;
   }
-  const bool stops = machine && machine->machine.corner == CornerRule::ExactStop;
-  return stops ? std::optional(PathMode{PathMode::Kind::ExactPath, {}, {}}) : std::nullopt;
+  if (machine && machine->machine.corner == CornerRule::ExactStop) return PathMode{PathMode::Kind::ExactPath, {}, {}};
+  if (machine && machine->machine.corner == CornerRule::Blend)
+    return PathMode{PathMode::Kind::Blended, machine->machine.blend_tolerance, 0.0};
+  return std::nullopt;
 }
 
-void check_path_mode_of_machine(const PathModeOption& option) {
+void check_path_mode_of_machine(const PathModeOption& option, const Machine& machine) {
   if (option.choice != PathModeOption::Choice::Given) return;
-  if (option.mode.kind == PathMode::Kind::Blended) {
+  if (option.mode.kind == PathMode::Kind::Blended && !option.mode.tolerance_mm && machine.corner != CornerRule::Blend) {
     throw InputError(fmt::format(
-        "--path-mode {} with --machine: where the controller rounds corners (G64) is not in the program, so "
-        "that its motion cannot be planned; required --path-mode exact-path, none or auto, or no --machine",
+        "--path-mode {} with --machine: how far from corners the controller rounds them (G64) is neither in the "
+        "program "
+        "nor in the machine file, so that its motion cannot be planned; required --path-mode blend:TOLERANCE_MM, or a "
+        "machine with the corner rule blend",
         to_string(option)));
   }
   if (option.mode.kind == PathMode::Kind::ExactStop) {
@@ -52,7 +60,10 @@ Machine machine_for_program(const Machine& machine, const JobOptions& options) {
     placed.corner_delay = listed_corner_delay(machine);
     placed.controller.max_blocks_per_s *= 0.5;
   }
-  if (options.path_mode.choice == PathModeOption::Choice::Given) placed.corner = CornerRule::ExactStop;  // G61
+  if (options.path_mode.choice != PathModeOption::Choice::Given) return placed;
+  const PathMode& mode = options.path_mode.mode;
+  placed.corner = mode.kind == PathMode::Kind::Blended ? CornerRule::Blend : CornerRule::ExactStop;  // G64, G61
+  if (mode.tolerance_mm) placed.blend_tolerance = *mode.tolerance_mm;
   return placed;
 }
 
@@ -65,7 +76,7 @@ GcodeStyle gcode_style(const JobOptions& options, const std::optional<NamedMachi
 
 void check_program_style(const JobOptions& options, const std::optional<NamedMachine>& machine,
                          const GcodeInsert& before, const GcodeInsert& after) {
-  if (machine) check_path_mode_of_machine(options.path_mode);
+  if (machine) check_path_mode_of_machine(options.path_mode, machine->machine);
   GcodeOptions gcode;
   gcode.dialect = options.gcode;
   gcode.lift_height_mm = options.lift_height_mm;

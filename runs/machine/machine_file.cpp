@@ -50,9 +50,13 @@ std::string machine_text(const NamedMachine& machine) {
         const AxisLetters& letters = machine.machine.letters;
         text += fmt::format("letter = \"{}\"  # of this axis in programs\n", section == "x" ? letters.x : letters.y);
       }
-      if (section == "corner")
-        text +=
-            fmt::format("rule = \"{}\"  # exact-stop, junction-deviation or free\n", to_string(machine.machine.corner));
+      if (section == "corner") {
+        text += fmt::format(
+            "rule = \"{}\"  # exact-stop, junction-deviation, free or blend\n"
+            "arcs = \"{}\"  # of the rule blend: largest that the tolerance allows, or as-needed by the feeds "
+            "(LinuxCNC)\n",
+            to_string(machine.machine.corner), to_string(machine.machine.blend_size));
+      }
     }
     text += line_of(field, machine.machine);
   }

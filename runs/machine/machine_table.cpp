@@ -17,7 +17,9 @@
 namespace dwell {
 namespace {
 
-constexpr std::array<CornerRule, 3> kRules{CornerRule::ExactStop, CornerRule::JunctionDeviation, CornerRule::Free};
+constexpr std::array<CornerRule, 4> kRules{CornerRule::ExactStop, CornerRule::JunctionDeviation, CornerRule::Free,
+                                           CornerRule::Blend};
+constexpr std::array<BlendSize, 2> kSizes{BlendSize::Largest, BlendSize::AsNeeded};
 
 /// "corner, x, y": those of the fields, in their order.
 std::vector<std::string> sections() {
@@ -31,7 +33,7 @@ std::vector<std::string> sections() {
 std::string keys_of(const std::string& section) {
   std::vector<std::string> keys;
   if (section.empty()) keys = {"name", "schema"};
-  if (section == "corner") keys = {"rule"};
+  if (section == "corner") keys = {"rule", "arcs"};
   if (section == "x" || section == "y") keys = {"letter"};
   for (const MachineField& field : machine_fields()) {
     if (field.section == section) keys.push_back(field.key);
@@ -62,13 +64,16 @@ double number_of(const toml::node& node, const std::string& source, const Machin
   throw InputError(fmt::format("{} = {}; required {} (without quotes)", source, value_text(node), range));
 }
 
-CornerRule rule_of(const toml::node& node, const std::string& source) {
+/// One of several words, each as to_string has it.
+template <class Words>
+auto word_of(const Words& words, const toml::node& node, const std::string& source) {
   const auto text = node.value<std::string>();
-  for (const CornerRule rule : kRules) {
-    if (text && *text == to_string(rule)) return rule;
+  std::vector<std::string> accepted;
+  for (const auto word : words) {
+    if (text && *text == to_string(word)) return word;
+    accepted.push_back(fmt::format("\"{}\"", to_string(word)));
   }
-  throw InputError(
-      fmt::format("{} = {}; accepted: \"exact-stop\", \"junction-deviation\", \"free\"", source, value_text(node)));
+  throw InputError(fmt::format("{} = {}; accepted: {}", source, value_text(node), fmt::join(accepted, ", ")));
 }
 
 char letter_of(const toml::node& node, const std::string& source) {
@@ -113,7 +118,11 @@ class MachineReader {
     if (where == "schema") return check_schema(node, source);
     if (where == "name") return read_name(node, source);
     if (where == "corner.rule") {
-      result_.machine.corner = rule_of(node, source);
+      result_.machine.corner = word_of(kRules, node, source);
+      return;
+    }
+    if (where == "corner.arcs") {
+      result_.machine.blend_size = word_of(kSizes, node, source);
       return;
     }
     if (where == "x.letter" || where == "y.letter") {

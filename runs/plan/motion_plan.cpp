@@ -75,7 +75,7 @@ class Loop {
   Program execute_feeds(const Eigen::VectorXd& dwell, MotionPlan& plan, const Progress& progress) const {
     Eigen::VectorXd of_machine = dwell;  // what is left of it to the machine's own motion
     if (learnt_ != nullptr) of_machine = (dwell - learnt_->late).cwiseMax(0.0);
-    const ConstantSchedule schedule = schedule_constant(moves_, path_, machine_, of_machine);
+    const ConstantSchedule schedule = schedule_blended(moves_, machine_, max_feed_, of_machine);
     plan.seconds = schedule.seconds;
     plan.too_short = schedule.too_short;
     plan.commanded = schedule.halt;

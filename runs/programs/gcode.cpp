@@ -119,7 +119,9 @@ class GcodeWriter {
   std::string path_mode_words(const PathMode& mode) const {
     if (mode.kind == PathMode::Kind::ExactPath) return "G61";
     if (mode.kind == PathMode::Kind::ExactStop) return "G61.1";
-    return mode.tolerance_mm ? "G64 P" + length_text(*mode.tolerance_mm) : "G64";
+    std::string words = mode.tolerance_mm ? "G64 P" + length_text(*mode.tolerance_mm) : "G64";
+    if (mode.merging_mm) words += " Q" + length_text(*mode.merging_mm);
+    return words;
   }
 
   /// A user's lines find G94 after the work, whatever the dialect.

@@ -47,6 +47,13 @@ std::string corner_words(const Machine& m) {
                          m.junction_deviation);
     case CornerRule::Free:
       return "free: at full speed";
+    case CornerRule::Blend:
+      return fmt::format(
+          "blend: on arcs within {:.6g} mm of the corner, {}; of the acceleration {:.6g} across the path and {:.6g} "
+          "along it",
+          m.blend_tolerance,
+          m.blend_size == BlendSize::Largest ? "as large as that allows" : "no larger than the feeds need",
+          m.across_share, m.along_share);
   }
   return "";
 }
@@ -114,6 +121,7 @@ nlohmann::ordered_json machine_block(const NamedMachine& machine) {
   json["x_letter"] = std::string(1, machine.machine.letters.x);
   json["y_letter"] = std::string(1, machine.machine.letters.y);
   json["corner_rule"] = to_string(machine.machine.corner);
+  json["corner_arcs"] = to_string(machine.machine.blend_size);
   return json;
 }
 

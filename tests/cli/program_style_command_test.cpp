@@ -194,14 +194,21 @@ TEST(ProgramStyle, TakesCornersAsThePlanDoes) {
   const LaidInputs inputs;
   inputs.folder.file("stops.toml", "path_acceleration_mm_per_s2 = 60\n");
   inputs.folder.file("junction.toml", "path_acceleration_mm_per_s2 = 60\n[corner]\nrule = \"junction-deviation\"\n");
-  inputs.refused({"--machine", "stops.toml", "--path-mode", "blend:0.01"}, {"--path-mode blend:0.01 with --machine"});
+  inputs.folder.file(
+      "blends.toml",
+      "path_acceleration_mm_per_s2 = 60\n[corner]\nrule = \"blend\"\narcs = \"as-needed\"\ntolerance_mm = "
+      "0.1\nalong_share = 0.5\n");
+  inputs.refused({"--machine", "stops.toml", "--path-mode", "blend"},
+                 {"--path-mode blend with --machine", "required --path-mode blend:TOLERANCE_MM"});
+  inputs.refused({"--machine", "blends.toml", "--schedule", "linear", "--export", "pvt-csv"}, {"corner rule blend"});
   inputs.refused({"--machine", "stops.toml", "--path-mode", "exact-stop"}, {"--path-mode exact-stop with --machine"});
   const Words turning{"--path", "random:pitch=1.5,seed=2", "--smoothness", "0.1"};
-  const auto said = [&](const Words& style, bool g61) {
+  const auto said = [&](const Words& style, bool g61, bool g64 = false) {
     const Words words = with(turning, style);
     const json plan = inputs.planned(words);
     const std::string program = read_whole_file(inputs / "plan/program.nc");
     EXPECT_EQ(program.find("\nG61\n") != std::string::npos, g61);
+    EXPECT_EQ(program.find("\nG64 P0.100000 Q0.000000\n") != std::string::npos, g64);
     const json again = inputs.simulated({"plan"});
     EXPECT_NEAR(again["program"]["residual_rms_nm"].get<double>(), plan["program"]["residual_rms_nm"].get<double>(),
                 1e-9);
@@ -214,6 +221,11 @@ TEST(ProgramStyle, TakesCornersAsThePlanDoes) {
   said({"--machine", "junction.toml"}, false);
   // G61 makes every machine stop, and the plan knows it.
   EXPECT_NEAR(said({"--machine", "junction.toml", "--path-mode", "exact-path"}, true), stops, 1e-3 * stops);
+  EXPECT_NEAR(said({"--machine", "blends.toml", "--path-mode", "exact-path"}, true), stops, 1e-3 * stops);
+  // And G64 makes every machine blend.
+  const double blends = said({"--machine", "blends.toml"}, false, true);
+  EXPECT_LT(blends, 0.99 * stops);
+  EXPECT_LT(said({"--machine", "stops.toml", "--path-mode", "blend:0.1"}, false, true), 0.99 * stops);
 }
 
 // Its axes are those of the program: turned by a quarter, the quick axis runs along the other side of the part.

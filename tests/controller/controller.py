@@ -1,8 +1,8 @@
 """A real controller: runs a program on LinuxCNC (Debian's linuxcnc-uspace, without a screen) and records its motion.
 
 LinuxCNC counts its time in servo periods, so a busy machine changes nothing, and it can run faster than the clock: with
-every feed and speed limit times k, every acceleration times k^2 and the period divided by k the motion is the same,
-sampled at the same places, in 1/k of the time.
+every feed and speed limit times k, every acceleration times k^2 and the period divided by k (and its one other time,
+of short moves with G64, likewise) the motion is the same, sampled at the same places, in 1/k of the time.
 """
 
 import dataclasses
@@ -21,6 +21,7 @@ import numpy
 
 SPEED_UP = 5  # at 10 it was measured to be the same still, at 20 the interpreter cannot feed the planner
 PERIOD_S = 0.001  # of the motion, whatever the speed-up
+RAMP_FREQUENCY = 100.0  # LinuxCNC's default [1/s of the motion]: with G64, moves that take less than its inverse are ramps
 LOCK = pathlib.Path("/tmp/linuxcnc.lock")  # LinuxCNC's own: one runs on a machine at a time
 STARTING_S = 60  # of the clock, for all that is not motion
 HERE = pathlib.Path(__file__).resolve().parent
@@ -121,6 +122,7 @@ ANGULAR_UNITS = degree
 DEFAULT_LINEAR_VELOCITY = {speed!r}
 MAX_LINEAR_VELOCITY = {speed!r}
 DEFAULT_LINEAR_ACCELERATION = {acceleration!r}
+ARC_BLEND_RAMP_FREQ = {RAMP_FREQUENCY * k!r}
 MAX_LINEAR_ACCELERATION = {acceleration!r}
 NO_FORCE_HOMING = 1
 [EMCIO]

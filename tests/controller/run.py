@@ -23,7 +23,6 @@ G64 = "G64 P0.01"
 MAX_FEED = 600  # mm/min
 TERMS = "piston,tilt"
 SEARCHES = 14  # of the fit's golden section: the acceleration to 0.1 %
-HALVINGS = 12  # of the search of a deviation, from 1e-5 to 0.1 mm: to 0.2 %
 COARSE = 24  # pixels along the longer side, where only the motion is asked for
 DONE = (0, 3)  # dwell's exit codes with outputs: done, done with a limit that it names
 
@@ -51,19 +50,26 @@ class Run:
         return motion.work_of(self.recording)
 
 
-def machine_file(case, name, limits, acceleration, delay, deviation=None):
-    """A machine file for LinuxCNC with such axes: the acceleration of each, and the rest at a stop [s].
+def machine_file(case, name, limits, acceleration, delay):
+    """A machine file for LinuxCNC with such axes: the acceleration of each, and the rest at a stop [s]."""
+    return write_machine(case, name, limits, acceleration, f"rule = \"exact-stop\"\ndelay_s = {delay!r}\n")
 
-    With a deviation [mm] it is LinuxCNC as it runs with G64: no stop at a corner, but the speed of an arc that far
-    beside it. dwell follows the path itself all the same.
+
+def blending_file(case, name, limits):
+    """A machine file for LinuxCNC as it blends corners with G64 P, with the acceleration of its axes as they are set.
+
+    The shares of it on arcs, and that these are no larger than the feeds need, are LinuxCNC's own (docs/motion.md).
     """
+    return write_machine(case, name, limits, limits.acceleration,
+                         f"rule = \"blend\"\narcs = \"as-needed\"\nacross_share = {math.sqrt(0.75)!r}\n"
+                         "along_share = 0.5\n")
+
+
+def write_machine(case, name, limits, acceleration, corner):
     axes = "".join(f"[{axis}]\nmax_speed_mm_per_s = {limits.speed!r}\nmax_acceleration_mm_per_s2 = {acceleration!r}\n"
                    for axis in "xy")
-    rule = "rule = \"exact-stop\"" if deviation is None else (
-        f"rule = \"junction-deviation\"\njunction_deviation_mm = {deviation!r}")
-    text = f"schema = 1\nname = \"{name}\"\n[corner]\n{rule}\ndelay_s = {delay!r}\n{axes}"
     file = case.folder / f"{name}.toml"
-    file.write_text(text, encoding="ascii")
+    file.write_text(f"schema = 1\nname = \"{name}\"\n[corner]\n{corner}{axes}", encoding="ascii")
     return file
 
 
@@ -124,8 +130,8 @@ def rms(case, heights):
 class Comparison:
     recorded_s: float
     simulated_s: float
-    latest_s: float  # largest difference of the times at which a stop is passed
-    from_path_mm: float  # largest distance of a recorded place from the programmed path; NaN where not looked at
+    latest_s: float  # largest difference of the times at which a stop is passed; NaN where it is not stopped
+    from_path_mm: float  # largest distance of a recorded place from the simulated way
     residual_nm: float  # left by the recorded motion
     simulated_nm: float
     difference: float  # RMS of the difference of the motions' removals, by one quadrature, over the recorded residual
@@ -137,15 +143,15 @@ class Comparison:
         return self.latest_s / self.recorded_s
 
 
-def compare(case, run, table, removed, follow=True):
-    """A recorded run against a simulated one. `follow`: through the stops, which a blended path does not pass."""
-    latest, off = math.nan, math.nan
-    if follow:
+def compare(case, run, table, removed, stops=True):
+    """A recorded run against a simulated one. `stops`: it comes to rest at corners, which a blended path does not."""
+    latest, way = math.nan, table.places
+    if stops:
         places, times = table.stops()
         late = motion.stops_of_work(run.work, places) - times
         latest = float(numpy.abs(late).max()) if len(late) else 0.0
-        corners = numpy.concatenate([table.places[:1], places, table.places[-1:]])
-        off = motion.distance_from_path(run.work, corners)
+        way = numpy.concatenate([table.places[:1], places, table.places[-1:]])
+    off = motion.distance_from_path(run.work, way[numpy.diff(way, axis=0, prepend=math.inf).any(axis=1)])
     recorded = removal_of(case, run.work)
     residual = rms(case, case.part.heights - recorded)
     return Comparison(run.work.total(), table.total(), latest, off, residual, rms(case, case.part.heights - removed),
@@ -190,20 +196,6 @@ def fit(case, run, limits):
             low, left = left.acceleration, right
             right = look(low + golden * (high - low))
     return min(left, right, key=lambda f: f.scatter)
-
-
-def fit_deviation(case, run, program, limits, found):
-    """The deviation at corners with which dwell's time for a program is that of a run of it with G64 [mm].
-
-    `program` is the one without a path mode, so that the machine's own rule for corners holds.
-    """
-    low, high = 1e-5, 0.1
-    for _ in range(HALVINGS):
-        middle = math.sqrt(low * high)
-        machine = machine_file(case, "trial", limits, found.acceleration, found.delay, middle)
-        late = simulated_motion(case, program, machine).total() > run.work.total()
-        low, high = (middle, high) if late else (low, middle)
-    return math.sqrt(low * high)
 
 
 def kept(logs, name, program):

@@ -34,6 +34,9 @@ Machine small_machine(CornerRule rule) {
   machine.y = {.max_speed = 25.0, .max_acceleration = 90.0};
   machine.max_feed = 20.0;
   machine.corner = rule;
+  machine.blend_tolerance = 0.07;
+  machine.across_share = 0.8;
+  machine.along_share = 0.6;
   machine.corner_delay = rule == CornerRule::ExactStop ? 0.004 : 0.0;
   return machine;
 }
@@ -73,7 +76,8 @@ Eigen::VectorXd executed(const StrokeMoves& moves, const Program& program, const
 }
 
 TEST(LeastDwell, IsTheTimeOfAMachineThatRunsAsFastAsItCan) {
-  for (const CornerRule rule : {CornerRule::ExactStop, CornerRule::JunctionDeviation, CornerRule::Free}) {
+  for (const CornerRule rule :
+       {CornerRule::ExactStop, CornerRule::JunctionDeviation, CornerRule::Free, CornerRule::Blend}) {
     const Machine machine = small_machine(rule);
     const Case c = laid(machine);
     const Eigen::VectorXd fastest = executed(
@@ -86,7 +90,8 @@ TEST(LeastDwell, IsTheTimeOfAMachineThatRunsAsFastAsItCan) {
 TEST(ConstantSchedule, IsExecutedInTheTimesOfThePlan) {
   std::mt19937 random(9);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
-  for (const CornerRule rule : {CornerRule::ExactStop, CornerRule::JunctionDeviation, CornerRule::Free}) {
+  for (const CornerRule rule :
+       {CornerRule::ExactStop, CornerRule::JunctionDeviation, CornerRule::Free, CornerRule::Blend}) {
     const Machine machine = small_machine(rule);
     const Case c = laid(machine);
     // Times that the machine can run, since it would with these feeds.
@@ -108,6 +113,25 @@ TEST(ConstantSchedule, IsExecutedInTheTimesOfThePlan) {
       EXPECT_GT((off - dwell).cwiseQuotient(dwell).maxCoeff(), 0.1);
     }
   }
+}
+
+// Where the arcs are as large as the feeds need, the feeds decide the path that they are made for.
+TEST(ConstantSchedule, FindsFeedsAndTheArcsThatTheyNeedTogether) {
+  Machine machine = small_machine(CornerRule::Blend);
+  machine.blend_size = BlendSize::AsNeeded;
+  const Case c = laid(machine);
+  std::vector<double> some(static_cast<std::size_t>(c.moves.strokes));
+  for (std::size_t j = 0; j < some.size(); ++j) some[j] = 2.0 + std::sin(0.7 * static_cast<double>(j));
+  const Eigen::VectorXd dwell = executed(c.moves, commanded(c.moves, some), machine);
+  const ConstantSchedule once = schedule_constant(c.moves, c.path, machine, dwell);
+  const Eigen::VectorXd off = executed(c.moves, commanded(c.moves, once.feed), machine);
+  EXPECT_GT((off - dwell).cwiseQuotient(dwell).cwiseAbs().maxCoeff(), 5e-3);
+  const ConstantSchedule schedule = schedule_blended(c.moves, machine, 20.0, dwell);
+  const Eigen::VectorXd taken = executed(c.moves, commanded(c.moves, schedule.feed), machine);
+  EXPECT_LE((taken - dwell).cwiseQuotient(dwell).cwiseAbs().maxCoeff(), 1e-5);
+  machine.blend_size = BlendSize::Largest;
+  const ConstantSchedule fixed = schedule_blended(c.moves, machine, 20.0, dwell);
+  EXPECT_EQ(fixed.feed, schedule_constant(c.moves, kinematic_path(c.moves.steps, machine, 20.0), machine, dwell).feed);
 }
 
 TEST(ConstantSchedule, CountsStrokesThatTheMachineCannotRunInTime) {

@@ -3,9 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <string>
 
-#include "core/base/errors.h"
 #include "core/motion/cubic_move.h"
 #include "core/removal/simulate.h"
 #include "core/tif/removal_function.h"
@@ -157,15 +155,6 @@ TEST(Execution, TakesThePathModeOfTheProgramBeforeTheMachinesRule) {
   EXPECT_NEAR(execute(program, free).motion.total_seconds(), none + 0.4, 1e-12);
   program.path_modes = {{1, {PathMode::Kind::ExactStop}}};  // the end of the first move is free still
   EXPECT_NEAR(execute(program, free).motion.total_seconds(), none + 0.2, 1e-12);
-  program.path_modes = {{2, {PathMode::Kind::Blended, 0.01}}};
-  try {
-    execute(program, free);
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("p.nc: from step 3 on the controller may round corners (G64)"),
-              std::string::npos)
-        << error.what();
-  }
 }
 
 TEST(Execution, LeavesTheWayUpToTheRapidLength) {

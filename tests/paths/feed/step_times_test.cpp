@@ -9,7 +9,8 @@ namespace dwell {
 namespace {
 
 TEST(StepTimes, AreThoseOfTheExecution) {
-  for (const CornerRule rule : {CornerRule::ExactStop, CornerRule::JunctionDeviation, CornerRule::Free}) {
+  for (const CornerRule rule :
+       {CornerRule::ExactStop, CornerRule::JunctionDeviation, CornerRule::Free, CornerRule::Blend}) {
     Program program{"", test::crooked_chain(3, 60, 0.5, 12.0)};
     const Point at = program.steps[20].finish;
     program.steps.insert(program.steps.begin() + 21, {at, at, 0.125, true});

@@ -20,6 +20,7 @@ NamedMachine unusual() {
   m.controller = {50.0, 0.015, 0.25};
   m.letters = {'V', 'B'};
   m.corner = CornerRule::JunctionDeviation;
+  m.blend_size = BlendSize::AsNeeded;
   return named;
 }
 
@@ -29,6 +30,7 @@ TEST(MachineFile, ReadsBackWhatItWrites) {
     EXPECT_EQ(read.name, machine.name);
     EXPECT_EQ(read.machine.corner, machine.machine.corner);
     EXPECT_EQ(read.machine.letters, machine.machine.letters);
+    EXPECT_EQ(read.machine.blend_size, machine.machine.blend_size);
     Machine a = read.machine, b = machine.machine;
     for (const MachineField& field : machine_fields()) {
       EXPECT_DOUBLE_EQ(field.value(a), field.value(b)) << field.section << '.' << field.key;
@@ -46,6 +48,17 @@ TEST(MachineFile, ConvertsFeedsFromMinutes) {
   EXPECT_TRUE(std::isinf(read.machine.y.max_speed));
   EXPECT_EQ(read.machine.corner, CornerRule::Free);
   EXPECT_EQ(read.machine.corner_delay, 0.25);
+}
+
+TEST(MachineFile, TakesAMachineThatBlends) {
+  const NamedMachine read = parse_machine(
+      "[corner]\nrule = \"blend\"\narcs = \"as-needed\"\ntolerance_mm = 0.03\nacross_share = 0.8\nalong_share = 0.5\n",
+      "m.toml");
+  EXPECT_EQ(read.machine.corner, CornerRule::Blend);
+  EXPECT_EQ(read.machine.blend_size, BlendSize::AsNeeded);
+  EXPECT_EQ(read.machine.blend_tolerance, 0.03);
+  EXPECT_EQ(read.machine.across_share, 0.8);
+  EXPECT_EQ(read.machine.along_share, 0.5);
 }
 
 std::string refusal(const std::string& text) {
@@ -69,8 +82,12 @@ TEST(MachineFile, RefusesByFileLineFieldAndValue) {
             "m.toml: line 1: max_feed_mm_per_min = -2; required a finite number > 0 (without quotes)");
   EXPECT_EQ(refusal("[corner]\ndelay_s = nan\n"),
             "m.toml: line 2: corner.delay_s = nan; required a finite number >= 0 (without quotes)");
-  EXPECT_EQ(refusal("[corner]\nrule = \"round\"\n"),
-            "m.toml: line 2: corner.rule = 'round'; accepted: \"exact-stop\", \"junction-deviation\", \"free\"");
+  EXPECT_EQ(
+      refusal("[corner]\nrule = \"round\"\n"),
+      "m.toml: line 2: corner.rule = 'round'; accepted: \"exact-stop\", \"junction-deviation\", \"free\", \"blend\"");
+  EXPECT_EQ(refusal("[corner]\narcs = 3\n"), "m.toml: line 2: corner.arcs = 3; accepted: \"largest\", \"as-needed\"");
+  EXPECT_EQ(refusal("[corner]\nacross_share = 0\n"),
+            "m.toml: line 2: corner.across_share = 0; required a finite number > 0 (without quotes)");
   EXPECT_EQ(refusal("schema = 2\n").substr(0, 41), "m.toml: line 1: schema = 2; accepted: 1 (");
   EXPECT_EQ(refusal("name = 3\n"), "m.toml: line 1: name = 3; required a string (in quotes)");
   EXPECT_EQ(refusal("[x]\nlowest_mm = 4\nhighest_mm = 2\n"),
