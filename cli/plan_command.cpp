@@ -16,6 +16,7 @@
 #include "core/base/duration_text.h"
 #include "core/base/units.h"
 #include "runs/job/job_file.h"
+#include "runs/job/program_style.h"
 #include "runs/reports/aim.h"
 #include "runs/reports/anatomy_lines.h"
 #include "runs/reports/exact_lines.h"
@@ -46,7 +47,8 @@ std::string motion_lines(const PlannedJob& plan) {
   if (!plan.dwell.motion) return "";
   const MotionPlan& m = *plan.dwell.motion;
   const double planned = plan.dwell.residual.rms_about_zero();
-  return machine_lines(*plan.job.machine) +
+  const NamedMachine& machine = *plan.job.machine;
+  return machine_lines({machine.name, machine_for_program(machine.machine, plan.job.options)}) +
          fmt::format(
              "motion    {:.4g} nm RMS executed, {:.3f} times the planned; {:.4g} nm without correction, {} of "
              "{}\n",

@@ -205,7 +205,10 @@ std::string lifted_words(const Simulation& s) {
 std::string executed_lines(const Simulation& s) {
   if (!s.executed) return "";
   const ExecutedProgram& e = *s.executed;
-  return machine_lines(e.machine) +
+  const char* mode = s.program.path_modes.empty()
+                         ? ""
+                         : "          the program's path mode (G61, G64) comes before the rule for corners\n";
+  return machine_lines(e.machine) + mode +
          fmt::format(
              "executed  {} for the run{}, {} of {} take over 1 % longer than commanded; up to {:.4g} mm/s^2\n",
              duration_text(e.run_seconds),
