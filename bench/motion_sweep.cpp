@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
+#include <numbers>
 #include <utility>
 
-#include "bench/mirror.h"
 #include "core/removal/simulate.h"
 #include "core/tif/models/removal_models.h"
 #include "paths/feed/execution.h"
@@ -32,10 +33,16 @@ constexpr std::array<SweptPath, 4> kPaths{
      {"random, a turn every 2 mm", "random:pitch=1,overrun=6,seed=3", 0.1, {213, 94, 0}}}};
 constexpr std::array kAccelerations{2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0};
 
+/// In waves that the tool reaches: what no tool removes would hide what the motion loses.
 Part made_up_part(int threads) {
-  HeightMap square = noise_mirror(97, 0.25, 40.0, 11), map(Grid{73, 97, 0.25, 0.25, {-12.0, -9.0}});
+  HeightMap map(Grid{73, 97, 0.25, 0.25, {-12.0, -9.0}});
+  constexpr double kTurn = 2.0 * std::numbers::pi;
   for (Index r = 0; r < map.grid.rows; ++r) {
-    for (Index c = 0; c < map.grid.cols; ++c) map.at(r, c) = square.at(r, c);
+    for (Index c = 0; c < map.grid.cols; ++c) {
+      const double x = map.grid.x(c), y = map.grid.y(r);
+      map.at(r, c) = 30.0 * std::sin(kTurn * x / 13.0 + 0.4) * std::cos(kTurn * y / 11.0) +
+                     15.0 * std::sin(kTurn * (x + 0.7 * y) / 8.0) + 0.1 * x * y;
+    }
   }
   return make_part(std::move(map), gaussian_removal(8.0, 4.0, 6.0), {true, true}, threads);
 }

@@ -14,7 +14,8 @@ BindingLimit limit_of(const MotionNode& from, const MotionNode& to, const Machin
   if (!to.removes || !(seconds > 0.0)) return BindingLimit::None;
   const Point way = to.place - from.place;
   if (!(length(way) > 0.0)) {
-    const bool at_corner = machine.corner_delay > 0.0 && std::abs(seconds / machine.corner_delay - 1.0) <= kSpeedRounding;
+    const bool at_corner =
+        machine.corner_delay > 0.0 && std::abs(seconds / machine.corner_delay - 1.0) <= kSpeedRounding;
     return at_corner ? BindingLimit::Rest : BindingLimit::None;
   }
   const double fastest = std::max(from.speed, to.speed), change = std::abs(to.speed - from.speed);

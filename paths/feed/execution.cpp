@@ -44,7 +44,10 @@ class Runner {
     Poll poll(progress);
     for (std::size_t i = 0; i < program_.steps.size(); ++i) {
       poll.step();
-      for (const ProgramStep& at_lift : lifts_.before(i)) keep_step(at_lift);
+      for (const ProgramStep& at_lift : lifts_.before(i)) {
+        result_.at_lifts.push_back(result_.motion.steps.size());
+        keep_step(at_lift);
+      }
       result_.seconds.push_back(run_step(i) + half_rest(i) + half_rest(i + 1));
       if (path_.stops[i + 1] != 0) rest(program_.steps[i].finish);
     }

@@ -20,8 +20,9 @@ struct Execution {
   /// the middle of one arc to that of the next. The rests at lifts (LiftRests) are steps of the motion and in none of
   /// these.
   std::vector<double> seconds;
-  double max_speed = 0.0;         // reached at work [mm/s]
-  double max_acceleration = 0.0;  // along the path, at work [mm/s^2]
+  std::vector<std::size_t> at_lifts;  // which steps of the motion are those rests, ascending
+  double max_speed = 0.0;             // reached at work [mm/s]
+  double max_acceleration = 0.0;      // along the path, at work [mm/s^2]
 };
 
 /// Runs a program's steps on a machine: each as a trapezoid of speed from its entry to its exit with the commanded feed

@@ -15,7 +15,6 @@
 namespace dwell {
 namespace {
 
-constexpr double kSpeedMargin = 0.999;
 constexpr double kRoundedPlace = 1.5;  // of a step of places: both ends, in both axes
 constexpr double kLeastTicks = 4.0;    // of the clock, a piece
 constexpr int kRounds = 3;             // of schedules
@@ -70,14 +69,21 @@ void check_exported_motion(const Machine& machine, ScheduleKind schedule) {
       to_string(machine.corner)));
 }
 
-Machine with_margins(const Machine& machine, double acceleration_share) {
+RoundingMargins margins_of(double acceleration_share) {
+  RoundingMargins margins;
+  margins.acceleration = acceleration_share;
+  margins.speed = std::min(margins.speed, 1.0 - 0.2 * (1.0 - acceleration_share));
+  return margins;
+}
+
+Machine with_margins(const Machine& machine, const RoundingMargins& margins) {
   Machine tight = machine;
   for (MachineAxis* axis : {&tight.x, &tight.y}) {
-    axis->max_acceleration *= acceleration_share;
-    axis->max_speed *= kSpeedMargin;
+    axis->max_acceleration *= margins.acceleration;
+    axis->max_speed *= margins.speed;
   }
-  tight.path_acceleration *= acceleration_share;
-  tight.max_feed *= kSpeedMargin;
+  tight.path_acceleration *= margins.acceleration;
+  tight.max_feed *= margins.speed;
   return tight;
 }
 
@@ -92,9 +98,9 @@ double least_piece_seconds(const Machine& machine, const RoundingMargins& margin
 Program exported_motion(const ToolPath& path, Motion motion, const Machine& machine, double max_feed,
                         const Eigen::VectorXd& seconds, const Progress& progress, const RoundingMargins& margins) {
   check_exported_motion(machine);
-  Machine tight = with_margins(machine, margins.acceleration);
+  Machine tight = with_margins(machine, margins);
   tight.corner_delay = listed_corner_delay(machine);
-  const double least = least_piece_seconds(machine, margins), most = kSpeedMargin * max_feed;
+  const double least = least_piece_seconds(machine, margins), most = margins.speed * max_feed;
   const StrokeMoves moves = stroke_moves(path, motion);
   const KinematicPath kinematic = kinematic_path(moves.steps, tight, most);
   Eigen::VectorXd aimed = seconds;

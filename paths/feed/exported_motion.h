@@ -27,13 +27,17 @@ inline constexpr double kAccelerationShare = 0.995;
 /// What a schedule leaves to the rounding of its numbers.
 struct RoundingMargins {
   double acceleration = kAccelerationShare;  // share of the machine's that is scheduled
+  double speed = 0.999;                      // likewise
   double place = 1.5e-6;      // by how much a step is off for the rounding of both ends, in both axes [mm]
   double least_piece = 1e-3;  // [s]
 };
 
-/// The machine with such a share of its accelerations and 0.999 of its speeds, so that what is scheduled for it keeps
-/// the limits of the machine itself after its numbers were rounded to 1e-6 mm and 1e-6 mm/s.
-Machine with_margins(const Machine& machine, double acceleration_share = kAccelerationShare);
+/// The margins with such a share of the accelerations, and speeds lowered by a fifth as much.
+RoundingMargins margins_of(double acceleration_share);
+
+/// The machine with such shares of its accelerations and speeds, so that what is scheduled for it keeps the limits of
+/// the machine itself after its numbers were rounded, without more said to 1e-6 mm and 1e-6 mm/s.
+Machine with_margins(const Machine& machine, const RoundingMargins& margins = {});
 
 /// The shortest piece of which rounding of its places, in the file's steps or the controller's, changes the
 /// acceleration by no more than half of that margin, at least 1 ms, as controllers take such tables, four steps of the

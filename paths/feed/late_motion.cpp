@@ -26,7 +26,13 @@ Program late_motion(const Execution& execution, const std::vector<double>& late)
   const auto factor = [&](std::size_t i) { return seconds[i] > 0.0 ? 1.0 + late[i] / seconds[i] : 1.0; };
   std::size_t i = 0;
   double left = seconds.empty() ? 0.0 : seconds[0];  // of step i, not yet given to pieces
-  for (ProgramStep& piece : motion.steps) {
+  auto at_lift = execution.at_lifts.begin();
+  for (std::size_t k = 0; k < motion.steps.size(); ++k) {
+    if (at_lift != execution.at_lifts.end() && *at_lift == k) {  // of no step
+      ++at_lift;
+      continue;
+    }
+    ProgramStep& piece = motion.steps[k];
     double rest = piece.seconds, sum = 0.0;
     while (rest > 0.0) {
       while (left <= 0.0 && i + 1 < seconds.size()) left = seconds[++i];

@@ -13,7 +13,7 @@ namespace dwell {
 
 /// The motion of an execution whose steps take longer by `late` [s], one value a step of the program that was executed;
 /// negative: shorter. What is added is spread over the step as its time is, so that places stay. A step without time
-/// keeps none. `late` must leave every step a time >= 0. Cost O(steps).
+/// keeps none, and the rests at lifts stay. `late` must leave every step a time >= 0. Cost O(steps).
 Program late_motion(const Execution& execution, const std::vector<double>& late);
 
 /// The stroke of every step of a program that was read back from a file, kNoStroke for moves between stops and lifted

@@ -103,7 +103,7 @@ PlannedJob plan_loaded(Job job, JobPath path, double used, const Progress& progr
     planned.program.motion = motion_to_be_rounded(*options.machine.machine, [&](double acceleration_share) {
       return exported_motion(planned.program.table.path, planned.laid.motion, *options.machine.machine,
                              options.machine.feed_limits().max_feed, planned.dwell.motion->seconds, progress,
-                             {acceleration_share});
+                             margins_of(acceleration_share));
     });
   }
   return planned;

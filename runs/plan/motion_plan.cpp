@@ -63,7 +63,7 @@ class Loop {
 
   Program program_of_speeds(const Eigen::VectorXd& dwell, double acceleration_share, MotionPlan& plan,
                             const Progress& progress) const {
-    const Machine tight = with_margins(machine_, acceleration_share);
+    const Machine tight = with_margins(machine_, margins_of(acceleration_share));
     const KinematicPath path = kinematic_path(moves_.steps, tight, max_feed_);
     const LinearSchedule schedule = schedule_linear(moves_, path, tight, dwell, part_.threads, progress);
     plan.seconds = schedule.seconds;

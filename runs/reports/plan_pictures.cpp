@@ -34,8 +34,8 @@ std::vector<PlanPicture> motion_pictures(const PlannedJob& plan, const WrittenPl
                                   fmt::format("What limits the motion (machine: {})", machine), format, progress);
            }},
           {"motion", [&written, machine](FigureFormat format, const Progress&) {
-             return speed_picture(written.nodes, fmt::format("Motion of {} (machine: {})", written.program.file, machine),
-                                  format);
+             return speed_picture(written.nodes,
+                                  fmt::format("Motion of {} (machine: {})", written.program.file, machine), format);
            }}};
 }
 

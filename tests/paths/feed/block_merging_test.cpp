@@ -154,12 +154,13 @@ TEST(BlockCheck, CountsStepsAtWorkByTheTimeOfTheMachine) {
                   {{{0, 0}, {1, 0}, 0.049, true},  // takes 0.63 s from rest to rest
                    {{1, 0}, {1, 0}, 0.04, true},
                    {{1, 0}, {1.01, 0}, 0.01, false},
-                   {{1.01, 0}, {1.01, 0}, 0.05, true}}};
+                   {{1.01, 0}, {1.01, 0}, 0.045, true}}};
   const auto fault = short_blocks(program, machine);
   ASSERT_TRUE(fault);
-  EXPECT_EQ(*fault,
-            "1 step of the program is shorter than the 50 ms that the controller takes for a block (20 blocks/s): the "
-            "first is step 2, of 40 ms");
+  EXPECT_EQ(
+      *fault,
+      "2 steps of the program are shorter than the 50 ms that the controller takes for a block (20 blocks/s): the "
+      "first is step 2, of 40 ms");
   machine.controller.max_blocks_per_s = 25.0;
   EXPECT_FALSE(short_blocks(program, machine));
   EXPECT_FALSE(short_blocks(program, Machine{}));

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/errors.h"
@@ -23,6 +24,7 @@ Machine weak_machine() {
   Machine machine;
   machine.path_acceleration = 30.0;
   machine.corner_delay = 0.02;
+  machine.lift = {0.5, 0.3, 0.1};
   return machine;
 }
 
@@ -35,8 +37,10 @@ TEST(LateMotion, GivesEveryStepItsTimeAndLeavesEveryPlace) {
   }
   const Program motion = late_motion(run, late);
   ASSERT_EQ(motion.steps.size(), run.motion.steps.size());
+  ASSERT_EQ(run.at_lifts.size(), 5U);  // down and settling at the beginning, up, down and settling at the lift
   double begin = 0.0, sum = 0.0;
   for (std::size_t i = 0; i < late.size(); ++i) sum += run.seconds[i] + late[i];
+  for (const std::size_t k : run.at_lifts) sum += run.motion.steps[k].seconds;
   EXPECT_NEAR(motion.total_seconds(), sum, 1e-12);
   // By hand: the time of every piece is stretched as the step is in which its middle lies. A rest at a corner is half
   // of the step before and half of the one after.
@@ -44,6 +48,10 @@ TEST(LateMotion, GivesEveryStepItsTimeAndLeavesEveryPlace) {
     const ProgramStep &now = motion.steps[k], &then = run.motion.steps[k];
     EXPECT_EQ(now.start, then.start);
     EXPECT_EQ(now.finish, then.finish);
+    if (std::find(run.at_lifts.begin(), run.at_lifts.end(), k) != run.at_lifts.end()) {
+      EXPECT_EQ(now.seconds, then.seconds);
+      continue;
+    }
     const bool rests = then.start == then.finish;
     const auto factor_at = [&](double t) {
       double until = 0.0;

@@ -114,7 +114,7 @@ TEST(ControllerSteps, LeaveTheLimitsOfTheMachineInTheFile) {
     int tries = 0;
     const Program motion = motion_to_be_rounded(machine, [&](double share) {
       ++tries;
-      return exported_motion(table.path, Motion::Moving, machine, 20.0, seconds, {}, {share});
+      return exported_motion(table.path, Motion::Moving, machine, 20.0, seconds, {}, margins_of(share));
     });
     const std::vector<std::string> faults = cubics_beyond_machine(rounded_motion(motion, machine), machine);
     EXPECT_TRUE(faults.empty()) << clock << ", " << place << ": " << faults.front();
@@ -123,6 +123,14 @@ TEST(ControllerSteps, LeaveTheLimitsOfTheMachineInTheFile) {
   // The motion for a controller without steps does not keep them.
   EXPECT_FALSE(
       cubics_beyond_machine(rounded_motion(lifted_motion(), coarse_machine(0.004, 0.001)), slow_machine()).empty());
+}
+
+TEST(ControllerSteps, LowerSpeedsWithAccelerations) {
+  const Machine machine = slow_machine(), usual = with_margins(machine), low = with_margins(machine, margins_of(0.5));
+  EXPECT_EQ(usual.max_feed, 0.999 * machine.max_feed);
+  EXPECT_EQ(usual.path_acceleration, 0.995 * machine.path_acceleration);
+  EXPECT_DOUBLE_EQ(low.max_feed, 0.9 * machine.max_feed);
+  EXPECT_DOUBLE_EQ(low.y.max_acceleration, 0.5 * machine.y.max_acceleration);
 }
 
 Program halting_program() {

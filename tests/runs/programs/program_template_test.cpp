@@ -154,7 +154,7 @@ TEST(ProgramTemplate, LetsNoErrorAddUp) {
 }
 
 /// The oracle: where the tool is at a time, from the steps alone.
-Point place_at(const Program& program, double seconds) {
+Point place_when(const Program& program, double seconds) {
   for (const ProgramStep& step : program.steps) {
     if (seconds > step.seconds) {
       seconds -= step.seconds;
@@ -176,7 +176,7 @@ TEST(ProgramTemplate, ACoarseClockMovesPlacesAlongTheMotion) {
     EXPECT_LE(step.seconds, 2.0);
     seconds += step.seconds;
     EXPECT_NEAR(seconds * 1024.0, std::round(seconds * 1024.0), 1e-6);
-    EXPECT_LE(distance(step.finish, place_at(motion, seconds)), 2e-5);  // a rest stays where it is
+    EXPECT_LE(distance(step.finish, place_when(motion, seconds)), 2e-5);  // a rest stays where it is
   }
   EXPECT_NEAR(seconds, motion.total_seconds(), 1e-3);
 }
