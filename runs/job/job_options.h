@@ -69,7 +69,7 @@ struct JobOptions {
   TimeWorth time_worth;
   std::string machine;  // file of the machine; empty: accelerations and corners are not considered
   ScheduleKind schedule = ScheduleKind::Constant;  // how the program for the machine says its speeds
-  int rounds = 5;                                  // of correction for its motion, at most
+  int rounds = 20;                                 // of correction for its motion, at most
   std::string log;  // of a controller, of a run of the program in the folder log_plan; empty: none
   std::string log_plan;
   std::string log_columns;             // empty: by their names

@@ -46,7 +46,7 @@ std::string text_at(const nlohmann::json& summary, std::initializer_list<const c
 /// A file in the folder, which must be as the summary knows it.
 std::filesystem::path unchanged(const std::filesystem::path& folder, const std::string& name,
                                 const std::string& sha256) {
-  const std::filesystem::path file = folder / name;
+  std::filesystem::path file = folder / name;
   if (file.filename() != name)
     throw InputError(fmt::format("{}: names the file '{}'; required one in the folder", folder.string(), name));
   if (sha256_of_file(file) == sha256) return file;

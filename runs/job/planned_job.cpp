@@ -31,7 +31,7 @@ namespace {
 std::string option_that_needs_motion(const JobOptions& options) {
   const std::string word = export_that_needs_motion(options.exports);
   if (!options.program_template.empty()) {
-    const std::string option = fmt::format("`template` = {}", options.program_template);
+    std::string option = fmt::format("`template` = {}", options.program_template);
     const bool speeds = find_program_template(options.program_template).speeds;
     if (!speeds && options.schedule != ScheduleKind::Constant) {
       throw InputError(

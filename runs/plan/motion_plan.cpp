@@ -23,7 +23,8 @@
 namespace dwell {
 namespace {
 
-constexpr double kGainsLittle = 0.002;  // a round that lowers what is left by no more than this share is the last
+constexpr double kGainsLittle = 0.002;  // a round that lowers what is left by no more than this share may be the last
+constexpr double kNearPlan = 1.005;     // of what the plan leaves: no second such round is waited for
 constexpr double kAtLeast = 1e-9;       // of the least dwell
 constexpr double kTooShort = 1e-3;      // of the dwell, by which a stroke with speeds takes longer
 
@@ -142,6 +143,8 @@ MotionPlan plan_motion(PlanProblem& problem, const Part& part, const LaidPath& l
   std::vector<double> rounds;
   Eigen::VectorXd corrected = dwell;
   double time_price = weights.time_price;
+  const double planned = loop.rms_of(problem.left_by(dwell));
+  int idle = 0;  // rounds one after the other that gained little; the strokes' times may swing once before they settle
   for (int round = 0;; ++round) {
     progress.report(fmt::format("motion: round {}", round));
     MotionPlan now;
@@ -155,7 +158,8 @@ MotionPlan plan_motion(PlanProblem& problem, const Part& part, const LaidPath& l
       best = std::move(now);
     }
     best.rounds = rounds;
-    if (round == options.rounds || (round > 0 && rounds.back() > (1.0 - kGainsLittle) * before)) break;
+    idle = round > 0 && rounds.back() > (1.0 - kGainsLittle) * before ? idle + 1 : 0;
+    if (round == options.rounds || idle > 1 || (idle > 0 && best.executed() <= kNearPlan * planned)) break;
     // What the dwell leaves less what its motion leaves is what the motion removes beyond it.
     HeightMap defect = problem.left_by(corrected);
     for (std::size_t i = 0; i < defect.values.size(); ++i) defect.values[i] -= left.values[i];

@@ -156,9 +156,10 @@ class TemplateParser {
         read_block(part, value);
       } else if (part == "step" || part == "last") {
         (part == "step" ? result_.block_numbers->step : result_.block_numbers->last) =
-            whole_in(value, key + "." + part, 1);
+            whole_in(value, fmt::format("{}.{}", key, part), 1);
       } else {
-        throw InputError(fmt::format("{}: unknown field; accepted: step, last", where(value, key + "." + part)));
+        throw InputError(
+            fmt::format("{}: unknown field; accepted: step, last", where(value, fmt::format("{}.{}", key, part))));
       }
     }
   }
@@ -217,6 +218,7 @@ class TemplateParser {
     const auto record = std::find_if(records.begin(), records.end(), [&](const auto& r) { return r.name == name; });
     if (record == records.end()) {
       std::vector<std::string_view> names;
+      names.reserve(records.size());
       for (const TemplateBlockRecord& r : records) names.push_back(r.name);
       throw InputError(fmt::format("{}: unknown block; accepted: {}", where(node, key), fmt::join(names, ", ")));
     }
