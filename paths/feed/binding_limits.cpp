@@ -28,20 +28,6 @@ BindingLimit limit_of(const MotionNode& from, const MotionNode& to, const Machin
 
 }  // namespace
 
-std::string_view to_string(BindingLimit limit) {
-  switch (limit) {
-    case BindingLimit::None:
-      return "no limit";
-    case BindingLimit::Speed:
-      return "speed";
-    case BindingLimit::Acceleration:
-      return "acceleration";
-    case BindingLimit::Rest:
-      return "rest at a corner";
-  }
-  return "";
-}
-
 std::vector<BindingLimit> binding_limits(const std::vector<MotionNode>& nodes, const Machine& machine,
                                          double max_feed) {
   std::vector<BindingLimit> limits;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <string_view>
 #include <vector>
 
 #include "paths/feed/machine.h"
@@ -17,8 +16,6 @@ enum class BindingLimit {
   Rest,          // it rests at a corner
 };
 inline constexpr std::size_t kBindingLimits = 4;
-
-std::string_view to_string(BindingLimit limit);
 
 /// Of every stretch of a motion at work, from nodes[k] to nodes[k + 1], the limit that binds there; lifted ones have
 /// None. `machine` lies as the program does (machine_on); `max_feed`: of the program [mm/s]. Speeds count as at their

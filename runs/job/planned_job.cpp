@@ -122,6 +122,7 @@ PlannedJob plan_job(const JobOptions& options, const Progress& progress) {
 }
 
 PlannedJob plan_job(Job job, JobPath path, const Progress& progress) {
+  check_log_options(job.options);
   return plan_loaded(std::move(job), std::move(path), 0.0, progress);
 }
 

@@ -116,15 +116,7 @@ class PartListReader {
     const std::vector<std::string_view> fields = split(line, ',');
     if (fields.size() != 3) at_.fail(fmt::format("{}; required 3: {}", counted(fields.size(), "column"), kPartColumns));
     const std::string name(fields[0]);
-    if (name.empty() || name.find_first_of("/\\:") != std::string::npos || name.starts_with('.')) {
-      at_.fail(fmt::format("file = {}; required the name of a file beside this one",
-                           in_quotes(with_escaped_bytes(fields[0]))));
-    }
-    const std::string bytes = beside_(name);
-    if (fields[2] != sha256_of(bytes)) {
-      at_.fail(fmt::format("sha256 = {}, but that of {} is {}; required the file that the list was made with",
-                           in_quotes(with_escaped_bytes(fields[2])), name, sha256_of(bytes)));
-    }
+    const std::string bytes = listed_bytes(at_, name, fields[2], beside_);
     if (at_.finite("lines", fields[1]) != static_cast<double>(lines_in(bytes)))
       at_.fail(fmt::format("lines = {}, but {} has {}; required the same", fields[1], name, lines_in(bytes)));
     add(read_gcode(bytes, name, reading_, progress_), name);

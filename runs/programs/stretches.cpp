@@ -100,18 +100,10 @@ class StretchReader {
       at_.fail(fmt::format("{}; required {}: {}", counted(fields.size(), "column"), kStretchFields, kStretchColumns));
     }
     const std::string name(fields[0]);
-    if (name.empty() || name.find_first_of("/\\:") != std::string::npos || name.starts_with('.')) {
-      at_.fail(fmt::format("file = {}; required the name of a file beside this one",
-                           in_quotes(with_escaped_bytes(fields[0]))));
-    }
     const Point start{at_.place("x_mm", fields[1]), at_.place("y_mm", fields[2])};
     const double way = at_.within("way_s", fields[3], {0.0, ranges::kTime.most, "s"});
     const double seconds = at_.within("seconds", fields[4], ranges::kTime);
-    const std::string bytes = beside_(name);
-    if (fields[5] != sha256_of(bytes)) {
-      at_.fail(fmt::format("sha256 = {}, but that of {} is {}; required the file that the list was made with",
-                           in_quotes(with_escaped_bytes(fields[5])), name, sha256_of(bytes)));
-    }
+    const std::string bytes = listed_bytes(at_, name, fields[5], beside_);
     go_to(start, way);
     add(kind_ == StretchKind::XpsTrajectory ? parse_xps_trajectory(bytes, name, start, progress_)
                                             : parse_pmac_program(bytes, name, start, progress_, letters_),

@@ -8,6 +8,7 @@
 #include "core/base/progress.h"
 #include "core/motion/axis_letters.h"
 #include "runs/programs/feed_table.h"
+#include "runs/programs/listed_file.h"
 #include "runs/programs/pvt_table.h"
 
 namespace dwell {
@@ -30,9 +31,6 @@ std::vector<WrittenProgram> written_stretches(StretchKind kind, const PvtTable& 
 
 /// Whether a text is such a list.
 bool is_stretch_list(std::string_view text, StretchKind kind);
-
-/// The bytes of a file that lies beside the list. Throws InputError if it cannot be read.
-using ReadBeside = std::function<std::string(const std::string& name)>;
 
 /// Reads a list and the files that it names, which lie beside it. Throws InputError naming file, line and what is
 /// accepted: another column, a name that is none of a file beside it, a file whose SHA-256 or time is not that of the
