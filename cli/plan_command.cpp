@@ -75,10 +75,12 @@ std::string limit_lines(const WrittenPlan& written) {
   double total = 0.0;
   for (const double s : seconds) total += s;
   const auto share = [&](BindingLimit limit) { return 100.0 * seconds[static_cast<std::size_t>(limit)] / total; };
+  const double jerk = share(BindingLimit::Jerk);
   return fmt::format(
-      "limits    of the time at work, acceleration binds in {:.1f} %, speed in {:.1f} %, rests at corners "
+      "limits    of the time at work, acceleration binds in {:.1f} %, {}speed in {:.1f} %, rests at corners "
       "take {:.1f} %\n",
-      share(BindingLimit::Acceleration), share(BindingLimit::Speed), share(BindingLimit::Rest));
+      share(BindingLimit::Acceleration), jerk > 0.0 ? fmt::format("jerk in {:.1f} %, ", jerk) : "",
+      share(BindingLimit::Speed), share(BindingLimit::Rest));
 }
 
 /// What the log of an earlier run has taught; empty without one.

@@ -21,7 +21,8 @@ BindingLimit limit_of(const MotionNode& from, const MotionNode& to, const Machin
   const double fastest = std::max(from.speed, to.speed), change = std::abs(to.speed - from.speed);
   if (change > kSpeedRounding * fastest) {
     const bool at_limit = change >= kAtAcceleration * seconds * acceleration_limit(machine, way);
-    return at_limit ? BindingLimit::Acceleration : BindingLimit::None;
+    if (at_limit) return BindingLimit::Acceleration;
+    return limits_jerk(machine) ? BindingLimit::Jerk : BindingLimit::None;
   }
   return fastest >= kAtSpeed * std::min(speed_limit(machine, way), max_feed) ? BindingLimit::Speed : BindingLimit::None;
 }

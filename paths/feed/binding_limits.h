@@ -14,8 +14,9 @@ enum class BindingLimit {
   Speed,         // it runs as fast as path or axes allow
   Acceleration,  // it changes its speed as fast as path or axes allow
   Rest,          // it rests at a corner
+  Jerk,          // it changes its acceleration as fast as path or axes allow
 };
-inline constexpr std::size_t kBindingLimits = 4;
+inline constexpr std::size_t kBindingLimits = 5;
 
 /// Of every stretch of a motion at work, from nodes[k] to nodes[k + 1], the limit that binds there; lifted ones have
 /// None. `machine` lies as the program does (machine_on); `max_feed`: of the program [mm/s]. Speeds count as at their

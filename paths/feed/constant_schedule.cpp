@@ -113,8 +113,8 @@ class Scheduling {
     scratch_.clear();
     for (std::size_t i = ranges_[j].first; i < ranges_[j].last; ++i) {
       if (path_.arcs.empty()) {
-        scratch_.push_back(
-            {path_.moves[i].length, path_.moves[i].acceleration, std::sqrt(u_[i]), std::sqrt(u_[i + 1])});
+        scratch_.push_back({path_.moves[i].length, path_.moves[i].acceleration, std::sqrt(u_[i]), std::sqrt(u_[i + 1]),
+                            std::numeric_limits<double>::infinity(), path_.moves[i].jerk});
         continue;
       }
       move_parts(path_, i, feed_[i], u_[i], u_[i + 1]).for_each([this](const Trapezoid& part, std::size_t) {

@@ -109,6 +109,11 @@ class Runner {
 
   void note(const MotionPiece& piece, double acceleration) {
     result_.max_speed = std::max({result_.max_speed, piece.speed_in, piece.speed_out});
+    if (piece.jerk != 0.0) {
+      const double in = piece.acceleration_in(), out = in + piece.jerk * piece.seconds();
+      result_.max_acceleration = std::max({result_.max_acceleration, std::abs(in), std::abs(out)});
+      return;
+    }
     if (piece.speed_in != piece.speed_out) result_.max_acceleration = std::max(result_.max_acceleration, acceleration);
   }
 
@@ -120,21 +125,23 @@ class Runner {
   /// A piece in so many parts of equal time; `after`(s, v, seconds) is told the end of each.
   template <class After>
   static void cut(const MotionPiece& piece, double parts, const After& after) {
-    const double seconds = piece.seconds() / parts, gain = (piece.speed_out - piece.speed_in) / piece.seconds();
-    for (double k = 1.0; k <= parts; ++k) {
-      const double t = k * seconds;
-      after((piece.speed_in + 0.5 * gain * t) * t, piece.speed_in + gain * t, seconds);
-    }
+    const double seconds = piece.seconds() / parts;
+    for (double k = 1.0; k <= parts; ++k) after(piece.way(k * seconds), piece.speed(k * seconds), seconds);
   }
 
   void add_straight(const ProgramStep& step, const BlendedStep& way, double travelled, const MotionPiece& piece) {
     const Point begin = from_;
-    cut(piece, parts_of(piece), [&](double s, double, double seconds) {
+    const bool bent = piece.jerk != 0.0;  // then every part is a stretch of its own for the nodes
+    double before = piece.speed_in;
+    cut(piece, parts_of(piece), [&](double s, double v, double seconds) {
       const Point to = way.place(std::min(way.length(), travelled + s));
       result_.motion.steps.push_back({from_, to, seconds, step.removes});
+      if (bent && nodes_ != nullptr) nodes_->run(from_, to, before, v, seconds, step.removes);
       from_ = to;
+      before = v;
     });
-    if (nodes_ != nullptr) nodes_->run(begin, from_, piece.speed_in, piece.speed_out, piece.seconds(), step.removes);
+    if (!bent && nodes_ != nullptr)
+      nodes_->run(begin, from_, piece.speed_in, piece.speed_out, piece.seconds(), step.removes);
   }
 
   void add_arc(const ProgramStep& step, const BlendedStep& way, double radius, double travelled,

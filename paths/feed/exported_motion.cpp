@@ -57,6 +57,12 @@ void check_exported_motion(const Machine& machine, ScheduleKind schedule) {
         "path_acceleration_mm_per_s2",
         along.x > 0.0 ? "x" : "y"));
   }
+  if (limits_jerk(machine)) {
+    throw InputError(
+        "`export`: the `machine` limits jerk (path_jerk_mm_per_s3 or max_jerk_mm_per_s3), and between the rows of "
+        "tables of positions, velocities and times the acceleration jumps; required a machine without a limit of jerk, "
+        "if its controller takes such tables as they are, or feeds (no `export`)");
+  }
   if (machine.corner == CornerRule::Blend) {
     throw InputError(
         "`export`: the `machine` has the corner rule blend, whose arcs no table of positions, velocities and times is "

@@ -46,8 +46,8 @@ class PathMaker {
     path_.moves.reserve(steps.size());
     for (const ProgramStep& step : steps) {
       const Point along = step.finish - step.start;
-      path_.moves.push_back(
-          {length(along), std::min(speed_limit(machine, along), max_feed), acceleration_limit(machine, along)});
+      path_.moves.push_back({length(along), std::min(speed_limit(machine, along), max_feed),
+                             acceleration_limit(machine, along), jerk_limit(machine, along)});
       KinematicMove& move = path_.moves.back();
       if (least > 0.0 && step.removes && move.length > 0.0)
         move.max_speed = std::min(move.max_speed, move.length / least);
@@ -93,6 +93,7 @@ class PathMaker {
   double blend(std::size_t i, double turn, double tolerance) {
     if (std::abs(turn) > kTurnsBack) return 0.0;
     if (path_.arcs.empty()) path_.arcs.resize(steps_.size() + 1);
+    path_.arc_jerk = jerk_everywhere(machine_);
     const BlendArc arc = blend_arc(blend_move(i), blend_move(i + 1), turn, tolerance, machine_);
     if (!(arc.radius > 0.0)) return kAnySpeed;  // the acceleration has no limit
     path_.arcs[i + 1] = arc;
@@ -140,11 +141,20 @@ EndRule rule_of(const Program& program, const PathModeChange& change, const Mach
   return {CornerRule::Blend, false, blend_tolerance(program, change, machine)};
 }
 
+/// The highest squared speed that is reached over a way.
+double reached_squared(const SpeedChange& change, double u, double length) {
+  if (!change.limits_jerk()) return u + 2.0 * change.acceleration * length;
+  const double v = change.reached(std::sqrt(u), length);
+  return v * v;
+}
+
 /// One part of a move while it is put together.
 struct StretchLimits {
-  double length = 0.0, acceleration = 0.0, most = kAnySpeed;
+  double length = 0.0, most = kAnySpeed;
+  SpeedChange change{0.0};
 
-  double gain() const { return length > 0.0 ? 2.0 * acceleration * length : 0.0; }
+  /// The highest squared speed at one end for one at the other.
+  double reached(double u) const { return length > 0.0 ? reached_squared(change, u, length) : u; }
 };
 
 using Parts = std::array<StretchLimits, 3>;
@@ -156,10 +166,11 @@ Parts parts_of(const KinematicPath& path, std::size_t i, double feed) {
   for (const std::size_t end : {0U, 1U}) {
     const BlendArc& arc = path.arcs[i + end];
     if (!(arc.radius > 0.0)) continue;
-    parts[2 * end] = {arc.half_length(), arc.acceleration, std::min({arc.max_speed, move.max_speed, feed})};
+    parts[2 * end] = {
+        arc.half_length(), std::min({arc.max_speed, move.max_speed, feed}), {arc.acceleration, path.arc_jerk}};
     straight -= arc.cut;
   }
-  parts[1] = {std::max(0.0, straight), move.acceleration, std::min(move.max_speed, feed)};
+  parts[1] = {std::max(0.0, straight), std::min(move.max_speed, feed), move.change()};
   return parts;
 }
 
@@ -192,18 +203,22 @@ MoveParts move_parts(const KinematicPath& path, std::size_t i, double feed, doub
   const KinematicMove& move = path.moves[i];
   MoveParts made{};
   if (path.arcs.empty()) {
-    made.part[1] = {move.length, move.acceleration, std::sqrt(u_in), std::sqrt(u_out)};
+    made.part[1] = {move.length, move.acceleration, std::sqrt(u_in), std::sqrt(u_out), kAnySpeed, move.jerk};
     return made;
   }
   const Parts parts = parts_of(path, i, feed);
-  const double first = std::min(between(parts[0], parts[1]), u_in + parts[0].gain());
-  double second = std::min(between(parts[1], parts[2]), first + parts[1].gain());
-  second = std::min(second, u_out + parts[2].gain());
-  const std::array<double, 4> v{std::sqrt(u_in), std::sqrt(std::min(first, second + parts[1].gain())),
+  const double first = std::min(between(parts[0], parts[1]), parts[0].reached(u_in));
+  double second = std::min(between(parts[1], parts[2]), parts[1].reached(first));
+  second = std::min(second, parts[2].reached(u_out));
+  const std::array<double, 4> v{std::sqrt(u_in), std::sqrt(std::min(first, parts[1].reached(second))),
                                 std::sqrt(second), std::sqrt(u_out)};
   for (std::size_t k = 0; k < parts.size(); ++k)
-    made.part[k] = {parts[k].length, parts[k].acceleration, v[k], v[k + 1],
-                    k == 1 ? move.max_speed : path.arcs[i + k / 2].max_speed};
+    made.part[k] = {parts[k].length,
+                    parts[k].change.acceleration,
+                    v[k],
+                    v[k + 1],
+                    k == 1 ? move.max_speed : path.arcs[i + k / 2].max_speed,
+                    parts[k].change.jerk};
   return made;
 }
 
@@ -224,21 +239,23 @@ std::vector<double> node_speeds_squared(const KinematicPath& path, const std::ve
   if (!path.arcs.empty()) {
     for (std::size_t i = 0; i < n; ++i) {
       const Parts parts = parts_of(path, i, feed[i]);
-      const double first = std::min(between(parts[0], parts[1]), u[i] + parts[0].gain());
-      const double second = std::min(between(parts[1], parts[2]), first + parts[1].gain());
-      u[i + 1] = std::min(u[i + 1], second + parts[2].gain());
+      const double first = std::min(between(parts[0], parts[1]), parts[0].reached(u[i]));
+      const double second = std::min(between(parts[1], parts[2]), parts[1].reached(first));
+      u[i + 1] = std::min(u[i + 1], parts[2].reached(second));
     }
     for (std::size_t i = n; i-- > 0;) {
       const Parts parts = parts_of(path, i, feed[i]);
-      const double second = std::min(between(parts[1], parts[2]), u[i + 1] + parts[2].gain());
-      const double first = std::min(between(parts[0], parts[1]), second + parts[1].gain());
-      u[i] = std::min(u[i], first + parts[0].gain());
+      const double second = std::min(between(parts[1], parts[2]), parts[2].reached(u[i + 1]));
+      const double first = std::min(between(parts[0], parts[1]), parts[1].reached(second));
+      u[i] = std::min(u[i], parts[0].reached(first));
     }
     return u;
   }
-  const auto gain = [&](std::size_t i) { return 2.0 * path.moves[i].acceleration * path.moves[i].length; };
-  for (std::size_t i = 0; i < n; ++i) u[i + 1] = std::min(u[i + 1], u[i] + gain(i));
-  for (std::size_t i = n; i-- > 0;) u[i] = std::min(u[i], u[i + 1] + gain(i));
+  const auto lower = [&](double& after, double before, const KinematicMove& move) {
+    if (after > before) after = std::min(after, reached_squared(move.change(), before, move.length));
+  };
+  for (std::size_t i = 0; i < n; ++i) lower(u[i + 1], u[i], path.moves[i]);
+  for (std::size_t i = n; i-- > 0;) lower(u[i], u[i + 1], path.moves[i]);
   return u;
 }
 

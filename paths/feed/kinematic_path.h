@@ -7,15 +7,19 @@
 #include "core/motion/program.h"
 #include "paths/feed/blend_arc.h"
 #include "paths/feed/machine.h"
+#include "paths/feed/speed_change.h"
 #include "paths/feed/trapezoid.h"
 
 namespace dwell {
 
 /// A straight move with what the machine can do along it, or a halt (length 0).
 struct KinematicMove {
-  double length = 0.0;        // [mm]
-  double max_speed = 0.0;     // [mm/s]
-  double acceleration = 0.0;  // [mm/s^2]
+  double length = 0.0;                                    // [mm]
+  double max_speed = 0.0;                                 // [mm/s]
+  double acceleration = 0.0;                              // [mm/s^2]
+  double jerk = std::numeric_limits<double>::infinity();  // [mm/s^3]
+
+  SpeedChange change() const { return {acceleration, jerk}; }
 };
 
 /// Moves one after the other. Move i goes from node i to node i + 1.
@@ -26,6 +30,7 @@ struct KinematicPath {
   /// Of every node, those without radius included, where the machine blends; none where it does not. A node with an arc
   /// is the middle of it, and half of the arc belongs to each of its moves.
   std::vector<BlendArc> arcs{};
+  double arc_jerk = std::numeric_limits<double>::infinity();  // along arcs [mm/s^3]
 
   std::size_t size() const { return moves.size(); }
 };
@@ -65,8 +70,8 @@ struct MoveParts {
 MoveParts move_parts(const KinematicPath& path, std::size_t move, double feed, double u_in, double u_out);
 
 /// The highest squared speed at every node [mm^2/s^2] for a highest speed on every move (`feed`; taken as at most the
-/// move's own): what corner and both feeds allow, reached by constant acceleration from both neighbours (a pass forward
-/// and one back, as controllers look ahead). Cost O(moves).
+/// move's own): what corner and both feeds allow, reached by the machine's changes of speed from both neighbours (a
+/// pass forward and one back, as controllers look ahead). Cost O(moves).
 std::vector<double> node_speeds_squared(const KinematicPath& path, const std::vector<double>& feed);
 
 }  // namespace dwell

@@ -35,6 +35,7 @@ void check_not_negative(const char* field, double value, const char* unit) {
 void check_axis(const char* name, const MachineAxis& axis) {
   check_positive(fmt::format("{}.max_speed", name).c_str(), axis.max_speed, "mm/s");
   check_positive(fmt::format("{}.max_acceleration", name).c_str(), axis.max_acceleration, "mm/s^2");
+  check_positive(fmt::format("{}.max_jerk", name).c_str(), axis.max_jerk, "mm/s^3");
   if (axis.lowest < axis.highest) return;
   throw InputError(fmt::format("machine: {0}.travel: lowest {1} mm and highest {2} mm; required lowest < highest", name,
                                axis.lowest, axis.highest));
@@ -118,6 +119,17 @@ double acceleration_limit(const Machine& machine, Point along) {
                      machine.frame.direction_to_program(along));
 }
 
+double jerk_limit(const Machine& machine, Point along) {
+  return limit_along(machine.x.max_jerk, machine.y.max_jerk, machine.path_jerk,
+                     machine.frame.direction_to_program(along));
+}
+
+double jerk_everywhere(const Machine& machine) {
+  return std::min({machine.path_jerk, machine.x.max_jerk, machine.y.max_jerk});
+}
+
+bool limits_jerk(const Machine& machine) { return std::isfinite(jerk_everywhere(machine)); }
+
 double acceleration_everywhere(const Machine& machine) {
   return std::min({machine.path_acceleration, machine.x.max_acceleration, machine.y.max_acceleration});
 }
@@ -131,6 +143,7 @@ void validate(const Machine& machine) {
   check_axis("y", machine.y);
   check_positive("max_feed", machine.max_feed, "mm/s");
   check_positive("path_acceleration", machine.path_acceleration, "mm/s^2");
+  check_positive("path_jerk", machine.path_jerk, "mm/s^3");
   check_positive("junction_deviation", machine.junction_deviation, "mm");
   check_positive("blend_tolerance", machine.blend_tolerance, "mm");
   check_positive("across_share", machine.across_share, "of the acceleration");

@@ -17,6 +17,7 @@ struct MachineAxis {
   double highest = std::numeric_limits<double>::infinity();
   double max_speed = std::numeric_limits<double>::infinity();         // [mm/s], > 0
   double max_acceleration = std::numeric_limits<double>::infinity();  // [mm/s^2], > 0
+  double max_jerk = std::numeric_limits<double>::infinity();          // [mm/s^3], > 0
 };
 
 /// How a machine takes the corner between two straight moves.
@@ -61,6 +62,7 @@ struct Machine {
   MachineAxis x{}, y{};
   double max_feed = std::numeric_limits<double>::infinity();           // along the path [mm/s], > 0
   double path_acceleration = std::numeric_limits<double>::infinity();  // along the path [mm/s^2], > 0
+  double path_jerk = std::numeric_limits<double>::infinity();          // along the path [mm/s^3], > 0
   CornerRule corner = CornerRule::ExactStop;
   double junction_deviation = 0.01;  // [mm], > 0
   double blend_tolerance = 0.01;     // how far arcs of the rule Blend leave the corner [mm], > 0
@@ -83,15 +85,20 @@ Machine machine_on(Machine machine, const Program& program);
 /// Highest speed [mm/s] along a direction of the part: every axis within its own, and the path within its own. `along`
 /// need not have length 1; 0 has no limit but the path's.
 double speed_limit(const Machine& machine, Point along);
-/// The same for acceleration [mm/s^2].
+/// The same for acceleration [mm/s^2] and for jerk [mm/s^3].
 double acceleration_limit(const Machine& machine, Point along);
+double jerk_limit(const Machine& machine, Point along);
 
 /// The shortest time that a line of a program may take at work [s]: that of the controller's block rate and, since
 /// times are rounded to it, its clock's resolution; 0 without a block rate.
 double least_block_seconds(const Machine& machine);
 
-/// The acceleration that the machine has in every direction [mm/s^2], and likewise the speed [mm/s].
+/// The acceleration that the machine has in every direction [mm/s^2], and likewise the jerk [mm/s^3] and the speed
+/// [mm/s].
 double acceleration_everywhere(const Machine& machine);
+double jerk_everywhere(const Machine& machine);
+/// Whether the machine limits jerk in any direction.
+bool limits_jerk(const Machine& machine);
 double speed_everywhere(const Machine& machine);
 
 /// Throws InputError naming the fields of the machine that contradict each other, with both values: a travel of no

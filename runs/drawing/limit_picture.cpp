@@ -15,9 +15,10 @@
 namespace dwell {
 namespace {
 
-// Blue, orange and vermilion of Okabe and Ito, which colour-blind readers tell apart; grey where nothing binds.
+// Blue, orange, vermilion and bluish green of Okabe and Ito, which colour-blind readers tell apart; grey where nothing
+// binds.
 constexpr std::array<Colour, kBindingLimits> kLimitColours{
-    {{110, 110, 110}, {0, 114, 178}, {230, 159, 0}, {213, 94, 0}}};
+    {{110, 110, 110}, {0, 114, 178}, {230, 159, 0}, {213, 94, 0}, {0, 158, 115}}};
 constexpr std::size_t kStretchesAtOnce = 65536;
 constexpr std::size_t kShownTimes = 1500;
 
@@ -102,14 +103,15 @@ class LimitPen {
 };
 
 std::vector<PanelKey> key_of(const std::vector<MotionNode>& nodes, const std::vector<BindingLimit>& limits) {
-  constexpr std::array<const char*, kBindingLimits> kWords{{"nothing binds: at the feed that is commanded",
-                                                            "the highest speed of path or axes",
-                                                            "the acceleration of path or axes", "at rest at a corner"}};
+  constexpr std::array<const char*, kBindingLimits> kWords{
+      {"nothing binds: at the feed that is commanded", "the highest speed of path or axes",
+       "the acceleration of path or axes", "at rest at a corner", "the jerk of path or axes"}};
   const std::array<double, kBindingLimits> seconds = time_at_limits(nodes, limits);
   double total = 0.0;
   for (const double s : seconds) total += s;
   std::vector<PanelKey> key;
   for (std::size_t k = 0; k < kBindingLimits; ++k) {
+    if (static_cast<BindingLimit>(k) == BindingLimit::Jerk && !(seconds[k] > 0.0)) continue;  // few machines limit it
     key.push_back(
         {kLimitColours[k], fmt::format("{}: {:.1f} % of the time at work, {}", kWords[k],
                                        total > 0.0 ? 100.0 * seconds[k] / total : 0.0, duration_text(seconds[k]))});

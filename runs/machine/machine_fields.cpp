@@ -16,11 +16,12 @@ constexpr double kAny = -std::numeric_limits<double>::infinity();
 
 using Access = double& (*)(Machine&);
 
-void add_axis(std::vector<MachineField>& fields, const char* section, const char* words, std::array<Access, 4> access) {
+void add_axis(std::vector<MachineField>& fields, const char* section, const char* words, std::array<Access, 5> access) {
   fields.push_back({section, "lowest_mm", fmt::format("end of the travel {}", words), kAny, false, access[0], 1.0});
   fields.push_back({section, "highest_mm", "the other end", kAny, false, access[1], 1.0});
   fields.push_back({section, "max_speed_mm_per_s", "of this axis alone", 0.0, true, access[2], 1.0});
   fields.push_back({section, "max_acceleration_mm_per_s2", "of this axis alone", 0.0, true, access[3], 1.0});
+  fields.push_back({section, "max_jerk_mm_per_s3", "of this axis alone", 0.0, true, access[4], 1.0});
 }
 
 std::vector<MachineField> make_fields() {
@@ -31,6 +32,8 @@ std::vector<MachineField> make_fields() {
        kPerMinute},
       {"", "path_acceleration_mm_per_s2", "along the path", 0.0, true,
        [](Machine& m) -> double& { return m.path_acceleration; }, 1.0},
+      {"", "path_jerk_mm_per_s3", "along the path, of changes of speed", 0.0, true,
+       [](Machine& m) -> double& { return m.path_jerk; }, 1.0},
       {"corner", "junction_deviation_mm", "for the rule junction-deviation", 0.0, true,
        [](Machine& m) -> double& { return m.junction_deviation; }, 1.0},
       {"corner", "tolerance_mm", "for the rule blend; G64 P of a program comes before it", 0.0, true,
@@ -53,14 +56,16 @@ std::vector<MachineField> make_fields() {
        [](Machine& m) -> double& { return m.controller.time_resolution; }, 1.0},
       {"controller", "position_resolution_mm", "step of its places; 0: as files have it", 0.0, false,
        [](Machine& m) -> double& { return m.controller.position_resolution; }, 1.0}};
-  add_axis(fields, "x", "[mm in the program's coordinates]",
-           {[](Machine& m) -> double& { return m.x.lowest; }, [](Machine& m) -> double& { return m.x.highest; },
-            [](Machine& m) -> double& { return m.x.max_speed; },
-            [](Machine& m) -> double& { return m.x.max_acceleration; }});
-  add_axis(fields, "y", "[mm in the program's coordinates]",
-           {[](Machine& m) -> double& { return m.y.lowest; }, [](Machine& m) -> double& { return m.y.highest; },
-            [](Machine& m) -> double& { return m.y.max_speed; },
-            [](Machine& m) -> double& { return m.y.max_acceleration; }});
+  add_axis(
+      fields, "x", "[mm in the program's coordinates]",
+      {[](Machine& m) -> double& { return m.x.lowest; }, [](Machine& m) -> double& { return m.x.highest; },
+       [](Machine& m) -> double& { return m.x.max_speed; }, [](Machine& m) -> double& { return m.x.max_acceleration; },
+       [](Machine& m) -> double& { return m.x.max_jerk; }});
+  add_axis(
+      fields, "y", "[mm in the program's coordinates]",
+      {[](Machine& m) -> double& { return m.y.lowest; }, [](Machine& m) -> double& { return m.y.highest; },
+       [](Machine& m) -> double& { return m.y.max_speed; }, [](Machine& m) -> double& { return m.y.max_acceleration; },
+       [](Machine& m) -> double& { return m.y.max_jerk; }});
   return fields;
 }
 

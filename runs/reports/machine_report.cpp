@@ -8,6 +8,7 @@
 #include "core/base/counted.h"
 #include "core/base/units.h"
 #include "core/base/whole_file.h"
+#include "paths/feed/speed_change.h"
 #include "runs/base/inputs_json.h"
 #include "runs/base/json_blocks.h"
 
@@ -18,12 +19,15 @@ std::string limit_words(double value, const char* unit) {
   return std::isfinite(value) ? fmt::format("{:.6g} {}", value, unit) : fmt::format("any {}", unit);
 }
 
+/// " and 3000 mm/s^3"; empty without a limit.
+std::string jerk_words(double jerk) { return std::isfinite(jerk) ? fmt::format(" and {:.6g} mm/s^3", jerk) : ""; }
+
 std::string axis_words(char name, const MachineAxis& axis) {
   const bool travels = std::isfinite(axis.lowest) || std::isfinite(axis.highest);
   const std::string travel =
       travels ? fmt::format("from {:.6g} to {:.6g} mm", axis.lowest, axis.highest) : std::string("of any travel");
-  return fmt::format("{} {}, at most {} and {}", name, travel, limit_words(axis.max_speed, "mm/s"),
-                     limit_words(axis.max_acceleration, "mm/s^2"));
+  return fmt::format("{} {}, at most {} and {}{}", name, travel, limit_words(axis.max_speed, "mm/s"),
+                     limit_words(axis.max_acceleration, "mm/s^2"), jerk_words(axis.max_jerk));
 }
 
 char lower(char letter) { return static_cast<char>(letter - 'A' + 'a'); }
@@ -67,15 +71,13 @@ std::string lift_line(const LiftTimes& lift) {
 
 /// What it costs to come to rest from a feed and to start again.
 std::string stop_words(const Machine& m, double feed) {
-  const double a = std::min({m.path_acceleration, m.x.max_acceleration, m.y.max_acceleration});
-  return fmt::format("{:.6g} mm/min {:.3g} ms over {:.3g} mm", units::mm_per_min(feed), 1e3 * feed / a,
-                     feed * feed / a);
+  const double seconds = SpeedChange{acceleration_everywhere(m), jerk_everywhere(m)}.seconds(feed);
+  return fmt::format("{:.6g} mm/min {:.3g} ms over {:.3g} mm", units::mm_per_min(feed), 1e3 * seconds, feed * seconds);
 }
 
 std::string stop_line(const Machine& m) {
-  const double feed = std::min({m.max_feed, m.x.max_speed, m.y.max_speed});
-  const double a = std::min({m.path_acceleration, m.x.max_acceleration, m.y.max_acceleration});
-  if (!std::isfinite(feed) || !std::isfinite(a)) return "";
+  const double feed = speed_everywhere(m);
+  if (!std::isfinite(feed) || !std::isfinite(acceleration_everywhere(m))) return "";
   return fmt::format("a stop    down to rest and up again costs, from {}; from {}\n", stop_words(m, 0.1 * feed),
                      stop_words(m, feed));
 }
@@ -88,10 +90,10 @@ std::string machine_lines(const NamedMachine& machine) {
       std::isfinite(m.max_feed)
           ? fmt::format("{:.6g} to {:.6g} mm/min", units::mm_per_min(m.min_feed), units::mm_per_min(m.max_feed))
           : fmt::format("from {:.6g} mm/min on", units::mm_per_min(m.min_feed));
-  return fmt::format("machine   {}\naxes      {}\n          {}\npath      {}, {}\ncorners   {}\n",
+  return fmt::format("machine   {}\naxes      {}\n          {}\npath      {}, {}{}\ncorners   {}\n",
                      machine.name.empty() ? "without a name" : machine.name, axis_words(lower(m.letters.x), m.x),
                      axis_words(lower(m.letters.y), m.y), feed, limit_words(m.path_acceleration, "mm/s^2"),
-                     corner_words(m)) +
+                     jerk_words(m.path_jerk), corner_words(m)) +
          lift_line(m.lift) + controller_line(m.controller) + stop_line(m);
 }
 

@@ -93,7 +93,8 @@ Json limits_json(const WrittenPlan& written) {
   return {{"none_s", of(BindingLimit::None)},
           {"speed_s", of(BindingLimit::Speed)},
           {"acceleration_s", of(BindingLimit::Acceleration)},
-          {"rest_s", of(BindingLimit::Rest)}};
+          {"rest_s", of(BindingLimit::Rest)},
+          {"jerk_s", of(BindingLimit::Jerk)}};
 }
 
 /// What the log of an earlier run has taught.

@@ -94,5 +94,24 @@ TEST(CubicCheck, FindsTheSpeedInsideAStep) {
   EXPECT_TRUE(cubics_beyond_machine(program, machine).empty());
 }
 
+TEST(CubicCheck, HoldsAccelerationsThatJumpToALimitOfJerk) {
+  // Accelerations of 3 mm/s^2 that begin and end between pieces of 1 s.
+  Machine machine = within_limits();
+  machine.x.max_jerk = 1.8, machine.y.max_jerk = 2.4, machine.path_jerk = 3.0;
+  EXPECT_TRUE(cubics_beyond_machine(three_pieces(), machine).empty());
+  machine.y.max_jerk = 2.39;
+  const auto faults = cubics_beyond_machine(three_pieces(), machine);
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_NE(faults[0].find("jerk of y"), std::string::npos) << faults[0];
+  EXPECT_NE(faults[0].find("2.4 mm/s^3"), std::string::npos) << faults[0];
+  machine = {};
+  machine.path_jerk = 23.9;  // from rest to rest over 2 mm in 1 s: 12 mm/s^2, and within the cubic 24 mm/s^3
+  Program program;
+  program.steps = {{{0.0, 0.0}, {2.0, 0.0}, 1.0, true, EndSpeeds{}}};
+  EXPECT_EQ(cubics_beyond_machine(program, machine).size(), 1U);
+  machine.path_jerk = 24.0;
+  EXPECT_TRUE(cubics_beyond_machine(program, machine).empty());
+}
+
 }  // namespace
 }  // namespace dwell
