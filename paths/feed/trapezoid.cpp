@@ -7,6 +7,10 @@
 namespace dwell {
 namespace {
 
+// Of a move's length, what is left between accelerating and slowing down is rounding: such a piece would have no
+// direction.
+constexpr double kLengthRounding = 1e-12;
+
 double squared(double v) { return v * v; }
 
 double held(const Trapezoid& move, double feed) {
@@ -187,7 +191,7 @@ std::vector<MotionPiece> pieces_by_s(const Trapezoid& move, double v) {
   std::vector<MotionPiece> pieces;
   if (v > move.speed_in) add_s(pieces, change, move.speed_in, v, scale);
   const double even = move.length - scale * (up + down);
-  if (even > 0.0) pieces.push_back({even, v, v});
+  if (even > kLengthRounding * move.length) pieces.push_back({even, v, v});
   if (v > move.speed_out) add_s(pieces, change, v, move.speed_out, scale);
   return pieces;
 }
@@ -201,8 +205,8 @@ std::vector<MotionPiece> pieces_at_feed(const Trapezoid& move, double feed) {
   const double down = (squared(v) - squared(move.speed_out)) / (2.0 * move.acceleration);
   const double scale = std::min(1.0, move.length / std::max(up + down, 1e-300));  // rounding at the peak
   std::vector<MotionPiece> pieces;
-  const auto add = [&pieces](double length, double in, double out) {
-    if (length > 0.0 && in + out > 0.0) pieces.push_back({length, in, out});
+  const auto add = [&](double length, double in, double out) {
+    if (length > kLengthRounding * move.length && in + out > 0.0) pieces.push_back({length, in, out});
   };
   add(scale * up, move.speed_in, v);
   add(move.length - scale * (up + down), v, v);

@@ -64,11 +64,12 @@ class Loop {
 
   Program program_of_speeds(const Eigen::VectorXd& dwell, double acceleration_share, MotionPlan& plan,
                             const Progress& progress) const {
-    const Machine tight = with_margins(machine_, margins_of(acceleration_share));
+    const RoundingMargins margins = margins_of(acceleration_share);
+    const Machine tight = with_margins(machine_, margins);
     const KinematicPath path = kinematic_path(moves_.steps, tight, max_feed_);
     const LinearSchedule schedule = schedule_linear(moves_, path, tight, dwell, part_.threads, progress);
     plan.seconds = schedule.seconds;
-    Program program = linear_program(moves_, path, schedule, tight);
+    Program program = linear_program(moves_, path, schedule, tight, least_piece_seconds(machine_, margins));
     if (kind_ == ScheduleKind::Pvt) join_velocities(program);
     return program;
   }

@@ -36,6 +36,8 @@ BLENDED_REMOVALS = 0.15  # no target; of runs at 50 mm/s, 500 mm/s^2: raster, sm
 OVER_PLAN = {("raster, rough", "50-50"): 1.1, ("random, seed 3", "50-500"): 1.2, ("random, seed 4", "50-500"): 1.2,
              ("random, seed 3", "50-50"): 1.5, ("random, seed 4", "50-50"): 1.5}
 
+PLAN_TIMEOUT_S = 3600  # rough plans solve many times
+
 LEARNING = PLANS[2]
 LOGS = 2  # rounds of correction by a run's own log
 CORRECTED = {"50-500": 1.1, "50-50": 1.2}  # after the last of them: left over planned
@@ -114,7 +116,7 @@ def planned(case, results, name, *words):
     """The summary of a plan, made unless it was."""
     key = "plan " + " ".join(map(str, (name, *words)))
     if key not in results.runs or not (case.folder / name / "program.nc").exists():
-        summary = runs.plan(case, name, *words)
+        summary = runs.plan(case, name, *words, timeout=PLAN_TIMEOUT_S)
         results.add(key, {"planned_nm": summary["motion"]["planned_rms_nm"],
                           "said_nm": summary["program"]["residual_rms_nm"], "total_s": summary["program"]["total_s"]})
     return results.runs[key]

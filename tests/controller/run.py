@@ -73,10 +73,10 @@ def write_machine(case, name, limits, acceleration, corner):
     return file
 
 
-def plan(case, name, *words):
+def plan(case, name, *words, timeout=dwell_program.TIMEOUT_S):
     """Plans into the folder `name`; returns its summary."""
     dwell_program.run("plan", *case.words, "--remove", TERMS, "--max-feed", MAX_FEED, *words, "--out", name,
-                      folder=case.folder, accepted=DONE)
+                      folder=case.folder, accepted=DONE, timeout=timeout)
     return json.loads((case.folder / name / "summary.json").read_text(encoding="utf-8"))
 
 

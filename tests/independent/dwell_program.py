@@ -7,11 +7,11 @@ import subprocess
 TIMEOUT_S = 300  # far above what a job of these tests takes, also under a sanitizer
 
 
-def run(*arguments, folder, accepted=(0,)):
+def run(*arguments, folder, accepted=(0,), timeout=TIMEOUT_S):
     """Runs `dwell ARGUMENTS` in a folder and returns its standard output; an exit code not accepted is an error."""
     program = os.path.abspath(os.environ["DWELL_PROGRAM"])
     command = [program, *map(str, arguments)]
-    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=TIMEOUT_S, check=False)
+    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=timeout, check=False)
     if done.returncode not in accepted:
         raise AssertionError(f"{' '.join(command)}\nended with {done.returncode}:\n{done.stdout}{done.stderr}")
     return done.stdout

@@ -17,6 +17,8 @@
 #include "paths/feed/execution.h"
 #include "paths/feed/kinematic_path.h"
 #include "paths/feed/least_dwell.h"
+#include "paths/feed/linear_program.h"
+#include "paths/feed/linear_schedule.h"
 #include "paths/feed/stroke_moves.h"
 #include "paths/feed/trapezoid_program.h"
 #include "runs/programs/gcode.h"
@@ -191,6 +193,24 @@ TEST(PvtRemoval, NoRandomPlanLeavesTheLimitsInItsFile) {
     worst = std::max(worst, std::abs(removing / plan.seconds.sum() - 1.0));
   }
   EXPECT_LE(worst, 2e-3);
+}
+
+TEST(PvtRemoval, NoRandomScheduleOfSpeedsLeavesTheLimitsInItsFile) {
+  for (unsigned seed = 1; seed <= 200; ++seed) {
+    const RandomPlan plan(seed);
+    const Machine tight = with_margins(plan.machine);
+    const StrokeMoves moves = stroke_moves(plan.path, Motion::Moving);
+    const KinematicPath kinematic = kinematic_path(moves.steps, tight, plan.max_feed);
+    const LinearSchedule schedule = schedule_linear(moves, kinematic, tight, plan.seconds);
+    for (const bool joined : {false, true}) {
+      Program motion = linear_program(moves, kinematic, schedule, tight, least_piece_seconds(plan.machine));
+      if (joined) join_velocities(motion);
+      FeedTable made = made_by();
+      const Program read = program_of(parse_pvt_csv(pvt_csv_text(pvt_table_of(motion), made), "f"), "f");
+      const auto faults = cubics_beyond_machine(read, plan.machine);
+      EXPECT_TRUE(faults.empty()) << "seed " << seed << ": " << (faults.empty() ? "" : faults[0]);
+    }
+  }
 }
 
 }  // namespace
