@@ -7,11 +7,13 @@
 
 #include "paths/feed/least_dwell.h"
 #include "paths/feed/lift_rests.h"
+#include "paths/feed/look_ahead.h"
 #include "paths/feed/trapezoid.h"
 
 namespace dwell {
 namespace {
 
+constexpr std::size_t kMovesOfABlock = 48;  // about; in the last rounds little changes, and in few places
 constexpr int kMostRounds = 60;
 constexpr int kUndampedRounds = 5;
 constexpr double kAtRest = 1e-10;   // of the feeds
@@ -35,44 +37,59 @@ std::vector<Range> moves_of_strokes(const StrokeMoves& moves) {
   return ranges;
 }
 
+/// Blocks of moves that end where strokes do.
+std::vector<std::size_t> blocks_of(const StrokeMoves& moves) {
+  std::vector<std::size_t> begins;
+  for (std::size_t i = 0; i < moves.size(); ++i) {
+    const bool in_stroke = i > 0 && moves.stroke[i] != StrokeMoves::kNoStroke && moves.stroke[i - 1] == moves.stroke[i];
+    if (begins.empty() || (!in_stroke && i - begins.back() >= kMovesOfABlock)) begins.push_back(i);
+  }
+  return begins;
+}
+
 class Scheduling {
  public:
   Scheduling(const StrokeMoves& moves, const KinematicPath& path, const Eigen::VectorXd& wanted)
-      : path_(path), wanted_(wanted), ranges_(moves_of_strokes(moves)), at_rest_(ranges_.size(), 0) {
-    for (const KinematicMove& move : path.moves) feed_.push_back(move.max_speed);
-    for (std::size_t j = 0; j < ranges_.size(); ++j) {
+      : moves_(moves),
+        path_(path),
+        wanted_(wanted),
+        ranges_(moves_of_strokes(moves)),
+        at_rest_(ranges_.size(), 0),
+        ahead_(path, blocks_of(moves)) {
+    for_strokes([&](std::size_t block, std::size_t j) {
       const double length = length_of(j);
-      if (length > 0.0) set_feed(j, std::min(most(j), length / std::max(seconds(j), 1e-300)));
-    }
+      if (length > 0.0) set_feed(block, j, std::min(most(j), length / std::max(seconds(j), 1e-300)));
+    });
   }
 
   int run() {
     for (int round = 1; round <= kMostRounds; ++round) {
-      const std::vector<double> before = std::exchange(u_, node_speeds_squared(path_, feed_));
+      ahead_.update();
       double change = 0.0;
-      for (std::size_t j = 0; j < ranges_.size(); ++j) {
-        if (!(length_of(j) > 0.0) || (at_rest_[j] != 0 && same_ends(j, before))) continue;
-        const double was = feed_[ranges_[j].first];
+      for_strokes([&](std::size_t block, std::size_t j) {
+        if (at_rest_[j] != 0 && same_ends(j)) return;
+        if (!(length_of(j) > 0.0)) return;
+        const double was = ahead_.feed(ranges_[j].first);
         double next = feed_for_time(trapezoids(j), seconds(j), most(j));
         if (round > kUndampedRounds) next = 0.5 * (was + next);
-        set_feed(j, next);
         const double moved = std::abs(next - was) / next;
         at_rest_[j] = static_cast<char>(moved <= kAtRest);
+        if (moved > kAtRest) set_feed(block, j, next);
         change = std::max(change, moved);
-      }
+      });
       if (change <= kAtRest) return round;
     }
     return kMostRounds;
   }
 
   ConstantSchedule schedule() {
-    u_ = node_speeds_squared(path_, feed_);
+    ahead_.update();
     ConstantSchedule result;
     result.seconds = wanted_;
     result.feed.assign(ranges_.size(), 0.0);
     for (std::size_t j = 0; j < ranges_.size(); ++j) {
       if (!(length_of(j) > 0.0)) continue;
-      const double feed = feed_[ranges_[j].first];
+      const double feed = ahead_.feed(ranges_[j].first);
       result.feed[j] = feed;
       double taken = 0.0;
       for (const Trapezoid& move : trapezoids(j)) taken += time_at_feed(move, feed);
@@ -90,11 +107,26 @@ class Scheduling {
 
  private:
   double seconds(std::size_t j) const { return wanted_[static_cast<Index>(j)]; }
-  /// Whether the speeds at a stroke's nodes are those of the round before.
-  bool same_ends(std::size_t j, const std::vector<double>& before) const {
-    return std::equal(u_.begin() + static_cast<std::ptrdiff_t>(ranges_[j].first),
-                      u_.begin() + static_cast<std::ptrdiff_t>(ranges_[j].last) + 1,
-                      before.begin() + static_cast<std::ptrdiff_t>(ranges_[j].first));
+  /// The strokes of blocks through which the last update went, or of all before the first.
+  template <class Action>
+  void for_strokes(const Action& action) {
+    for (std::size_t b = 0; b < ahead_.blocks(); ++b) {
+      if (begun_ && !ahead_.touched(b)) continue;
+      Index before = StrokeMoves::kNoStroke;
+      for (std::size_t i = ahead_.begin_of(b); i < ahead_.end_of(b); ++i) {
+        const Index j = moves_.stroke[i];
+        if (j != StrokeMoves::kNoStroke && j != before) action(b, static_cast<std::size_t>(j));
+        before = j;
+      }
+    }
+    begun_ = true;
+  }
+  /// Whether the last update changed no speed at a stroke's nodes.
+  bool same_ends(std::size_t j) const {
+    for (std::size_t node = ranges_[j].first; node <= ranges_[j].last; ++node) {
+      if (ahead_.changed(node)) return false;
+    }
+    return true;
   }
   double length_of(std::size_t j) const {
     double sum = 0.0;
@@ -106,29 +138,32 @@ class Scheduling {
     for (std::size_t i = ranges_[j].first; i < ranges_[j].last; ++i) least = std::min(least, path_.moves[i].max_speed);
     return least;
   }
-  void set_feed(std::size_t j, double feed) {
-    for (std::size_t i = ranges_[j].first; i < ranges_[j].last; ++i) feed_[i] = feed;
+  void set_feed(std::size_t block, std::size_t j, double feed) {
+    for (std::size_t i = ranges_[j].first; i < ranges_[j].last; ++i) ahead_.set_feed(block, i, feed);
   }
   const std::vector<Trapezoid>& trapezoids(std::size_t j) {
     scratch_.clear();
+    const std::vector<double>& u = ahead_.squared();
     for (std::size_t i = ranges_[j].first; i < ranges_[j].last; ++i) {
       if (path_.arcs.empty()) {
-        scratch_.push_back({path_.moves[i].length, path_.moves[i].acceleration, std::sqrt(u_[i]), std::sqrt(u_[i + 1]),
+        scratch_.push_back({path_.moves[i].length, path_.moves[i].acceleration, std::sqrt(u[i]), std::sqrt(u[i + 1]),
                             std::numeric_limits<double>::infinity(), path_.moves[i].jerk});
         continue;
       }
-      move_parts(path_, i, feed_[i], u_[i], u_[i + 1]).for_each([this](const Trapezoid& part, std::size_t) {
+      move_parts(path_, i, ahead_.feed(i), u[i], u[i + 1]).for_each([this](const Trapezoid& part, std::size_t) {
         scratch_.push_back(part);
       });
     }
     return scratch_;
   }
 
+  const StrokeMoves& moves_;
   const KinematicPath& path_;
   const Eigen::VectorXd& wanted_;
   std::vector<Range> ranges_;
-  std::vector<char> at_rest_;     // strokes whose feed no longer changes
-  std::vector<double> feed_, u_;  // of every move, of every node
+  std::vector<char> at_rest_;  // strokes whose feed no longer changes
+  LookAhead ahead_;
+  bool begun_ = false;
   std::vector<Trapezoid> scratch_;
 };
 

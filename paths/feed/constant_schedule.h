@@ -25,7 +25,7 @@ struct ConstantSchedule {
 /// repeated until both hold, from the fifth round on with half the change, which ends the swinging of strokes that hold
 /// each other back. A stroke at a corner must be faster elsewhere. The arcs of a machine
 /// that blends are as the path has them: where their size depends on the feeds, schedule_blended makes both. dwell: n
-/// values, finite, >= 0. Cost: about 20 rounds of O(moves).
+/// values, finite, >= 0. Cost: about 5 rounds of O(moves), and 20 of those that change.
 ConstantSchedule schedule_constant(const StrokeMoves& moves, const KinematicPath& path, const Machine& machine,
                                    const Eigen::VectorXd& dwell);
 

@@ -228,6 +228,20 @@ double MoveParts::seconds(double feed) const {
   return sum;
 }
 
+double reached_forward(const KinematicPath& path, std::size_t i, double feed, double u) {
+  if (path.arcs.empty()) return reached_squared(path.moves[i].change(), u, path.moves[i].length);
+  const Parts parts = parts_of(path, i, feed);
+  const double first = std::min(between(parts[0], parts[1]), parts[0].reached(u));
+  return parts[2].reached(std::min(between(parts[1], parts[2]), parts[1].reached(first)));
+}
+
+double reached_back(const KinematicPath& path, std::size_t i, double feed, double u) {
+  if (path.arcs.empty()) return reached_squared(path.moves[i].change(), u, path.moves[i].length);
+  const Parts parts = parts_of(path, i, feed);
+  const double second = std::min(between(parts[1], parts[2]), parts[2].reached(u));
+  return parts[0].reached(std::min(between(parts[0], parts[1]), parts[1].reached(second)));
+}
+
 std::vector<double> node_speeds_squared(const KinematicPath& path, const std::vector<double>& feed) {
   const std::size_t n = path.size();
   std::vector<double> u = path.corner;
@@ -236,26 +250,8 @@ std::vector<double> node_speeds_squared(const KinematicPath& path, const std::ve
     u[i] = std::min(u[i], highest);
     u[i + 1] = std::min(u[i + 1], highest);
   }
-  if (!path.arcs.empty()) {
-    for (std::size_t i = 0; i < n; ++i) {
-      const Parts parts = parts_of(path, i, feed[i]);
-      const double first = std::min(between(parts[0], parts[1]), parts[0].reached(u[i]));
-      const double second = std::min(between(parts[1], parts[2]), parts[1].reached(first));
-      u[i + 1] = std::min(u[i + 1], parts[2].reached(second));
-    }
-    for (std::size_t i = n; i-- > 0;) {
-      const Parts parts = parts_of(path, i, feed[i]);
-      const double second = std::min(between(parts[1], parts[2]), parts[2].reached(u[i + 1]));
-      const double first = std::min(between(parts[0], parts[1]), parts[1].reached(second));
-      u[i] = std::min(u[i], parts[0].reached(first));
-    }
-    return u;
-  }
-  const auto lower = [&](double& after, double before, const KinematicMove& move) {
-    if (after > before) after = std::min(after, reached_squared(move.change(), before, move.length));
-  };
-  for (std::size_t i = 0; i < n; ++i) lower(u[i + 1], u[i], path.moves[i]);
-  for (std::size_t i = n; i-- > 0;) lower(u[i], u[i + 1], path.moves[i]);
+  for (std::size_t i = 0; i < n; ++i) u[i + 1] = std::min(u[i + 1], reached_forward(path, i, feed[i], u[i]));
+  for (std::size_t i = n; i-- > 0;) u[i] = std::min(u[i], reached_back(path, i, feed[i], u[i + 1]));
   return u;
 }
 

@@ -69,6 +69,11 @@ struct MoveParts {
 };
 MoveParts move_parts(const KinematicPath& path, std::size_t move, double feed, double u_in, double u_out);
 
+/// The highest squared speed at the end of a move, at a feed, that is reached from one at its beginning [mm^2/s^2], and
+/// the highest at its beginning from which it comes down to one at its end.
+double reached_forward(const KinematicPath& path, std::size_t move, double feed, double u_in);
+double reached_back(const KinematicPath& path, std::size_t move, double feed, double u_out);
+
 /// The highest squared speed at every node [mm^2/s^2] for a highest speed on every move (`feed`; taken as at most the
 /// move's own): what corner and both feeds allow, reached by the machine's changes of speed from both neighbours (a
 /// pass forward and one back, as controllers look ahead). Cost O(moves).
