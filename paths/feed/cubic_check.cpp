@@ -119,7 +119,9 @@ std::vector<std::string> cubics_beyond_machine(const Program& program, const Mac
     known = true;
     if (!step.speeds) continue;
     any = true;
-    const CubicMove move{step.start, step.finish, ends.in, ends.out, step.seconds};
+    const ProgramFrame& frame = machine.frame;  // the axes are the program's
+    const CubicMove move{frame.to_program(step.start), frame.to_program(step.finish),
+                         frame.direction_to_program(ends.in), frame.direction_to_program(ends.out), step.seconds};
     jerks.take(i, move);
     const Point v = largest_speed(move), a = largest_acceleration(move);
     all[0].check(i, v.x);

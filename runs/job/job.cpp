@@ -14,6 +14,7 @@
 #include "runs/job/program_style.h"
 #include "runs/machine/machine_option.h"
 #include "runs/plan/pitch_choice.h"
+#include "runs/programs/program_formats.h"
 #include "runs/programs/shipped_templates.h"
 
 namespace dwell {
@@ -58,6 +59,7 @@ DwellOptions dwell_options(const JobOptions& o) {
   options.fraction = o.fraction;
   options.rounds = o.rounds;
   options.schedule = o.schedule;
+  options.over_path = has_export_over_path(o.exports);
   return options;
 }
 

@@ -323,7 +323,7 @@ std::vector<JobOptionRecord> make_table() {
        [](const Options& o) { return shown(o.lift_height_mm); }},
       {"export", "export", "FORMATS",
        "programs to write besides feed.csv and program.nc, separated by commas: " + export_words() +
-           "; or none. They are positions, velocities and times, and take --machine",
+           "; or none. They say the motion of the machine, and take --machine",
        false, false, [](Options& o, const std::string& t) { o.exports = parse_exports(t); },
        [](const Options& o) { return exports_text(o.exports); }},
       {"template", "template", "FILE",

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <utility>
 
 #include "core/base/errors.h"
@@ -26,7 +27,7 @@ std::vector<std::string> PlannedJob::limits() const {
 
 namespace {
 
-/// The option by which a plan has a program of positions, velocities and times: "`export` = pmac"; empty without one.
+/// The option by which a plan has a program of the scheduled motion: "`export` = pmac"; empty without one.
 /// Throws InputError for a template of feeds with a schedule of speeds.
 std::string option_that_needs_motion(const JobOptions& options) {
   const std::string word = export_that_needs_motion(options.exports);
@@ -42,6 +43,44 @@ std::string option_that_needs_motion(const JobOptions& options) {
     if (speeds && word.empty()) return option;
   }
   return word.empty() ? "" : fmt::format("`export` = {}", word);
+}
+
+/// Programs of feeds at the ends of blocks say constant acceleration, in mm, and hold no lines of plain G-code. Throws
+/// InputError naming both options.
+void check_end_feeds(const JobOptions& options) {
+  const std::string word = export_of_end_feeds(options.exports);
+  if (word.empty()) return;
+  const std::string option = fmt::format("`export` = {}", word);
+  if (options.schedule == ScheduleKind::Pvt) {
+    throw InputError(
+        fmt::format("`schedule` = pvt: rounds corners on cubics, which the feeds of {} cannot say; accepted: linear, "
+                    "constant",
+                    option));
+  }
+  if (options.inches) {
+    throw InputError(fmt::format("`units` = inch: programs of {} are in mm; required mm, or another export", option));
+  }
+  for (const auto& [name, file] : {std::pair("header", options.header), std::pair("footer", options.footer)}) {
+    if (file.empty()) continue;
+    throw InputError(
+        fmt::format("`{}`: its lines are plain G-code, and programs of {} hold none; required one of the two options",
+                    name, option));
+  }
+}
+
+/// Whether a program of positions, velocities and times is written, whose places are those of the part.
+bool has_export_without_frame(const JobOptions& options) {
+  const bool by_template = !options.program_template.empty() && find_program_template(options.program_template).speeds;
+  return by_template || !export_without_frame(options.exports).empty();
+}
+
+/// What a controller that runs feeds linear over the path must not limit: its blocks are others than the plan's.
+void check_over_path(const JobOptions& options, const Machine& machine) {
+  if (!has_export_over_path(options.exports)) return;
+  if (!machine.controller.is_coarse() && !std::isfinite(machine.controller.max_blocks_per_s)) return;
+  throw InputError(
+      "`export` = flin: the `machine` has [controller] limits (max_blocks_per_s, time_resolution_s or "
+      "position_resolution_mm), which its blocks are not made for; required a machine without, or another export");
 }
 
 }  // namespace
@@ -61,13 +100,16 @@ void check_exports(const JobOptions& options) {
                     "prints one)",
                     option));
   }
-  if (!program_frame(options).is_of_part()) {
+  check_end_feeds(options);
+  if (!program_frame(options).is_of_part() && has_export_without_frame(options)) {
     throw InputError(fmt::format(
         "{}: with `zero`, `rotate` or `swap axes`: places in such a program are those of the part; required "
         "one of the two",
         option));
   }
-  check_exported_motion(machine_for_program(machine_of_option(options.machine).machine, options), options.schedule);
+  const Machine machine = machine_for_program(machine_of_option(options.machine).machine, options);
+  check_exported_motion(machine, options.schedule);
+  check_over_path(options, machine);
 }
 
 namespace {
@@ -100,11 +142,14 @@ PlannedJob plan_loaded(Job job, JobPath path, double used, const Progress& progr
   if (planned.dwell.motion && planned.dwell.motion->program) {
     planned.program.motion = planned.dwell.motion->program;
   } else if (!option_that_needs_motion(planned.job.options).empty() && planned.dwell.motion) {
-    planned.program.motion = motion_to_be_rounded(*options.machine.machine, [&](double acceleration_share) {
-      return exported_motion(planned.program.table.path, planned.laid.motion, *options.machine.machine,
-                             options.machine.feed_limits().max_feed, planned.dwell.motion->seconds, progress,
-                             margins_of(acceleration_share));
-    });
+    planned.program.motion = motion_to_be_rounded(
+        *options.machine.machine,
+        [&](double acceleration_share) {
+          return exported_motion(planned.program.table.path, planned.laid.motion, *options.machine.machine,
+                                 options.machine.feed_limits().max_feed, planned.dwell.motion->seconds, progress,
+                                 margins_of(acceleration_share));
+        },
+        options.over_path);
   }
   return planned;
 }

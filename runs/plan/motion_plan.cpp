@@ -37,6 +37,7 @@ class Loop {
         kernel_(kernel),
         machine_(*options.machine.machine),
         kind_(options.schedule),
+        over_path_(options.over_path),
         max_feed_(options.machine.feed_limits().max_feed),
         moves_(stroke_moves(laid.path, laid.motion)),
         path_(kinematic_path(moves_.steps, machine_, max_feed_)),
@@ -45,9 +46,10 @@ class Loop {
   /// Feeds or speeds for a dwell, and the surface that the machine leaves with them.
   HeightMap execute_dwell(const Eigen::VectorXd& dwell, MotionPlan& plan, const Progress& progress) const {
     if (kind_ == ScheduleKind::Constant) return left_by(execute_feeds(dwell, plan, progress));
-    plan.program = motion_to_be_rounded(machine_, [&](double acceleration_share) {
-      return program_of_speeds(dwell, acceleration_share, plan, progress);
-    });
+    plan.program = motion_to_be_rounded(
+        machine_,
+        [&](double acceleration_share) { return program_of_speeds(dwell, acceleration_share, plan, progress); },
+        over_path_);
     plan.commanded.assign(plan.seconds.begin(), plan.seconds.end());
     plan.too_short = ((plan.seconds - dwell).array() > kTooShort * dwell.array()).count();
     return left_by(with_lift_rests(rounded_motion(*plan.program, machine_), machine_));
@@ -108,6 +110,7 @@ class Loop {
   const RemovalKernel& kernel_;
   Machine machine_;
   ScheduleKind kind_;
+  bool over_path_;
   double max_feed_;
   StrokeMoves moves_;
   KinematicPath path_;

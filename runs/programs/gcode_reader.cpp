@@ -26,7 +26,7 @@ class GcodeInterpreter {
     program_.file = file_;
   }
 
-  Program run(std::string_view text, const Progress& progress) {
+  GcodeSteps run(std::string_view text, const Progress& progress) {
     Poll poll(progress);
     bool ended = false;
     while (!ended && !text.empty()) {
@@ -43,7 +43,7 @@ class GcodeInterpreter {
     if (program_.steps.empty()) throw InputError(fmt::format("{}: holds no move and no halt", file_));
     program_.frame = remarks_.frame();
     add_notes();
-    return std::move(program_);
+    return {std::move(program_), std::move(lines_)};
   }
 
  private:
@@ -200,6 +200,7 @@ class GcodeInterpreter {
       }
     }
     program_.steps.push_back(step);
+    lines_.push_back(line_number_);
   }
 
   static bool at_work(double z) { return std::abs(z) < 1e-9; }
@@ -308,6 +309,7 @@ class GcodeInterpreter {
   std::string file_;
   GcodeRemarks remarks_;
   Program program_;
+  std::vector<std::size_t> lines_;  // of its steps
   std::size_t line_number_ = 0;
   GcodeLine parts_;                      // of the line
   bool begun_ = false, framed_ = false;  // by a word, by a %
@@ -327,6 +329,11 @@ class GcodeInterpreter {
 
 Program read_gcode(std::string_view text, const std::string& file, const GcodeReading& reading,
                    const Progress& progress) {
+  return read_gcode_steps(text, file, reading, progress).program;
+}
+
+GcodeSteps read_gcode_steps(std::string_view text, const std::string& file, const GcodeReading& reading,
+                            const Progress& progress) {
   return GcodeInterpreter(file, reading).run(without_byte_order_mark(text), progress);
 }
 

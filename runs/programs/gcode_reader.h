@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/base/progress.h"
 #include "core/motion/program.h"
@@ -23,5 +25,15 @@ namespace dwell {
 /// offset of the origin; a program without M2, M30 or the second %, or without steps. `file` is the name for messages.
 Program read_gcode(std::string_view text, const std::string& file, const GcodeReading& reading,
                    const Progress& progress = {});
+
+/// A program with the line on which each of its steps was read, from 1 on.
+struct GcodeSteps {
+  Program program;
+  std::vector<std::size_t> lines;  // one a step
+};
+
+/// The same as read_gcode, for readers of dialects that say more of a step on its line.
+GcodeSteps read_gcode_steps(std::string_view text, const std::string& file, const GcodeReading& reading,
+                            const Progress& progress = {});
 
 }  // namespace dwell

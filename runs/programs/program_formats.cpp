@@ -15,6 +15,9 @@
 #include "core/base/whole_file.h"
 #include "core/base/word_list.h"
 #include "core/formats/hdf5_map.h"
+#include "paths/feed/end_feed_blocks.h"
+#include "paths/feed/exported_motion.h"
+#include "paths/feed/path_linear.h"
 #include "runs/programs/gcode.h"
 #include "runs/programs/gcode_parts.h"
 #include "runs/programs/gcode_reader.h"
@@ -22,6 +25,8 @@
 #include "runs/programs/pvt_csv.h"
 #include "runs/programs/pvt_hdf5.h"
 #include "runs/programs/pvt_json.h"
+#include "runs/programs/speed_gcode.h"
+#include "runs/programs/speed_gcode_reader.h"
 #include "runs/programs/xps_trajectory.h"
 
 namespace dwell {
@@ -46,6 +51,9 @@ std::vector<WrittenProgram> write_table(const ProgramToWrite& program, const Pro
 /// Whether a text begins with a comment, a % or a word: a letter and a number.
 bool is_gcode(std::string_view text) {
   if (text.empty() || is_pmac_program(text)) return false;
+  for (const SpeedDialect dialect : {SpeedDialect::G293, SpeedDialect::Flin}) {
+    if (is_speed_gcode(text, dialect)) return false;
+  }
   if (std::string_view("%(;/").find(text.front()) != std::string_view::npos) return true;
   const std::size_t number = text.find_first_not_of(" \t", 1);
   const bool letter = (text.front() >= 'A' && text.front() <= 'Z') || (text.front() >= 'a' && text.front() <= 'z');
@@ -53,8 +61,7 @@ bool is_gcode(std::string_view text) {
          std::string_view("0123456789.+-").find(text[number]) != std::string_view::npos;
 }
 
-std::vector<WrittenProgram> write_gcode(const ProgramToWrite& program, const ProgramWriting& writing,
-                                        const Progress& progress) {
+GcodeOptions gcode_options(const ProgramToWrite& program, const ProgramWriting& writing) {
   GcodeOptions options;
   options.dialect = writing.dialect;
   options.lift_height_mm = writing.lift_height_mm;
@@ -62,6 +69,12 @@ std::vector<WrittenProgram> write_gcode(const ProgramToWrite& program, const Pro
   options.header = writing.header;
   options.style = writing.gcode;
   options.machine = writing.machine;
+  return options;
+}
+
+std::vector<WrittenProgram> write_gcode(const ProgramToWrite& program, const ProgramWriting& writing,
+                                        const Progress& progress) {
+  const GcodeOptions options = gcode_options(program, writing);
   const Program steps = program_of(program.table);
   std::vector<WrittenProgram> files{{"program.nc", gcode_text(steps, options, progress)}};
   const std::string& text = files.front().bytes;
@@ -71,6 +84,31 @@ std::vector<WrittenProgram> write_gcode(const ProgramToWrite& program, const Pro
       files.push_back(std::move(part));
   }
   return files;
+}
+
+template <SpeedDialect dialect>
+bool is_speeds(std::string_view text) {
+  return is_speed_gcode(text, dialect);
+}
+
+template <SpeedDialect dialect>
+Program read_speeds(std::string_view text, const std::string& file, const GcodeReading& reading,
+                    const Progress& progress) {
+  return read_speed_gcode(text, file, dialect, reading, progress);
+}
+
+template <SpeedDialect dialect>
+std::vector<WrittenProgram> write_speeds(const ProgramToWrite& program, const ProgramWriting& writing,
+                                         const Progress& progress) {
+  if (!program.motion) throw std::logic_error("a program of feeds at the ends of blocks needs the motion");
+  std::vector<EndFeedBlock> blocks = blocks_of_motion(*program.motion, progress);
+  if constexpr (dialect == SpeedDialect::Flin) {
+    Machine machine = writing.machine.value_or(Machine{});
+    machine.frame = program.table.frame;
+    blocks = blocks_over_path(blocks, machine, least_piece_seconds(machine));
+  }
+  return {{dialect == SpeedDialect::G293 ? "g293.nc" : "flin.mpf",
+           speed_gcode_text(dialect, blocks, program.table.frame, gcode_options(program, writing), progress)}};
 }
 
 PvtTable table_of_motion(const ProgramToWrite& program, const ProgramWriting& writing, const Progress& progress) {
@@ -154,28 +192,34 @@ bool is_written(const ProgramFormat& format, const std::vector<std::string>& exp
 const std::vector<ProgramFormat>& program_formats() {
   static const std::vector<ProgramFormat> kFormats{
       {"a feed table (first line \"# dwell ...\")", "feed.csv", "the dwell points in order, each with dwell and feed",
-       "feed_table", false, "", false, false, is_feed_table, read_table, write_table},
+       "feed_table", false, "", false, false, false, is_feed_table, read_table, write_table},
       {"G-code (comments and words such as G1 X1.5)", "program.nc", "the same as G-code", "gcode", true, "", false,
-       false, is_gcode, read_gcode, write_gcode},
+       false, true, is_gcode, read_gcode, write_gcode},
       {"a PVT table (first line \"# pvt: ...\")", "pvt.csv", "times, places and velocities as text", "pvt_csv", false,
-       "pvt-csv", true, false, is_pvt_csv, read_csv, write_csv},
+       "pvt-csv", true, false, false, is_pvt_csv, read_csv, write_csv},
       {"a PVT table as JSON (an object with \"pvt\")", "pvt.json", "times, places and velocities as JSON", "pvt_json",
-       false, "pvt-json", true, false, is_pvt_json, read_json, write_json},
+       false, "pvt-json", true, false, false, is_pvt_json, read_json, write_json},
       {"a PVT table as HDF5 (data set /pvt)", "pvt.h5", "times, places and velocities as HDF5", "pvt_hdf5", false,
-       "pvt-hdf5", true, false, is_hdf5, read_hdf5, write_hdf5},
+       "pvt-hdf5", true, false, false, is_hdf5, read_hdf5, write_hdf5},
       {"a list of XPS trajectories (first line \"# xps: ...\")", "xps.csv",
        "Newport XPS trajectories program_001.trj, ... and their list", "stretches", false, "xps-trj", true, false,
-       is_list<StretchKind::XpsTrajectory>, read_list<StretchKind::XpsTrajectory>,
+       false, is_list<StretchKind::XpsTrajectory>, read_list<StretchKind::XpsTrajectory>,
        write_list<StretchKind::XpsTrajectory>},
       {"a list of PMAC programs (first line \"# pmac: ...\")", "pmac.csv",
-       "PMAC programs in PVT mode program_001.pmc, ... and their list", "stretches", false, "pmac", true, false,
+       "PMAC programs in PVT mode program_001.pmc, ... and their list", "stretches", false, "pmac", true, false, false,
        is_list<StretchKind::PmacProgram>, read_list<StretchKind::PmacProgram>, write_list<StretchKind::PmacProgram>},
+      {"G-code with G293 (Beckhoff TwinCAT CNC)", "g293.nc",
+       "G-code whose feed changes linearly over the time of a block", "g293", false, "g293", true, false, true,
+       is_speeds<SpeedDialect::G293>, read_speeds<SpeedDialect::G293>, write_speeds<SpeedDialect::G293>},
+      {"G-code with FLIN (Siemens 840D)", "flin.mpf", "G-code whose feed changes linearly over the way of a block",
+       "flin", false, "flin", true, false, true, is_speeds<SpeedDialect::Flin>, read_speeds<SpeedDialect::Flin>,
+       write_speeds<SpeedDialect::Flin>},
       {"a list of parts of a G-code program (first line \"# parts: ...\")", "", "program.nc in files of so many lines",
-       "gcode_parts", true, "", false, false, is_gcode_part_list, read_parts, nullptr},
+       "gcode_parts", true, "", false, false, true, is_gcode_part_list, read_parts, nullptr},
       {"an XPS trajectory (lines dt, dx, vx, dy, vy)", "", "one stretch of work", "xps_trajectory", false, "", true,
-       true, is_xps_trajectory, read_xps, nullptr},
-      {"a PMAC program in PVT mode", "", "one stretch of work", "pmac_program", false, "", true, true, is_pmac_program,
-       read_pmac, nullptr},
+       true, false, is_xps_trajectory, read_xps, nullptr},
+      {"a PMAC program in PVT mode", "", "one stretch of work", "pmac_program", false, "", true, true, false,
+       is_pmac_program, read_pmac, nullptr},
   };
   return kFormats;
 }
@@ -221,6 +265,24 @@ std::string export_that_needs_motion(const std::vector<std::string>& exports) {
     if (format.needs_motion && is_among(format.word, exports)) return format.word;
   }
   return "";
+}
+
+std::string export_without_frame(const std::vector<std::string>& exports) {
+  for (const ProgramFormat& format : program_formats()) {
+    if (format.needs_motion && !format.in_frame && is_among(format.word, exports)) return format.word;
+  }
+  return "";
+}
+
+std::string export_of_end_feeds(const std::vector<std::string>& exports) {
+  for (const SpeedDialect dialect : {SpeedDialect::G293, SpeedDialect::Flin}) {
+    if (is_among(to_string(dialect), exports)) return std::string(to_string(dialect));
+  }
+  return "";
+}
+
+bool has_export_over_path(const std::vector<std::string>& exports) {
+  return is_among(to_string(SpeedDialect::Flin), exports);
 }
 
 std::vector<WrittenProgram> written_programs(const ProgramToWrite& program, const ProgramWriting& writing,

@@ -46,6 +46,7 @@ struct ProgramFormat {
   std::string word;   // as --export names it; empty: part of every plan
   bool needs_motion;  // it is written from the scheduled motion, which takes a machine
   bool takes_start;   // where the program begins may be given for reading it
+  bool in_frame;      // its places are those of the program's frame, and not of the part
   /// Whether a file is of this format, by its text from the first character on that is not blank.
   bool (*recognise)(std::string_view text);
   /// Reads the text of a file; `file` is the name for messages. Throws InputError naming file, line and what is
@@ -72,6 +73,15 @@ std::string export_words();
 
 /// The first of these formats that is written from the scheduled motion; empty if none is.
 std::string export_that_needs_motion(const std::vector<std::string>& exports);
+
+/// The first of these formats that is written from the scheduled motion with the places of the part; empty if none is.
+std::string export_without_frame(const std::vector<std::string>& exports);
+
+/// The first of these formats whose blocks say the feed at their end, g293 or flin; empty if none is.
+std::string export_of_end_feeds(const std::vector<std::string>& exports);
+
+/// Whether one of these formats says feeds that are linear over the path, flin.
+bool has_export_over_path(const std::vector<std::string>& exports);
 
 /// The plan's program in every format that is part of every plan, and those of `exports`, in the order of the table.
 /// Throws std::logic_error for one that needs the motion where there is none.

@@ -221,8 +221,7 @@ WrittenExport check_written_export(const PlannedJob& plan, const OutputFolder& f
   }
   const bool feeds = says_feeds(plan, one);
   const Program run = run_of(plan, program, progress);
-  now.total_s =
-      feeds ? run.run_seconds(dwell_options(plan.job).machine.feed_limits().max_feed) : program.total_seconds();
+  now.total_s = (feeds ? run : program).run_seconds(dwell_options(plan.job).machine.feed_limits().max_feed);
   const bool same = !feeds && first &&
                     same_removing_steps(program, first->program, units::mm_per_s(plan.job.options.max_feed_mm_per_min));
   std::optional<Part> changed;

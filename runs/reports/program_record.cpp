@@ -34,6 +34,7 @@ std::optional<std::string_view> comment_of(std::string_view line, const ProgramT
     return begun(line.substr(begin.size(), line.size() - begin.size() - end.size()));
   }
   if (line.starts_with('#')) return begun(line.substr(1));
+  if (line.starts_with(';')) return begun(line.substr(1));
   if (line.starts_with('(') && line.ends_with(')')) return begun(line.substr(1, line.size() - 2));
   return std::nullopt;
 }

@@ -21,13 +21,13 @@ TEST(ExportCommand, WritesEveryFormatAndReadsEachBack) {
   const SmallInputs inputs;
   inputs.folder.file("m.toml", kMachine);
   const ProgramResult plan = inputs.run(SmallInputs::plan(
-      {"--machine", "m.toml", "--max-feed", "600", "--export", "pmac,xps-trj,pvt-hdf5,pvt-json,pvt-csv"}));
+      {"--machine", "m.toml", "--max-feed", "600", "--export", "flin,g293,pmac,xps-trj,pvt-hdf5,pvt-json,pvt-csv"}));
   ASSERT_EQ(plan.exit_code, 0) << plan.err;
   expect_has(plan.out, "export    pvt.csv: RMS ");
   expect_has(plan.out, "xps.csv and 1 file: RMS ");
   const json summary = json::parse(read_whole_file(inputs / "plan/summary.json"));
-  ASSERT_EQ(summary["exports"].size(), 5U);
-  EXPECT_EQ(summary["options"]["export"], "pvt-csv,pvt-json,pvt-hdf5,xps-trj,pmac");
+  ASSERT_EQ(summary["exports"].size(), 7U);
+  EXPECT_EQ(summary["options"]["export"], "pvt-csv,pvt-json,pvt-hdf5,xps-trj,pmac,g293,flin");
   const double planned = summary["program"]["residual_rms_nm"];
   const auto names = test::names_in(inputs / "plan");
   for (const json& written : summary["exports"]) {
@@ -53,7 +53,7 @@ TEST(ExportCommand, WritesEveryFormatAndReadsEachBack) {
   expect_has(without.err, "required --start X,Y in mm");
   EXPECT_EQ(inputs.run(test::with(stretch, {"--start", "-2,0"})).exit_code, 0);
   EXPECT_EQ(inputs.run(test::with(stretch, {"--start", "-2"})).exit_code, 2);
-  for (const char* file : {"plan/pvt.csv", "plan/pvt.json", "plan/xps.csv"}) {
+  for (const char* file : {"plan/pvt.csv", "plan/pvt.json", "plan/xps.csv", "plan/g293.nc", "plan/flin.mpf"}) {
     const ProgramResult other = inputs.run({"simulate", "--program", file, "--map", "tif.csv", "--map-pixel", "0.5",
                                             "--tif", "tif.csv", "--tif-pixel", "0.5"});
     EXPECT_EQ(other.exit_code, 2) << file;
@@ -76,16 +76,49 @@ TEST(ExportCommand, SaysWhatItNeeds) {
   };
   refused({"--export", "pvt-csv"},
           "--export = pvt-csv: such a program is the motion of a machine; required a --machine");
-  refused({"--export", "csv"}, "accepted: pvt-csv, pvt-json, pvt-hdf5, xps-trj, pmac");
+  refused({"--export", "csv"}, "accepted: pvt-csv, pvt-json, pvt-hdf5, xps-trj, pmac, g293, flin");
   refused({"--export", "pmac", "--machine", "free.toml"}, "--export: the --machine has the corner rule free");
   refused({"--export", "pmac", "--machine", "any.toml"}, "has no limit of acceleration along y");
   EXPECT_EQ(inputs.run(SmallInputs::plan({"--export", "none"})).exit_code, 0);
+  inputs.folder.file("blocks.toml", std::string(kMachine) + "[controller]\nmax_blocks_per_s = 100\n");
+  inputs.folder.file("head.txt", "M8\n");
+  refused(
+      {"--export", "g293", "--machine", "m.toml", "--schedule", "pvt"},
+      "--schedule = pvt: rounds corners on cubics, which the feeds of --export = g293 cannot say; accepted: linear");
+  refused({"--export", "flin", "--machine", "m.toml", "--units", "inch"},
+          "--units = inch: programs of --export = flin");
+  refused({"--export", "g293", "--machine", "m.toml", "--header", "head.txt"}, "--header: its lines are plain G-code");
+  refused({"--export", "flin", "--machine", "blocks.toml"}, "--export = flin: the --machine has [controller] limits");
+  refused({"--export", "g293,pmac", "--machine", "m.toml", "--rotate", "30"}, "places in such a program are those of");
   // The comparison of paths writes plans, too.
   const std::vector<std::string> paths{"paths",          "--map",       "map.csv",  "--map-pixel", "0.5",    "--tif",
                                        "tif.csv",        "--tif-pixel", "0.5",      "--threads",   "1",      "--paths",
                                        "raster:pitch=2", "--out",       "compared", "--export",    "pvt-csv"};
   EXPECT_EQ(inputs.run(paths).exit_code, 2);
   EXPECT_EQ(inputs.run(test::with(paths, {"--machine", "m.toml", "--time-price", "0"})).exit_code, 0);
+}
+
+/// The speeds of a schedule, in the machine's frame, in a file that leaves what the plan says.
+TEST(ExportCommand, WritesFeedsAtTheEndsOfBlocksInTheMachinesFrame) {
+  const SmallInputs inputs;
+  inputs.folder.file("m.toml", std::string(kMachine) + "[y]\nmax_acceleration_mm_per_s2 = 60\nletter = \"V\"\n");
+  for (const char* word : {"g293", "flin"}) {
+    const ProgramResult plan =
+        inputs.run(SmallInputs::plan({"--machine", "m.toml", "--max-feed", "600", "--schedule", "linear", "--export",
+                                      word, "--zero", "3,-2", "--rotate", "30", "--swap-axes", "--block-numbers"}));
+    ASSERT_EQ(plan.exit_code, 0) << plan.err;
+    const json summary = json::parse(read_whole_file(inputs / "plan/summary.json"));
+    ASSERT_EQ(summary["exports"].size(), 1U);
+    EXPECT_EQ(summary["exports"][0]["rms_nm"], summary["program"]["residual_rms_nm"]);
+    EXPECT_TRUE(summary["limits"].empty()) << summary["limits"];
+    const ProgramResult simulated = inputs.run({"simulate", "plan", "--json"});
+    ASSERT_EQ(simulated.exit_code, 0) << simulated.err;
+    const json found = json::parse(simulated.out);
+    EXPECT_NEAR(found["program"]["residual_rms_nm"].get<double>(), summary["program"]["residual_rms_nm"].get<double>(),
+                1e-9);
+    EXPECT_NEAR(found["program"]["total_s"].get<double>(), summary["program"]["total_s"].get<double>(), 1e-6);
+    EXPECT_NEAR(summary["exports"][0]["total_s"].get<double>(), summary["program"]["total_s"].get<double>(), 1e-6);
+  }
 }
 
 }  // namespace

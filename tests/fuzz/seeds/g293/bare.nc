@@ -1,0 +1,8 @@
+#slope[type=step]
+G0 Z9
+G0 X0 Y0
+G1 Z0 F9
+G293 X1 F60
+G293 X2 Y1 F.06
+G04 X1.5
+M2
