@@ -11,6 +11,7 @@
 namespace dwell {
 namespace {
 
+constexpr double kStraightWay = 1e-9;       // of a way, by which it may be longer than the straight one
 constexpr double kNoSpeed = 1e-6;           // [mm/s] less is rest
 constexpr double kConstant = 1e-6;          // of a time, by which a step of constant acceleration may be off
 constexpr double kDirection = 1e-6;         // of a speed, likewise across the step
@@ -44,6 +45,19 @@ EndFeedBlock moving_block(const ProgramStep& step, std::size_t number) {
   return block;
 }
 
+/// A lifted way, which may come as pieces of constant acceleration: straight ones are one.
+void add_lifted(const ProgramStep& step, std::vector<EndFeedBlock>& blocks) {
+  if (!blocks.empty() && !blocks.back().removes) {
+    EndFeedBlock& last = blocks.back();
+    const double direct = distance(last.start, step.finish), way = last.length() + step.length();
+    if (way - direct <= kStraightWay * way) {
+      last.finish = step.finish;
+      return;
+    }
+  }
+  blocks.push_back({step.start, step.finish, 0.0, false});
+}
+
 }  // namespace
 
 std::vector<EndFeedBlock> blocks_of_motion(const Program& motion, const Progress& progress) {
@@ -59,8 +73,10 @@ std::vector<EndFeedBlock> blocks_of_motion(const Program& motion, const Progress
     if (moves) {
       blocks.push_back(moving_block(step, i));
       speed = blocks.back().speed_out;
-    } else if (!step.removes || step.seconds > 0.0) {
-      blocks.push_back({step.start, step.finish, step.removes ? step.seconds : 0.0, step.removes});
+    } else if (step.removes && step.seconds > 0.0) {
+      blocks.push_back({step.start, step.finish, step.seconds});
+    } else if (!step.removes && step.length() > 0.0) {
+      add_lifted(step, blocks);
     }
   }
   if (speed > 0.0) refuse(motion.steps.size() - 1, "is the last and ends at a speed");

@@ -22,9 +22,10 @@ struct EndFeedBlock {
   bool halts() const { return removes && start == finish; }
 };
 
-/// The blocks of a motion whose every step at work is a halt, or straight at constant acceleration: one each, lifted
-/// ways without their time. Throws InputError naming `export`, the step and what is required: a cubic that is bent or
-/// whose acceleration changes (`schedule` = pvt), a lifted way or a halt that is reached at a speed. Cost O(steps).
+/// The blocks of a motion whose every step at work is a halt, or straight at constant acceleration: one each; a
+/// straight lifted way, in one step or several, is one without its time. Throws InputError naming `export`, the step
+/// and what is required: a cubic that is bent or whose acceleration changes (`schedule` = pvt), a lifted way or a halt
+/// that is reached at a speed. Cost O(steps).
 std::vector<EndFeedBlock> blocks_of_motion(const Program& motion, const Progress& progress = {});
 
 /// A straight step at constant acceleration between two speeds, not both 0.

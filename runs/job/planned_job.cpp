@@ -57,6 +57,11 @@ void check_end_feeds(const JobOptions& options) {
                     "constant",
                     option));
   }
+  if (has_export_over_path(options.exports) && options.schedule == ScheduleKind::Constant) {
+    throw InputError(
+        "`schedule` = constant: with one feed a stroke `export` = flin would say less than plain G-code, whose feeds "
+        "are run at all of the machine's acceleration; required linear, or `template` = siemens-840d");
+  }
   if (options.inches) {
     throw InputError(fmt::format("`units` = inch: programs of {} are in mm; required mm, or another export", option));
   }
@@ -142,14 +147,11 @@ PlannedJob plan_loaded(Job job, JobPath path, double used, const Progress& progr
   if (planned.dwell.motion && planned.dwell.motion->program) {
     planned.program.motion = planned.dwell.motion->program;
   } else if (!option_that_needs_motion(planned.job.options).empty() && planned.dwell.motion) {
-    planned.program.motion = motion_to_be_rounded(
-        *options.machine.machine,
-        [&](double acceleration_share) {
-          return exported_motion(planned.program.table.path, planned.laid.motion, *options.machine.machine,
-                                 options.machine.feed_limits().max_feed, planned.dwell.motion->seconds, progress,
-                                 margins_of(acceleration_share));
-        },
-        options.over_path);
+    planned.program.motion = motion_to_be_rounded(*options.machine.machine, [&](double acceleration_share) {
+      return exported_motion(planned.program.table.path, planned.laid.motion, *options.machine.machine,
+                             options.machine.feed_limits().max_feed, planned.dwell.motion->seconds, progress,
+                             margins_of(acceleration_share));
+    });
   }
   return planned;
 }

@@ -20,7 +20,7 @@ struct DwellOptions {
   double used_seconds = 0.0;    // of these, before find_dwell was called: by reading the input, planning the path
   double certify = 0.0;         // share of the optimum that the objective may be above it, proven; 0 = not asked for
   ScheduleKind schedule = ScheduleKind::Constant;  // how the program for a machine says its speeds
-  bool over_path = false;                          // that program's feeds are linear over the path (path_linear.h), too
+  bool over_path = false;                          // its speeds must be such over the path, too (path_linear.h)
   int rounds = 20;                                 // of correction for the motion of the machine, at most; >= 0
   double fraction = 1.0;                           // of the error, form terms aside, that is to be removed; > 0, <= 1
 };

@@ -23,6 +23,26 @@ struct NamedBlock {
   std::string x, y;  // its end, as the program names it
 };
 
+constexpr double kCrawls = 1.001 * kFeedOfRest;  // F in the place of lower ones [mm/min]
+constexpr double kLessTime = 1e-2;               // of a block's time, which that may cost
+
+/// Speeds that would read as rest are raised to the least that does not.
+void raise_crawling(std::vector<EndFeedBlock>& blocks) {
+  for (std::size_t i = 0; i + 1 < blocks.size(); ++i) {
+    EndFeedBlock &before = blocks[i], &after = blocks[i + 1];
+    const double speed = before.speed_out, raised = units::mm_per_s(kCrawls);
+    if (!(speed > 0.0) || units::mm_per_min(speed) >= kCrawls) continue;
+    const double slower = std::min(before.speed_in, after.speed_out);
+    if (!(raised - speed <= kLessTime * (slower + speed))) {
+      throw InputError(
+          fmt::format("`export` = g293: a speed of {:.3g} mm/min in the motion is not more than that which stands for "
+                      "rest, {} mm/min, beside one of {:.3g} mm/min; required less dwell a stroke, or another format",
+                      units::mm_per_min(speed), kFeedOfRest, units::mm_per_min(slower)));
+    }
+    before.speed_out = after.speed_in = raised;
+  }
+}
+
 class SpeedGcodeWriter {
  public:
   SpeedGcodeWriter(SpeedDialect dialect, const ProgramFrame& frame, const GcodeOptions& options)
@@ -99,8 +119,9 @@ class SpeedGcodeWriter {
       block("G17 G71 G90 G94");
       return;
     }
-    comment("dwell: " + rest_accelerations_text(
-                            {machine_.x.max_acceleration, machine_.y.max_acceleration, machine_.path_acceleration}));
+    const RestAccelerations from_rest{machine_.x.max_acceleration, machine_.y.max_acceleration,
+                                      machine_.path_acceleration};
+    if (from_rest.are_said()) comment("dwell: " + rest_accelerations_text(from_rest));
     block("G17 G90 G94 G710");
     block("G64");
     block("COMPOF");
@@ -175,15 +196,8 @@ class SpeedGcodeWriter {
   }
 
   std::string feed_word(double speed) const {
-    const double feed = units::mm_per_min(speed);
     if (g293_ && !(speed > 0.0)) return fmt::format("{}", kFeedOfRest);
-    if (!(feed > kFeedOfRest)) {
-      throw InputError(
-          fmt::format("`export` = {}: a speed of {:.3g} mm/min in the motion is not more than that which stands for "
-                      "rest, {} mm/min; required less dwell a stroke, or another format",
-                      to_string(dialect_), feed, kFeedOfRest));
-    }
-    return digits_not_above(std::min(feed, options_.max_feed_mm_per_min));
+    return digits_not_above(std::min(units::mm_per_min(speed), options_.max_feed_mm_per_min));
   }
 
   void write_move(const NamedBlock& named) {
@@ -216,7 +230,10 @@ class SpeedGcodeWriter {
 
 std::string speed_gcode_text(SpeedDialect dialect, const std::vector<EndFeedBlock>& blocks, const ProgramFrame& frame,
                              const GcodeOptions& options, const Progress& progress) {
-  return SpeedGcodeWriter(dialect, frame, options).write(blocks, progress);
+  if (dialect == SpeedDialect::Flin) return SpeedGcodeWriter(dialect, frame, options).write(blocks, progress);
+  std::vector<EndFeedBlock> raised = blocks;
+  raise_crawling(raised);
+  return SpeedGcodeWriter(dialect, frame, options).write(raised, progress);
 }
 
 }  // namespace dwell

@@ -15,8 +15,9 @@ namespace dwell {
 /// than kLongestLine. Of `options` count the lift height, the maximum feed, which no F exceeds, the header, the block
 /// numbers and the machine (letters, steps of its places; for FLIN its accelerations, which a comment says). Places
 /// have 6 decimals, F 9 digits, never rounded up. A block shorter than the last decimal goes to the one before it.
-/// Lifted ways are rapids. Throws InputError for an option out of range and for a speed that is not more than that of a
-/// rest (kFeedOfRest), std::logic_error if the blocks are no chain or an even one is of G293. Cost O(blocks).
+/// Lifted ways are rapids. A speed that would read as rest (kFeedOfRest) is raised above it. Throws
+/// InputError for an option out of range and where that would cost over 1 % of a block's time, std::logic_error if the
+/// blocks are no chain or an even one is of G293. Cost O(blocks).
 std::string speed_gcode_text(SpeedDialect dialect, const std::vector<EndFeedBlock>& blocks, const ProgramFrame& frame,
                              const GcodeOptions& options, const Progress& progress = {});
 

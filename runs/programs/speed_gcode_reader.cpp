@@ -168,7 +168,7 @@ class SpeedSteps {
     if (!std::isfinite(acceleration)) {
       fail(
           "FNORM from or to rest: how fast the machine accelerates there is not said; required the comment \"; dwell: "
-          "from rest at x A mm/s^2, y B mm/s^2, path C mm/s^2\", with those that the machine has");
+          "from rest at x A, y B, path C mm/s^2\", with those that the machine has");
     }
     return acceleration;
   }

@@ -209,6 +209,12 @@ class PlainText {
   }
 
   void take_accelerations(std::string_view text) {
+    const std::string_view whole = text;
+    if (text.ends_with(kAccelerationUnit)) {
+      text.remove_suffix(kAccelerationUnit.size());
+    } else {
+      text = {};
+    }
     for (std::string_view field : split(text, ',')) {
       field = trim(field);
       const std::size_t blank = field.find(' ');
@@ -218,13 +224,12 @@ class PlainText {
                      : name == "path" ? &result_.from_rest.path
                                       : nullptr;
       std::optional<double> value;
-      if (slot != nullptr && blank != std::string_view::npos && field.ends_with(kAccelerationUnit) &&
-          field.size() > blank + kAccelerationUnit.size())
-        value = finite_number(field.substr(blank, field.size() - blank - kAccelerationUnit.size()));
+      if (slot != nullptr && blank != std::string_view::npos) value = finite_number(field.substr(blank));
       if (!value || !kAccelerations.holds(*value) || std::isfinite(*slot)) {
         fail(fmt::format(
-            "\"{}\" in the comment \"dwell: {}...\"; accepted: x, y or path, each once, with {} after it, as x 450{}",
-            with_escaped_bytes(field), kRestComment, kAccelerations.text(), kAccelerationUnit));
+            "\"{}\" in the comment \"dwell: {}...\"; accepted: x, y or path, each once, with {} after it, as x 450, "
+            "path 500{}",
+            with_escaped_bytes(whole), kRestComment, kAccelerations.text(), kAccelerationUnit));
       }
       *slot = *value;
     }
@@ -357,13 +362,12 @@ SpeedText plain_gcode_of(std::string_view text, const std::string& file, SpeedDi
 std::string rest_accelerations_text(const RestAccelerations& accelerations) {
   std::string text;
   const auto add = [&text](const char* name, double value) {
-    if (std::isfinite(value))
-      text += fmt::format("{}{} {}{}", text.empty() ? "" : ", ", name, digits_not_above(value), kAccelerationUnit);
+    if (std::isfinite(value)) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name, digits_not_above(value));
   };
   add("x", accelerations.x);
   add("y", accelerations.y);
   add("path", accelerations.path);
-  return std::string(kRestComment) + text;
+  return fmt::format("{}{}{}", kRestComment, text, kAccelerationUnit);
 }
 
 }  // namespace dwell

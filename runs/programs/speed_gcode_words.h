@@ -57,7 +57,7 @@ bool is_speed_gcode(std::string_view text, SpeedDialect dialect);
 SpeedText plain_gcode_of(std::string_view text, const std::string& file, SpeedDialect dialect, AxisLetters letters = {},
                          const Progress& progress = {});
 
-/// What a comment says of the accelerations from rest: "from rest at x 450 mm/s^2, path 500 mm/s^2".
+/// What a comment says of the accelerations from rest: "from rest at x 450, path 500 mm/s^2".
 std::string rest_accelerations_text(const RestAccelerations& accelerations);
 
 }  // namespace dwell

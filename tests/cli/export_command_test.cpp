@@ -21,13 +21,13 @@ TEST(ExportCommand, WritesEveryFormatAndReadsEachBack) {
   const SmallInputs inputs;
   inputs.folder.file("m.toml", kMachine);
   const ProgramResult plan = inputs.run(SmallInputs::plan(
-      {"--machine", "m.toml", "--max-feed", "600", "--export", "flin,g293,pmac,xps-trj,pvt-hdf5,pvt-json,pvt-csv"}));
+      {"--machine", "m.toml", "--max-feed", "600", "--export", "g293,pmac,xps-trj,pvt-hdf5,pvt-json,pvt-csv"}));
   ASSERT_EQ(plan.exit_code, 0) << plan.err;
   expect_has(plan.out, "export    pvt.csv: RMS ");
   expect_has(plan.out, "xps.csv and 1 file: RMS ");
   const json summary = json::parse(read_whole_file(inputs / "plan/summary.json"));
-  ASSERT_EQ(summary["exports"].size(), 7U);
-  EXPECT_EQ(summary["options"]["export"], "pvt-csv,pvt-json,pvt-hdf5,xps-trj,pmac,g293,flin");
+  ASSERT_EQ(summary["exports"].size(), 6U);
+  EXPECT_EQ(summary["options"]["export"], "pvt-csv,pvt-json,pvt-hdf5,xps-trj,pmac,g293");
   const double planned = summary["program"]["residual_rms_nm"];
   const auto names = test::names_in(inputs / "plan");
   for (const json& written : summary["exports"]) {
@@ -53,7 +53,7 @@ TEST(ExportCommand, WritesEveryFormatAndReadsEachBack) {
   expect_has(without.err, "required --start X,Y in mm");
   EXPECT_EQ(inputs.run(test::with(stretch, {"--start", "-2,0"})).exit_code, 0);
   EXPECT_EQ(inputs.run(test::with(stretch, {"--start", "-2"})).exit_code, 2);
-  for (const char* file : {"plan/pvt.csv", "plan/pvt.json", "plan/xps.csv", "plan/g293.nc", "plan/flin.mpf"}) {
+  for (const char* file : {"plan/pvt.csv", "plan/pvt.json", "plan/xps.csv", "plan/g293.nc"}) {
     const ProgramResult other = inputs.run({"simulate", "--program", file, "--map", "tif.csv", "--map-pixel", "0.5",
                                             "--tif", "tif.csv", "--tif-pixel", "0.5"});
     EXPECT_EQ(other.exit_code, 2) << file;
@@ -85,10 +85,12 @@ TEST(ExportCommand, SaysWhatItNeeds) {
   refused(
       {"--export", "g293", "--machine", "m.toml", "--schedule", "pvt"},
       "--schedule = pvt: rounds corners on cubics, which the feeds of --export = g293 cannot say; accepted: linear");
-  refused({"--export", "flin", "--machine", "m.toml", "--units", "inch"},
-          "--units = inch: programs of --export = flin");
+  refused({"--export", "g293", "--machine", "m.toml", "--units", "inch"},
+          "--units = inch: programs of --export = g293");
+  refused({"--export", "flin", "--machine", "m.toml"}, "--schedule = constant: with one feed a stroke --export = flin");
   refused({"--export", "g293", "--machine", "m.toml", "--header", "head.txt"}, "--header: its lines are plain G-code");
-  refused({"--export", "flin", "--machine", "blocks.toml"}, "--export = flin: the --machine has [controller] limits");
+  refused({"--export", "flin", "--machine", "blocks.toml", "--schedule", "linear"},
+          "--export = flin: the --machine has [controller] limits");
   refused({"--export", "g293,pmac", "--machine", "m.toml", "--rotate", "30"}, "places in such a program are those of");
   // The comparison of paths writes plans, too.
   const std::vector<std::string> paths{"paths",          "--map",       "map.csv",  "--map-pixel", "0.5",    "--tif",
