@@ -19,6 +19,7 @@
 namespace dwell {
 namespace {
 
+constexpr ValueRange kFeeds{1e-9, 1e6, "mm/s"};
 constexpr double kSameFeed = 1e-8;  // of a feed
 
 class SpeedSteps {
@@ -86,6 +87,9 @@ class SpeedSteps {
 
   void add_move(const ProgramStep& step, bool rest_follows) {
     const double feed = step.length() / step.seconds;
+    check_within("F", feed, kFeeds);
+    for (const double place : {step.start.x, step.start.y, step.finish.x, step.finish.y})
+      check_within("a place", place, ranges::kPlace);
     EndFeedBlock block{step.start, step.finish};
     block.speed_in = speed_;
     if (dialect_ == SpeedDialect::G293) {
@@ -94,11 +98,15 @@ class SpeedSteps {
       over_path(block, feed, rest_follows || line().stops);
     }
     for (const ProgramStep& made : steps_) {
-      if (!ranges::kTime.holds(made.seconds))
+      if (!(made.seconds > 0.0 && made.seconds <= ranges::kTime.most))
         fail(fmt::format("the move takes {:.3g} s; required {}", made.seconds, ranges::kTime.text()));
       program_.steps.push_back(made);
     }
     speed_ = block.speed_out;
+  }
+
+  void check_within(const char* name, double value, const ValueRange& range) const {
+    if (!range.holds(value)) fail(fmt::format("{} of {:.6g} {}; required {}", name, value, range.unit, range.text()));
   }
 
   void over_time(EndFeedBlock& block, double feed) {

@@ -256,6 +256,8 @@ TEST(SpeedGcode, RefusesRestsOfG293ThatItWouldMisread) {
   };
   refuse("F240.000000\n", "F0.05\n", "line 11: G293 from rest to F0.06");
   refuse("F240.000000\n", "F0\n", "F = 0");
+  refuse("F240.000000\n", "F99999999\n", "line 11: F of 1.66667e+06 mm/s; required");
+  refuse("X2.500000", "X99999999", "line 12: a place of 1e+08 mm; required");
   refuse("F0.06\n#TIME 0.250000000\n", "F6\n", "f.nc, line 15: the tool lifted after a block that ends at F6");
   refuse("G1 G293 X2.500000", "G1 G60 G293 X2.500000", "line 12: G60 stops the move");
   refuse("G1 G60 Z0", "G1 G293 Z0", "line 10: G293 where the tool is lifted or lowered");
