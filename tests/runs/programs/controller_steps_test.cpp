@@ -87,7 +87,7 @@ TEST(ControllerSteps, AreInEveryFormatThatIsReadBack) {
   const Machine machine = coarse_machine(0.001, 0.0001);
   const Program motion = rounded_motion(lifted_motion(), machine);
   for (const ProgramFormat& format : program_formats()) {
-    if (format.word.empty()) continue;
+    if (format.word.empty() || format.in_frame) continue;  // those of feeds hold no times
     const TemporaryFolder folder;
     ProgramWriting writing;
     writing.machine = machine;

@@ -257,7 +257,6 @@ TEST(SpeedGcode, RefusesRestsOfG293ThatItWouldMisread) {
   refuse("F240.000000\n", "F0.05\n", "line 11: G293 from rest to F0.06");
   refuse("F240.000000\n", "F0\n", "F = 0");
   refuse("F240.000000\n", "F99999999\n", "line 11: F of 1.66667e+06 mm/s; required");
-  refuse("X2.500000", "X99999999", "line 12: a place of 1e+08 mm; required");
   refuse("F0.06\n#TIME 0.250000000\n", "F6\n", "f.nc, line 15: the tool lifted after a block that ends at F6");
   refuse("G1 G293 X2.500000", "G1 G60 G293 X2.500000", "line 12: G60 stops the move");
   refuse("G1 G60 Z0", "G1 G293 Z0", "line 10: G293 where the tool is lifted or lowered");
@@ -289,6 +288,7 @@ TEST(SpeedGcode, RefusesFlinThatItWouldMisread) {
   refuse("G4 F0.25", "(halt)\nG4 F0.25", "line 18: \"(halt)\": comments stand behind ;");
   refuse("G710", "G21", "\"G21\": is no word of this controller");
   refuse("G710", "G700", "G700");
+  refuse("X2.500000", "X99999999", "line 15: a place of 1e+08 mm; required");
   refuse("FNORM\nG1 G9 X3", "FNORM\nFCUB\nG1 G9 X3", "\"FCUB\"");
 }
 
