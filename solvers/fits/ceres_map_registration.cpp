@@ -23,6 +23,7 @@
 #include "core/map/robust_plane.h"
 #include "core/numerics/dense_solve.h"
 #include "core/numerics/median.h"
+#include "solvers/fits/spike_removal.h"
 #include "solvers/fits/stop_callback.h"
 
 namespace dwell {
@@ -117,12 +118,6 @@ std::vector<double> residuals(const Pair& pair, const Parameters& q, const std::
   return r;
 }
 
-/// Robust standard deviation of residuals about zero.
-double robust_sigma(std::vector<double> r) {
-  for (double& v : r) v = std::abs(v);
-  return kSigmaPerMedianDeviation * upper_median(std::move(r));
-}
-
 double rms(const std::vector<double>& r) {
   double sum = 0.0;
   for (const double v : r) sum += v * v;
@@ -146,17 +141,6 @@ DifferenceSize size_of_difference(const Pair& pair, const Parameters& q, bool le
   const HeightMap difference = difference_at(pair, q, pixels);
   return {map_statistics(difference, {level, level, false}).rms_about_zero(),
           level ? robust_plane(difference, pixels, true).scatter : robust_sigma(residuals(pair, q, pixels))};
-}
-
-/// The map without its lone spikes, and how many these were. The spline of the moving map rings around each spike, so
-/// the fit would see a pattern that stays with the pixels instead of the surface.
-std::pair<HeightMap, Index> without_spikes(HeightMap map, int threads, const Progress& progress) {
-  const std::vector<Index> pixels = finite_pixels(map);
-  if (pixels.size() < 3) return {std::move(map), 0};
-  const double scatter = robust_plane(map, pixels, true).scatter;
-  const OutlierOptions options{kSpikeSigmas, kSpikeWindow, kLeastSpike * scatter / kSpikeSigmas};
-  const Index spikes = remove_outliers(map, options, threads, progress);
-  return {std::move(map), spikes};
 }
 
 class RegistrationFit {
