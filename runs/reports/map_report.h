@@ -9,11 +9,11 @@
 #include "core/form/robust_pv.h"
 #include "core/map/surface_slope.h"
 #include "core/spectra/psd_line.h"
+#include "core/spectra/wavelength_bands.h"
 #include "runs/base/input_file.h"
 #include "runs/base/json_blocks.h"
 #include "runs/drawing/figure_format.h"
 #include "runs/reports/map_profile.h"
-#include "runs/reports/wavelength_bands.h"
 
 namespace dwell {
 

@@ -8,7 +8,7 @@
 #include "core/base/progress.h"
 #include "core/map/height_map.h"
 #include "core/map/surface_slope.h"
-#include "runs/reports/wavelength_bands.h"
+#include "core/spectra/wavelength_bands.h"
 
 namespace dwell {
 

@@ -4,6 +4,7 @@
 #include "core/map/height_map.h"
 #include "core/numerics/plane_transform.h"
 #include "solvers/fits/registration_start.h"
+#include "solvers/fits/spike_removal.h"
 
 namespace dwell {
 
@@ -54,8 +55,5 @@ MapRegistration register_maps(const HeightMap& moving, const HeightMap& fixed, c
                               int threads = 1, const Progress& progress = {});
 
 inline constexpr Index kRegistrationPoints = 40000;
-inline constexpr double kSpikeSigmas = 5.0;
-inline constexpr Index kSpikeWindow = 5;
-inline constexpr double kLeastSpike = 0.2;  // quantised heights differ by steps from an even neighbourhood
 
 }  // namespace dwell

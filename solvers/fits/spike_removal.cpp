@@ -1,11 +1,11 @@
 #include "solvers/fits/spike_removal.h"
 
 #include <cmath>
+#include <utility>
 
 #include "core/map/map_outliers.h"
 #include "core/map/robust_plane.h"
 #include "core/numerics/median.h"
-#include "solvers/fits/ceres_map_registration.h"
 
 namespace dwell {
 

@@ -38,6 +38,7 @@ const std::map<std::string, RoomRanks>& room_ranks() {
         {"drawing", 0},
         {"programs", 0},
         {"machine", 0},
+        {"acceptance", 0},
         {"logs", 1},
         {"plan", 1},
         {"map_steps", 1},

@@ -1,4 +1,4 @@
-#include "runs/reports/wavelength_bands.h"
+#include "core/spectra/wavelength_bands.h"
 
 #include <fmt/format.h>
 
