@@ -10,6 +10,7 @@ void add_paths_command(CLI::App& program, int& exit_code);
 void add_pareto_command(CLI::App& program, int& exit_code);
 void add_simulate_command(CLI::App& program, int& exit_code);
 void add_map_command(CLI::App& program, int& exit_code);
+void add_profile_command(CLI::App& program, int& exit_code);
 void add_tif_command(CLI::App& program, int& exit_code);
 void add_machine_command(CLI::App& program, int& exit_code);
 /// Its subcommand `fit`.

@@ -21,6 +21,7 @@ const std::map<std::string, RoomRanks>& room_ranks() {
         {"numerics", 1},
         {"motion", 1},
         {"map", 2},
+        {"profile", 2},
         {"formats", 3},
         {"form", 3},
         {"spectra", 3},

@@ -72,6 +72,7 @@ struct CommandInputs : SmallInputs {
     EXPECT_EQ(machine.exit_code, 0);
     folder.file("machine.toml", machine.out);
     folder.file("blocks.toml", "path_acceleration_mm_per_s2 = 500\n[controller]\nmax_blocks_per_s = 20\n");
+    folder.file("line.txt", "x_mm slope_urad\n0 -112.01\n20 -56.96\n35 -15.26\n60 54.61\n80 111.11\n100 167.97\n");
     EXPECT_EQ(run(SmallInputs::plan()).exit_code, 0);
     const MotionLog log = test::made_up_log(read_program(*this / "plan/program.nc"), example_machine().machine);
     folder.file("run.csv", test::log_text(log, "t_s,x_mm,y_mm"));
@@ -112,6 +113,7 @@ std::map<std::string, std::vector<Words>> runs_of_commands() {
        {kMap,
         with(kMap, {"--form", "zernike-noll:1-6", "--remove", "legendre:1", "--limit", "1e-9,2", "--profile", "y=3"}),
         with(kMap, {"--form", "legendre:2", "--limit", "radial:1e9,2"})}},
+      {"profile", {{"profile", "line.txt", "--remove", "ellipse:p=7500,q=2500,angle=0.6"}, {"profile", "line.txt"}}},
       {"tif",
        {{"tif", "gaussian:peak=2,fwhm=3,radius=4"},
         {"tif", "tif.csv", "--tif-pixel", "0.5", "--tif-pedestal", "taper"},

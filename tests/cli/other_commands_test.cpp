@@ -16,7 +16,7 @@ using test::SmallInputs;
 
 TEST(Help, OfEverySubcommandShowsAnExampleAndItsUnits) {
   const test::TemporaryFolder folder;
-  for (const char* command : {"plan", "paths", "pareto", "simulate", "map", "tif", "example"}) {
+  for (const char* command : {"plan", "paths", "pareto", "simulate", "map", "profile", "tif", "example"}) {
     const ProgramResult result = test::run_program(folder.path(), {command, "--help"});
     EXPECT_EQ(result.exit_code, 0) << command;
     expect_has(result.out, "Example:\n  dwell " + std::string(command));

@@ -13,6 +13,7 @@
 #include "core/formats/map_formats.h"
 #include "core/formats/map_io.h"
 #include "core/formats/npy_sidecar.h"
+#include "core/formats/profile_text.h"
 #include "core/map/aperture.h"
 #include "paths/path_catalogue.h"
 #include "paths/path_file.h"
@@ -50,6 +51,7 @@ std::map<std::string, Read> readers() {
       {"xyz_text", read_as_map},
       {"npy_sidecar",
        [](const auto& file) { parse_npy_sidecar(read_whole_file(file), std::string(64, 'a'), file.string()); }},
+      {"profile_text", [](const auto& file) { parse_profile_text(read_whole_file(file), {}, file.string()); }},
       {"path_file", [](const auto& file) { read_path_file(file); }},
       {"path_spec", [](const auto& file) { parse_path_spec(read_whole_file(file)); }},
       {"spec_text", [](const auto& file) { parse_spec_text(read_whole_file(file), "seed"); }},
@@ -67,8 +69,9 @@ std::map<std::string, Read> readers() {
 
 TEST(FuzzSeeds, AreReadButForThoseThatShowARefusal) {
   const std::filesystem::path seeds = std::filesystem::path(DWELL_SOURCE_DIR) / "tests/fuzz/seeds";
-  const std::set<std::string> refused{"far.xyz",     "rounding.xyz", "blanks.txt", "index.csv",     "scattered.xyz",
-                                      "images.fits", "remarks.csv",  "last.csv",   "wavefront.int", "one.trj"};
+  const std::set<std::string> refused{"far.xyz",       "rounding.xyz", "blanks.txt",  "index.csv",
+                                      "scattered.xyz", "images.fits",  "remarks.csv", "last.csv",
+                                      "wavefront.int", "one.trj",      "twice.csv"};
   std::size_t bytes = 0;
   for (const auto& [name, read] : readers()) {
     std::size_t files = 0;

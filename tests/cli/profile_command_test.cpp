@@ -1,0 +1,75 @@
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <string>
+
+#include "core/base/whole_file.h"
+#include "core/profile/ellipse_mirror.h"
+#include "tests/cli/program_run.h"
+#include "tests/core/base/temporary_folder.h"
+
+namespace dwell {
+namespace {
+
+using nlohmann::json;
+using test::expect_has;
+using test::ProgramResult;
+using test::TemporaryFolder;
+
+/// A NOM's file of an elliptical mirror, slopes of the other sign, pole at x = 90 mm, 0.5 urad of ripple.
+std::string nom_text() {
+  std::string text = "#measuring device: NOM\r\n#residual slope [urad]: 0.5\r\n#x-position [mm]; y-slope [urad]\r\n";
+  for (int i = 0; i < 401; ++i) {
+    const double x = 0.5 * i;
+    const double slope = 1e6 * ellipse_at({7500.0, 2500.0, 0.6 * std::acos(-1.0) / 180.0}, x - 90.0).slope;
+    text += fmt::format("{:.2f}\t{:.7f}\r\n", x, -(slope + 0.5 * std::sqrt(2.0) * std::sin(0.2 * x) + 31.0));
+  }
+  return text;
+}
+
+const std::string kEllipse = "ellipse:p=7500,q=2500,angle=0.6";
+
+TEST(ProfileCommand, TakesTheEllipseOutAndWritesWhatItReadsBack) {
+  const TemporaryFolder folder;
+  folder.file("nom.dat", nom_text());
+  const ProgramResult result =
+      test::run_program(folder.path(), {"profile", "nom.dat", "--columns", "x,slope", "--unit", "mm,-urad", "--remove",
+                                        kEllipse, "--write", "rest.csv", "--png", "rest.png", "--json=rest.json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  expect_has(result.out, "0.5 mm apart");
+  expect_has(result.out, "(fitted)");
+  const json printed = json::parse(read_whole_file(folder.path() / "rest.json"));
+  EXPECT_EQ(printed["profile"]["places"], 401);
+  EXPECT_EQ(printed["profile"]["value_unit"], "-urad");
+  EXPECT_NEAR(printed["removed"]["pole_mm"].get<double>(), 90.0, 2.0);
+  EXPECT_NEAR(printed["after"]["slope_rms_urad"].get<double>(), 0.5, 0.01);
+  EXPECT_GT(printed["before"]["slope_rms_urad"].get<double>(), 100.0);
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "rest.png"));
+  const ProgramResult again = test::run_program(folder.path(), {"profile", "rest.csv", "--remove", "none", "--json"});
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_EQ(json::parse(again.out)["after"], printed["after"]);
+}
+
+TEST(ProfileCommand, SaysTheOtherSignAndRefusesWithFlags) {
+  const TemporaryFolder folder;
+  folder.file("nom.dat", nom_text());
+  const auto refused = [&folder](const std::vector<std::string>& more, const std::string& word) {
+    std::vector<std::string> words{"profile", "nom.dat"};
+    words.insert(words.end(), more.begin(), more.end());
+    const ProgramResult result = test::run_program(folder.path(), words);
+    EXPECT_EQ(result.exit_code, 2) << word;
+    expect_has(result.err, word);
+  };
+  refused({"--remove", kEllipse}, "the other sign of the values would leave");
+  refused({"--remove", "ellipse:p=7500"}, "--remove: form \"ellipse:p=7500\"");
+  refused({"--unit", "mm,mrad"}, "--unit says 'mrad'");
+  refused({"--columns", "x,phase"}, "--columns: no column is named 'phase'");
+  refused({"--write", "nom.dat"}, "--write");
+  refused({"--write", "a.xyz"}, ".csv");
+  EXPECT_EQ(test::run_program(folder.path(), {"profile", "none.dat"}).exit_code, 2);
+}
+
+}  // namespace
+}  // namespace dwell
