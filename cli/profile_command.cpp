@@ -1,30 +1,43 @@
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "cli/commands.h"
 #include "cli/json_option.h"
 #include "cli/named_option.h"
+#include "cli/number_option.h"
 #include "cli/output_files.h"
 #include "cli/progress_line.h"
 #include "cli/terminal.h"
+#include "core/base/errors.h"
+#include "core/formats/map_formats.h"
 #include "runs/reports/profile_report.h"
+#include "runs/reports/profile_strip.h"
 
 namespace dwell::cli {
 namespace {
 
 struct ProfileArguments {
-  std::string file, remove = "piston,tilt", write, png;
+  std::string file, remove = "piston,tilt", write, write_map, png;
+  std::optional<double> line_width;
   ProfileReadOptions read;
   JsonOption json;
 };
 
 int run_profile(const ProfileArguments& a) {
   const ProfileForm form = of_option("--remove", [&a] { return parse_profile_form(a.remove); });
+  if (a.line_width && a.write_map.empty()) throw InputError("--line-width: of --write-map, which is not given");
   using Kind = OutputFile::Kind;
-  check_output_files({{Kind::Table, "--write", a.write}, a.json.output(), {Kind::Figure, "--png", a.png}},
+  check_output_files({{Kind::Table, "--write", a.write},
+                      {Kind::Map, "--write-map", a.write_map},
+                      a.json.output(),
+                      {Kind::Figure, "--png", a.png}},
                      {{"the profile", a.file}});
   const ProfileReport report = read_profile(a.file, a.read, form);
+  std::optional<HeightMap> strip;
+  if (!a.write_map.empty()) strip = profile_strip(report, a.line_width.value_or(0.0));
   PendingFiles files;
+  if (strip) files.add_map(a.write_map, *strip);
   files.add(a.write, [&report] { return profile_rest_csv(report); });
   files.add(a.png, [&] { return profile_rest_picture(report, figure_format_of_file(a.png)); });
   files.write();
@@ -55,6 +68,12 @@ void add_profile_command(CLI::App& program, int& exit_code) {
        "arms to source and image, angle grazing (default piston,tilt)");
   arguments->json.add_to(*command);
   text("--write", arguments->write, "FILE.csv", "write the rest: x [mm], slope [urad] and height [nm]");
+  text("--write-map", arguments->write_map, "FILE",
+       "write the heights of the rest as a map to plan on, one row of pixels or --line-width wide");
+  constexpr ValueRange kWidths{1e-6, 1e6, "mm"};
+  add_number(*command, "--line-width", arguments->line_width, kWidths,
+             "width of that map in mm, the same height in every row (default: one row)")
+      ->type_name("MM");
   text("--png", arguments->png, "FILE", "draw slope and height of the rest: .png, .svg or .pdf");
   command->footer(
       "Example:\n  dwell profile nom.dat --columns x,slope --unit mm,-urad --remove "

@@ -36,7 +36,7 @@ SlopeStatistics slope_statistics(const HeightMap& map, int threads) {
   };
   s.x = rms(s.x, s.pairs_x, g.pitch_x);
   s.y = rms(s.y, s.pairs_y, g.pitch_y);
-  s.total = std::hypot(s.x, s.y);
+  s.total = s.pairs_y == 0 ? s.x : s.pairs_x == 0 ? s.y : std::hypot(s.x, s.y);
   return s;
 }
 

@@ -8,7 +8,7 @@ namespace dwell {
 struct SlopeStatistics {
   double x = 0.0;      // RMS of (z(x + hx, y) - z(x, y)) / hx over all pairs both valid; NaN without any
   double y = 0.0;      // likewise along y
-  double total = 0.0;  // sqrt(x^2 + y^2); NaN if one is
+  double total = 0.0;  // sqrt(x^2 + y^2), or the one that has pairs: of a line, its own; NaN without any
   Index pairs_x = 0, pairs_y = 0;
 };
 

@@ -1,5 +1,6 @@
 #include "core/numerics/cubic_spline.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <stdexcept>
 #include <utility>
@@ -47,6 +48,14 @@ CubicSpline::CubicSpline(std::vector<double> places, std::vector<double> values)
   derivatives_[n - 1] = rows[n - 1].right / rows[n - 1].diagonal;
   for (std::size_t i = n - 1; i-- > 0;)
     derivatives_[i] = (rows[i].right - rows[i].after * derivatives_[i + 1]) / rows[i].diagonal;
+}
+
+double CubicSpline::value(double place) const {
+  const auto after = std::upper_bound(places_.begin() + 1, places_.end() - 1, place);
+  const auto i = static_cast<std::size_t>(after - places_.begin()) - 1;
+  const double h = places_[i + 1] - places_[i], t = (place - places_[i]) / h, s = 1.0 - t;
+  return values_[i] * s * s * (1.0 + 2.0 * t) + values_[i + 1] * t * t * (1.0 + 2.0 * s) +
+         h * s * t * (derivatives_[i] * s - derivatives_[i + 1] * t);
 }
 
 std::vector<double> CubicSpline::integrals() const {

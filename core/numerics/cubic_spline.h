@@ -16,6 +16,10 @@ class CubicSpline {
   /// The first derivative at every place.
   const std::vector<double>& derivatives() const { return derivatives_; }
 
+  /// The value at a place within the first and the last one; beyond these, the outermost cubic goes on. Cost
+  /// O(log places).
+  double value(double place) const;
+
   /// The integral from the first place to every place, exact for the spline. Cost O(places).
   std::vector<double> integrals() const;
 

@@ -52,6 +52,30 @@ TEST(ProfileCommand, TakesTheEllipseOutAndWritesWhatItReadsBack) {
   EXPECT_EQ(json::parse(again.out)["after"], printed["after"]);
 }
 
+TEST(ProfileCommand, WritesAStripThatAPlanCorrects) {
+  const TemporaryFolder folder;
+  folder.file("nom.dat", nom_text());
+  const ProgramResult made = test::run_program(folder.path(), {"profile", "nom.dat", "--unit", "mm,-urad", "--remove",
+                                                               kEllipse, "--write-map", "line.npy", "--json"});
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  std::string track = "x_mm,y_mm\n";
+  for (int i = -10; i <= 210; ++i) track += fmt::format("{},0\n", i);
+  folder.file("track.csv", track);
+  const ProgramResult planned =
+      test::run_program(folder.path(), {"plan", "--map", "line.npy", "--tif", "gaussian:peak=1,fwhm=8,radius=12",
+                                        "--path", "file:track.csv", "--time-price", "0", "--out", "plan", "--json"});
+  ASSERT_EQ(planned.exit_code, 0) << planned.err;
+  const json plan = json::parse(planned.out);
+  EXPECT_EQ(plan["map"]["rows"], 1);
+  EXPECT_EQ(plan["map"]["columns"], 401);
+  const auto slope = [&plan](const char* when) {
+    return plan["surface"][when]["slope_rms_urad"]["total"].get<double>();
+  };
+  // From pixel to pixel, of a ripple of 31 mm: the slope of the profile.
+  EXPECT_NEAR(slope("before"), json::parse(made.out)["after"]["slope_rms_urad"].get<double>(), 0.01);
+  EXPECT_LT(slope("after"), 0.3 * slope("before"));
+}
+
 TEST(ProfileCommand, SaysTheOtherSignAndRefusesWithFlags) {
   const TemporaryFolder folder;
   folder.file("nom.dat", nom_text());
@@ -68,6 +92,8 @@ TEST(ProfileCommand, SaysTheOtherSignAndRefusesWithFlags) {
   refused({"--columns", "x,phase"}, "--columns: no column is named 'phase'");
   refused({"--write", "nom.dat"}, "--write");
   refused({"--write", "a.xyz"}, ".csv");
+  refused({"--line-width", "5"}, "--line-width: of --write-map");
+  refused({"--write-map", "a.npy", "--line-width", "5.2"}, "--line-width = 5.2 mm; required a multiple of the 0.5 mm");
   EXPECT_EQ(test::run_program(folder.path(), {"profile", "none.dat"}).exit_code, 2);
 }
 

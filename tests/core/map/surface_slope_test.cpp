@@ -29,7 +29,8 @@ TEST(Slope, WithoutPairsIsNone) {
   const SlopeStatistics s = slope_statistics(row);
   EXPECT_NEAR(s.x, std::sqrt((4.0 + 16.0) / 2.0), 1e-12);
   EXPECT_TRUE(std::isnan(s.y));
-  EXPECT_TRUE(std::isnan(s.total));
+  EXPECT_EQ(s.total, s.x);  // a line has the slope along it alone
+  EXPECT_FALSE(std::isnan(s.total));
 }
 
 TEST(RobustPv, IgnoresASpikeAndKeepsTheForm) {

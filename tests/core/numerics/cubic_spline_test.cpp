@@ -52,6 +52,10 @@ TEST(CubicSpline, IsThatOfItsDefinition) {
       for (Eigen::Index k = 0; k < 4; ++k)
         sum += c[at + k] * std::pow(h, static_cast<double>(k + 1)) / static_cast<double>(k + 1);
       EXPECT_NEAR(integrals[i + 1], sum, 1e-11) << i;
+      for (const double t : {0.0, 0.3, 0.8}) {
+        const double v = c[at] + t * h * (c[at + 1] + t * h * (c[at + 2] + t * h * c[at + 3]));
+        EXPECT_NEAR(spline.value(x[i] + t * h), v, 1e-11) << i;
+      }
     }
   }
 }
@@ -65,6 +69,7 @@ TEST(CubicSpline, ReproducesACubicWithItsIntegral) {
   for (std::size_t i = 0; i < kUneven.size(); ++i) {
     const double x = kUneven[i];
     EXPECT_NEAR(spline.derivatives()[i], -1.0 + x - 0.75 * x * x, 1e-12);
+    EXPECT_NEAR(spline.value(x + 0.4), value(x + 0.4), 1e-12);  // at the last place, beyond it
     EXPECT_NEAR(spline.integrals()[i], whole(x) - whole(kUneven[0]), 1e-12);
   }
 }
