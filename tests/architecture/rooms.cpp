@@ -46,7 +46,8 @@ const std::map<std::string, RoomRanks>& room_ranks() {
         {"job", 2},
         {"reports", 3},
         {"example", 3},
-        {"campaigns", 4}}}};
+        {"campaigns", 4},
+        {"figure", 4}}}};
   return kRanks;
 }
 
