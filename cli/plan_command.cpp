@@ -126,9 +126,10 @@ std::string plan_text(const PlannedJob& plan, const WrittenPlan& written) {
                   to_string(plan.dwell.solver.status), counted(plan.dwell.solver.iterations, "iteration"),
                   counted(plan.dwell.solver.operator_applications, "operator application"), plan.dwell.solver.seconds);
   text += optimum_line(plan.dwell);
-  text += fmt::format("dwell     total {}, from {:.4g} s to {:.4g} s a point, step RMS {:.4g} s\n",
-                      duration_text(plan.dwell.seconds.sum()), plan.dwell.seconds.minCoeff(),
-                      plan.dwell.seconds.maxCoeff(), plan.dwell.step_rms);
+  text +=
+      fmt::format("dwell     total {}, from {:.4g} s to {:.4g} s a point, step RMS {:.4g} s{}\n",
+                  duration_text(plan.dwell.seconds.sum()), plan.dwell.seconds.minCoeff(), plan.dwell.seconds.maxCoeff(),
+                  plan.dwell.step_rms, plan.dwell.motion ? "; before the correction for the machine's motion" : "");
   text += fmt::format("feed      {:.4g} to {:.4g} mm/min, {} of {} segments at a limit\n",
                       units::mm_per_min(plan.program.feed.min_speed), units::mm_per_min(plan.program.feed.max_speed),
                       plan.program.feed.segments_limited, plan.laid.path.size());
@@ -143,7 +144,7 @@ std::string plan_text(const PlannedJob& plan, const WrittenPlan& written) {
   text += anatomy_lines(written.anatomy, written.exact.statistics) + left_out_line(plan.dwell) + cost_line(plan);
   text += fmt::format("help      {}\n", written.advice) + surface_lines(written.surface);
   text += fmt::format("time      {} for the run: dwell {:.2f} s, {}\n", duration_text(written.run_seconds),
-                      plan.dwell.seconds.sum(), travel_words(written.travel));
+                      plan.dwell.run_dwell(), travel_words(written.travel));
   for (const std::string& warning : written.warnings) text += fmt::format("warning   {}\n", warning);
   return text;
 }

@@ -40,7 +40,8 @@ EndFeedBlock moving_block(const ProgramStep& step, std::size_t number) {
   EndFeedBlock block{step.start, step.finish};
   block.speed_in = speed_along(step.speeds->in, along, number);
   block.speed_out = speed_along(step.speeds->out, along, number);
-  const double seconds = 2.0 * length / (block.speed_in + block.speed_out);
+  // By the speeds as they are: one that counts as rest may be a share of a slow one beside it.
+  const double seconds = 2.0 * length / (dwell::length(step.speeds->in) + dwell::length(step.speeds->out));
   if (!(std::abs(step.seconds - seconds) <= kConstant * seconds)) refuse(number, "has no constant acceleration");
   return block;
 }

@@ -16,7 +16,8 @@ namespace {
 // A stretch of constant acceleration is cut into so many parts of equal change of speed if it begins or ends at rest,
 // and into fewer where the speed changes by less.
 constexpr double kPartsFromRest = 12.0;
-// Arcs are run as chords, each in its exact time, that lie beside them by no more than this.
+// Arcs are run as chords, each in its exact time, that lie beside them by no more than this; and where the acceleration
+// changes evenly, places between nodes are those of constant acceleration within this.
 constexpr double kChordWithin = 1e-4;  // [mm]
 
 class Runner {
@@ -117,9 +118,12 @@ class Runner {
     if (piece.speed_in != piece.speed_out) result_.max_acceleration = std::max(result_.max_acceleration, acceleration);
   }
 
+  /// At constant jerk j, a part of T seconds that counts as one of constant acceleration is off by j T^3 / 12 at most.
   static double parts_of(const MotionPiece& piece) {
     const double change = std::abs(piece.speed_out - piece.speed_in);
-    return std::max(1.0, std::ceil(kPartsFromRest * change / std::max(piece.speed_in, piece.speed_out)));
+    const double bent = piece.seconds() * std::cbrt(std::abs(piece.jerk) / (12.0 * kChordWithin));
+    return std::max(
+        {1.0, std::ceil(kPartsFromRest * change / std::max(piece.speed_in, piece.speed_out)), std::ceil(bent)});
   }
 
   /// A piece in so many parts of equal time; `after`(s, v, seconds) is told the end of each.

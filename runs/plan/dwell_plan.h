@@ -38,6 +38,10 @@ struct DwellPlan {
   std::optional<MotionPlan> motion;  // what the machine makes of it, where there is one
   std::optional<LeftOut> left_out;   // of the fit, where blemishes are to be
   std::vector<std::string> limits;   // that were reached, one sentence each
+
+  /// The dwell as it is run [s]: what the machine takes for the strokes after the rounds of correction, or the sum of
+  /// `seconds` without one.
+  double run_dwell() const { return motion ? motion->seconds.sum() : seconds.sum(); }
 };
 
 /// Solves the dwell problem of a part and a path laid on it, on a lattice that holds the removal function; where the

@@ -309,7 +309,7 @@ WrittenPlan write_plan(const PlannedJob& plan, const OutputFolder& folder, const
   written.travel.lifted = program.rapid_seconds(max_feed);  // as simulate reads it
   const bool moves = plan.laid.motion == Motion::Moving;
   for (const std::string& warning :
-       run_warnings({written.run_seconds, plan.dwell.seconds.sum(), moves ? program.removing_length() : 0.0})) {
+       run_warnings({written.run_seconds, plan.dwell.run_dwell(), moves ? program.removing_length() : 0.0})) {
     written.warnings.push_back(with_option_names(warning, flag_of));
   }
   if (auto warning = little_gained(plan, plan.part().before, written.exact.statistics)) {

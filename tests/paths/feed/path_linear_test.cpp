@@ -146,6 +146,19 @@ TEST(PathLinear, RunsBothEndsOfRestAtTheMachinesAcceleration) {
   EXPECT_FALSE(has_room(block, 24.9));
 }
 
+TEST(EndFeedBlocks, TakeASpeedNearRestAsRest) {
+  // From 0.34 mm/s to 0.96 um/s: what is dropped is 3e-6 of the speeds together.
+  const double out = 9.6e-7, seconds = 2.0 * 0.5 / (0.34 + out);
+  const Program motion{"",
+                       {{{0.0, 0.0}, {0.5, 0.0}, 2.0 * 0.5 / 0.34, true, EndSpeeds{{}, {0.34, 0.0}}},
+                        {{0.5, 0.0}, {1.0, 0.0}, seconds, true, EndSpeeds{{0.34, 0.0}, {out, 0.0}}},
+                        {{1.0, 0.0}, {1.0, 0.0}, 0.1, true}}};
+  const std::vector<EndFeedBlock> blocks = blocks_of_motion(motion);
+  ASSERT_EQ(blocks.size(), 3U);
+  EXPECT_EQ(blocks[1].speed_in, 0.34);
+  EXPECT_EQ(blocks[1].speed_out, 0.0);
+}
+
 TEST(EndFeedBlocks, RefuseWhatNoFeedAtTheEndSays) {
   const auto refusal = [](const ProgramStep& step) -> std::string {
     try {

@@ -179,5 +179,20 @@ TEST(SpeedChange, ExecutesMovesByS) {
   EXPECT_GT(k, 10U);
 }
 
+TEST(SpeedChange, TablesOfMotionAreOfConstantAccelerationBetweenRows) {
+  Machine machine;
+  machine.path_acceleration = 100.0, machine.path_jerk = 800.0;
+  Program program;
+  program.steps = {{{0.0, 0.0}, {8.0, 6.0}, 0.7, true}, {{8.0, 6.0}, {9.0, 1.0}, 1.3, true}};
+  const std::vector<MotionNode> nodes = motion_nodes(program, machine);
+  double farthest = 0.0;
+  for (std::size_t k = 1; k < nodes.size(); ++k) {
+    const double way = 0.5 * (nodes[k].speed + nodes[k - 1].speed) * (nodes[k].seconds - nodes[k - 1].seconds);
+    farthest = std::max(farthest, std::abs(way - distance(nodes[k].place, nodes[k - 1].place)));
+  }
+  EXPECT_LE(farthest, 1e-4);
+  EXPECT_GT(farthest, 1e-6);  // it is no constant acceleration
+}
+
 }  // namespace
 }  // namespace dwell
