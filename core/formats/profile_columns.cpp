@@ -39,7 +39,7 @@ std::string take_trailing(std::string& name) {
   for (const std::string_view mark : {"_", "/", ",", " in ", " "}) {
     const std::size_t at = mark == "/" ? name.find(mark) : name.rfind(mark);
     if (at == std::string::npos) continue;
-    const std::string unit(trim(std::string_view(name).substr(at + mark.size())));
+    std::string unit(trim(std::string_view(name).substr(at + mark.size())));
     if (!is_profile_unit(unit)) continue;
     name.resize(at);
     return unit;
@@ -91,6 +91,7 @@ std::vector<std::string> with_units_joined(const std::vector<std::string>& field
 std::vector<ProfileColumn> columns_of(const std::vector<std::string>& fields, std::size_t count) {
   if (fields.size() != count) return {};
   std::vector<ProfileColumn> columns;
+  columns.reserve(count);
   for (const std::string& field : fields) columns.push_back(column_of(field));
   const bool place = std::any_of(columns.begin(), columns.end(), [](const auto& c) { return c.is_place(); });
   const bool value =

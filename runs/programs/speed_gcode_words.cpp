@@ -238,15 +238,14 @@ class PlainText {
   void take_command(std::string_view text) {
     constexpr std::string_view kSlope = "#SLOPE", kTime = "#TIME";
     const std::string command = bare(text);
-    if (dialect_ != SpeedDialect::G293) {
-      result_.plain += text;
-    } else if (command.starts_with(kSlope)) {
+    const bool knows_it = dialect_ == SpeedDialect::G293;
+    if (knows_it && command.starts_with(kSlope)) {
       if (command != "#SLOPE[TYPE=STEP]") {
         fail(
             fmt::format("\"{}\"; accepted: #SLOPE [TYPE=STEP], with which G293 works", with_escaped_bytes(trim(text))));
       }
       prepared_ = true;
-    } else if (command.starts_with(kTime)) {
+    } else if (knows_it && command.starts_with(kTime)) {
       result_.plain += "G4 P";
       result_.plain += trim(text).substr(kTime.size());
     } else {
@@ -256,16 +255,15 @@ class PlainText {
 
   void take_letters(std::string_view text) {
     const std::string word = bare(text);
-    if (dialect_ == SpeedDialect::G293) {
-      result_.plain += text;
-    } else if (word == "FLIN") {
+    const bool knows_it = dialect_ == SpeedDialect::Flin;
+    if (knows_it && word == "FLIN") {
       if (!uncompressed_)
         fail("FLIN: a group of blocks that is compressed takes its last F alone; required COMPOF before");
       if (!prepared_) fail("FLIN: with exact stops at the end of blocks no feed is reached there; required G64 before");
       linear_ = true;
-    } else if (word == "FNORM") {
+    } else if (knows_it && word == "FNORM") {
       linear_ = false;
-    } else if (word == "COMPOF") {
+    } else if (knows_it && word == "COMPOF") {
       uncompressed_ = true;
     } else {
       result_.plain += text;
