@@ -23,8 +23,8 @@
 #include "core/map/robust_plane.h"
 #include "core/numerics/dense_solve.h"
 #include "core/numerics/median.h"
+#include "solvers/fits/robust_solve.h"
 #include "solvers/fits/spike_removal.h"
-#include "solvers/fits/stop_callback.h"
 
 namespace dwell {
 namespace {
@@ -155,24 +155,13 @@ class RegistrationFit {
 
   /// One robust fit from q. Returns the number of iterations. Throws Interrupted.
   int run(Parameters& q, const std::vector<Index>& pixels, const Progress& progress) {
-    constexpr double kCauchy = 2.3849;
-    width_ = kCauchy * robust_sigma(residuals(pair_, q, pixels));
-    if (!(width_ > 0.0)) width_ = std::numeric_limits<double>::min();  // equal maps: nothing left to be robust against
-    ceres::Problem::Options ownership;
-    ownership.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+    width_ = cauchy_width(residuals(pair_, q, pixels));
     ceres::CauchyLoss loss(width_);
-    ceres::Problem problem(ownership);
+    ceres::Problem problem(with_own_loss());
     problem.AddParameterBlock(q.data(), kParameters);
     if (!held_.empty()) problem.SetManifold(q.data(), new ceres::SubsetManifold(kParameters, held_));
     for (const Index i : pixels) problem.AddResidualBlock(new PixelResidual(pair_, i), &loss, q.data());
-    ceres::Solver::Options o;
-    o.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
-    o.max_num_iterations = 50;
-    o.function_tolerance = 1e-12;
-    o.parameter_tolerance = 1e-12;
-    o.num_threads = threads_;
-    o.logging_type = ceres::SILENT;
-    return static_cast<int>(solve_with_stop(o, problem, progress).iterations.size());
+    return solve_registration(problem, threads_, progress);
   }
 
   /// Standard errors of all parameters, from the weights of the last fit.

@@ -16,8 +16,8 @@
 #include "core/base/errors.h"
 #include "core/map/map_sampler.h"
 #include "core/numerics/dense_solve.h"
+#include "solvers/fits/robust_solve.h"
 #include "solvers/fits/spike_removal.h"
-#include "solvers/fits/stop_callback.h"
 
 namespace dwell {
 namespace {
@@ -172,23 +172,13 @@ class RemovalRegistrationFit {
   }
 
   int run(RemovalNumbers& q, const std::vector<Index>& pixels, const Progress& progress) {
-    constexpr double kCauchy = 2.3849;
-    loss_width_ = std::max(kCauchy * robust_sigma(residuals(q, pixels)), std::numeric_limits<double>::min());
-    ceres::Problem::Options ownership;
-    ownership.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+    loss_width_ = cauchy_width(residuals(q, pixels));
     ceres::CauchyLoss loss(loss_width_);
-    ceres::Problem problem(ownership);
+    ceres::Problem problem(with_own_loss());
     problem.AddParameterBlock(q.data(), kRemovalNumbers);
     if (!held_.empty()) problem.SetManifold(q.data(), new ceres::SubsetManifold(kRemovalNumbers, held_));
     for (const Index i : pixels) problem.AddResidualBlock(new RemovalResidual(pair_, i), &loss, q.data());
-    ceres::Solver::Options o;
-    o.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
-    o.max_num_iterations = 50;
-    o.function_tolerance = 1e-12;
-    o.parameter_tolerance = 1e-12;
-    o.num_threads = threads_;
-    o.logging_type = ceres::SILENT;
-    return static_cast<int>(solve_with_stop(o, problem, progress).iterations.size());
+    return solve_registration(problem, threads_, progress);
   }
 
   /// Level alone, by least squares: what the fit starts from.
