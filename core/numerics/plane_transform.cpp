@@ -19,6 +19,12 @@ PlaneTransform PlaneTransform::inverse() const {
   return result;
 }
 
+PlaneTransform composed(const PlaneTransform& second, const PlaneTransform& first) {
+  return {second.xx * first.xx + second.xy * first.yx, second.xx * first.xy + second.xy * first.yy,
+          second.yx * first.xx + second.yy * first.yx, second.yx * first.xy + second.yy * first.yy,
+          second(first.shift)};
+}
+
 PlaneTransform similarity(Point centre, Point displacement, double degrees, double scale) {
   const double angle = degrees * std::numbers::pi / 180.0;
   const double c = scale * std::cos(angle), s = scale * std::sin(angle);

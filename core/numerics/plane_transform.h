@@ -15,6 +15,9 @@ struct PlaneTransform {
   PlaneTransform inverse() const;
 };
 
+/// p -> second(first(p)).
+PlaneTransform composed(const PlaneTransform& second, const PlaneTransform& first);
+
 /// p -> centre + displacement + scale R (p - centre), where R turns counter-clockwise by `degrees`.
 PlaneTransform similarity(Point centre, Point displacement, double degrees, double scale);
 

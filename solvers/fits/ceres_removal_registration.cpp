@@ -22,10 +22,23 @@
 namespace dwell {
 namespace {
 
-/// What is fitted: shift [mm], rotation [rad], scale - 1, rate, width - 1, and piston and slopes [nm, nm/mm] of the
-/// level about the middle.
-constexpr int kRemovalNumbers = 9;
-enum RemovalNumber : int { kShiftX, kShiftY, kTurn, kGrowth, kRate, kWidth, kLevel, kTiltX, kTiltY };
+/// What is fitted: shift [mm], rotation [rad], scale - 1, rate, width - 1, and the form terms of the level about the
+/// middle: piston [nm], slopes [nm/mm], power and astigmatism [nm/mm^2].
+constexpr int kRemovalNumbers = 12;
+enum RemovalNumber : int {
+  kShiftX,
+  kShiftY,
+  kTurn,
+  kGrowth,
+  kRate,
+  kWidth,
+  kLevel,
+  kTiltX,
+  kTiltY,
+  kPower,
+  kAstigmatism,
+  kTurnedAstigmatism
+};
 using RemovalNumbers = std::array<double, kRemovalNumbers>;
 using RemovalRow = Eigen::Matrix<double, kRemovalNumbers, 1>;
 
@@ -39,6 +52,34 @@ Point middle_of_data(const HeightMap& map) {
     high = {std::max(high.x, p.x), std::max(high.y, p.y)};
   }
   return midpoint(low, high);
+}
+
+/// A form term of the level at a place [mm] counted from the middle.
+double form_at(int term, Point p) {
+  switch (term) {
+    case kTiltX:
+      return p.x;
+    case kTiltY:
+      return p.y;
+    case kPower:
+      return p.x * p.x + p.y * p.y;
+    case kAstigmatism:
+      return p.x * p.x - p.y * p.y;
+    case kTurnedAstigmatism:
+      return 2.0 * p.x * p.y;
+    default:
+      return 1.0;
+  }
+}
+
+/// The form terms that are free.
+std::vector<int> level_numbers(const FormTerms& level) {
+  std::vector<int> numbers;
+  if (level.piston) numbers.push_back(kLevel);
+  if (level.tilt) numbers.insert(numbers.end(), {kTiltX, kTiltY});
+  if (level.power) numbers.push_back(kPower);
+  if (level.astigmatism) numbers.insert(numbers.end(), {kAstigmatism, kTurnedAstigmatism});
+  return numbers;
 }
 
 /// The model, and the measured removal it is held to.
@@ -74,9 +115,11 @@ class RemovalPair {
       row[kTurn] = q[kRate] * (jet.by_y * arm.x - jet.by_x * arm.y);
       row[kGrowth] = q[kRate] * (jet.by_x * arm.x + jet.by_y * arm.y) / (1.0 + q[kGrowth]);
       row[kRate] = -jet.value, row[kWidth] = -q[kRate] * by_width;
-      row[kLevel] = -1.0, row[kTiltX] = -l.x, row[kTiltY] = -l.y;
+      for (int k = kLevel; k < kRemovalNumbers; ++k) row[k] = -form_at(k, l);
     }
-    return height - q[kRate] * jet.value - q[kLevel] - q[kTiltX] * l.x - q[kTiltY] * l.y;
+    double left = height - q[kRate] * jet.value;
+    for (std::size_t k = kLevel; k < kRemovalNumbers; ++k) left -= q[k] * form_at(static_cast<int>(k), l);
+    return left;
   }
 
  private:
@@ -142,7 +185,7 @@ std::vector<Index> compared_pixels(const RemovalPair& pair, const RemovalNumbers
 class RemovalRegistrationFit {
  public:
   RemovalRegistrationFit(const RemovalPair& pair, const RemovalRegistrationOptions& options, bool widths, int threads)
-      : pair_(pair), options_(options), threads_(threads) {
+      : pair_(pair), options_(options), threads_(threads), level_(level_numbers(options.level)) {
     const auto is_free = [&](int k) {
       switch (k) {
         case kShiftX:
@@ -157,7 +200,7 @@ class RemovalRegistrationFit {
         case kWidth:
           return options.width && widths;
         default:
-          return options.level;
+          return std::find(level_.begin(), level_.end(), k) != level_.end();
       }
     };
     for (int k = 0; k < kRemovalNumbers; ++k) (is_free(k) ? free_ : held_).push_back(k);
@@ -183,20 +226,20 @@ class RemovalRegistrationFit {
 
   /// Level alone, by least squares: what the fit starts from.
   void set_level(RemovalNumbers& q, const std::vector<Index>& pixels) const {
-    if (!options_.level) return;
-    const std::vector<int> level{kLevel, kTiltX, kTiltY};
-    Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(3, 3);
-    Eigen::VectorXd right = Eigen::VectorXd::Zero(3);
+    if (level_.empty()) return;
+    const auto count = static_cast<Eigen::Index>(level_.size());
+    Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(count, count);
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(count);
     for (const Index i : pixels) {
       RemovalRow slopes;
       const double r = pair_.residual(q, pair_.measured().grid.centre(i), pair_.height(i), &slopes);
-      const Eigen::VectorXd row = slopes(level);
+      const Eigen::VectorXd row = slopes(level_);
       normal += row * row.transpose();
       right -= r * row;
     }
     const Eigen::VectorXd step = solve_symmetric(normal, right);
-    for (std::size_t k = 0; k < level.size(); ++k)
-      q[static_cast<std::size_t>(level[k])] += step[static_cast<Eigen::Index>(k)];
+    for (std::size_t k = 0; k < level_.size(); ++k)
+      q[static_cast<std::size_t>(level_[k])] += step[static_cast<Eigen::Index>(k)];
   }
 
   RemovalNumbers standard_errors(const RemovalNumbers& q, const std::vector<Index>& pixels) const;
@@ -218,6 +261,7 @@ class RemovalRegistrationFit {
   const RemovalPair& pair_;
   RemovalRegistrationOptions options_;
   int threads_;
+  std::vector<int> level_;  // the form terms that are free
   std::vector<int> free_, held_;
   double loss_width_ = 1.0;
 };

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/base/progress.h"
+#include "core/form/form_terms.h"
 #include "core/map/height_map.h"
 #include "core/numerics/plane_transform.h"
 #include "solvers/fits/ceres_map_registration.h"
@@ -22,7 +23,8 @@ struct RemovalRegistrationOptions {
   bool rotation = true;  // how that lies against the measured part, turned about the middle of the prediction's data
   bool scale = false;    // and magnified
   bool width = true;     // of the tool; needs three widths
-  bool level = true;     // piston and tilt between the measurements
+  /// Form terms that may differ between the measurements.
+  FormTerms level{true, true};
   /// Errors that lie closer than this are not independent: about the width of the tool [mm]. 0 = all are.
   double correlated_mm = 0.0;
 };
