@@ -325,10 +325,11 @@ void add_simulate_command(CLI::App& program, int& exit_code) {
       program.add_subcommand("simulate", "predict the surface that a feed table or G-code program leaves");
   auto arguments = std::make_shared<SimulateArguments>();
   const std::vector<std::string> flags{
-      "map",       "map-pixel", "map-unit", "wavelength", "wave-scale",     "map-origin", "map-no-data",  "map-max-pv",
-      "map-table", "map-rows",  "map-grid", "map-steps",  "max-pixels",     "tif",        "tif-pixel",    "tif-no-data",
-      "tif-table", "tif-rows",  "tif-grid", "tif-unit",   "tif-dwell-time", "tif-steps",  "tif-pedestal", "tif-centre",
-      "tif-angle", "tif-flip",  "remove",   "aperture",   "machine",        "template",   "threads"};
+      "map",        "map-pixel",    "map-unit",   "wavelength", "wave-scale", "map-origin", "map-no-data",
+      "map-max-pv", "map-table",    "map-rows",   "map-grid",   "map-steps",  "max-pixels", "tif",
+      "tif-pixel",  "tif-no-data",  "tif-table",  "tif-rows",   "tif-grid",   "tif-unit",   "tif-dwell-time",
+      "tif-steps",  "tif-pedestal", "tif-centre", "tif-angle",  "tif-flip",   "tif-rate",   "tif-width",
+      "remove",     "aperture",     "machine",    "template",   "threads"};
   command
       ->add_option("plan", arguments->plan,
                    "folder of a plan: its program, with the map, the removal function and all options that it was made "

@@ -34,6 +34,7 @@ inline constexpr ValueRange kFeed{1e-2, 1e7, "mm/min"};
 inline constexpr ValueRange kWavelength{100.0, 2e4, "nm"};  // of light that interferes: 0.1 to 20 um
 inline constexpr ValueRange kWaveScale{1e-2, 1e2, ""};      // height of a surface for each wave, in wavelengths
 inline constexpr ValueRange kFraction{1e-2, 1.0, ""};       // of an error that is to be removed
+inline constexpr ValueRange kToolFactor{1e-2, 100.0, ""};   // by which a tool differs from the one that was measured
 inline constexpr ValueRange kAngle{-360.0, 360.0, "degrees"};
 inline constexpr ValueRange kWeight{0.0, 1e9, ""};
 inline constexpr ValueRange kTimePrice{0.0, 1e15, "nm^2/s"};

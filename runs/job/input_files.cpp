@@ -17,6 +17,7 @@
 #include "core/tif/models/removal_models.h"
 #include "core/tif/rate_rim.h"
 #include "core/tif/removal_orientation.h"
+#include "core/tif/scaled_removal.h"
 #include "core/tif/tool_questions.h"
 #include "runs/job/option_flags.h"
 #include "runs/job/place_option.h"
@@ -194,6 +195,15 @@ void refuse_reading_options(const JobOptions& o) {
   refuse(o.tif_grid.has_value(), "tif-grid", dwell::to_string(o.tif_grid));
 }
 
+/// The tool as runs have shown it to be.
+RemovalFunction scaled(RemovalFunction tif, const JobOptions& options) {
+  if (options.tif_rate == 1.0 && options.tif_width == 1.0) return tif;
+  RemovalFunction changed = scaled_removal(tif, options.tif_rate, options.tif_width);
+  changed.samples.history.push_back(
+      fmt::format("{:.6g} times the volume in a second, {:.6g} times as wide", options.tif_rate, options.tif_width));
+  return changed;
+}
+
 }  // namespace
 
 RemovalFunction load_removal_function(const JobOptions& options, std::vector<InputFile>& inputs,
@@ -208,7 +218,7 @@ RemovalFunction load_removal_function(const JobOptions& options, std::vector<Inp
     }
     refuse_file_options(options, "for a file of rates, not for the formula " + options.tif);
     refuse_reading_options(options);
-    return oriented(removal_of_spec(parse_spec_text(options.tif, "tif")), orientation);
+    return scaled(oriented(removal_of_spec(parse_spec_text(options.tif, "tif")), orientation), options);
   }
   const std::filesystem::path file = split_map_name(options.tif).file;
   if (options.tif.find(':') != std::string::npos && !std::filesystem::exists(file)) {
@@ -228,7 +238,7 @@ RemovalFunction load_removal_function(const JobOptions& options, std::vector<Inp
   }
   inputs.push_back({"tif", options.tif, sha256_of_file(file)});
   inputs.insert(inputs.end(), of_steps.begin(), of_steps.end());
-  return tif;
+  return scaled(std::move(tif), options);
 }
 
 namespace {

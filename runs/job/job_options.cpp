@@ -225,6 +225,16 @@ std::vector<JobOptionRecord> make_table() {
        "mirrors the removal function before it is turned: x (+x becomes -x), y, or none", false, false,
        [](Options& o, const std::string& t) { o.tif_flip = parse_flip(t); },
        [](const Options& o) { return to_string(o.tif_flip); }},
+      {"tif-rate", "tif_rate", "FACTOR",
+       "the volume that the tool takes in a second, over that of the removal function as given: what an earlier run on "
+       "the machine has shown (default 1)",
+       false, true, [](Options& o, const std::string& t) { o.tif_rate = number(t, ranges::kToolFactor); },
+       [](const Options& o) { return o.tif_rate == 1.0 ? std::string() : shown(o.tif_rate); }},
+      {"tif-width", "tif_width", "FACTOR",
+       "the width of the tool, over that of the removal function as given, with the volume it takes in a second the "
+       "same (default 1)",
+       false, true, [](Options& o, const std::string& t) { o.tif_width = number(t, ranges::kToolFactor); },
+       [](const Options& o) { return o.tif_width == 1.0 ? std::string() : shown(o.tif_width); }},
       {"path", "path", "PATH",
        "KIND:OPTIONS, for instance raster:pitch=1, random:pitch=1,seed=2 or file:PATH.csv; dwell paths --kinds lists "
        "them all",

@@ -56,6 +56,7 @@ struct JobOptions {
   std::optional<TifCentre> tif_centre;  // nothing: as the file says
   double tif_angle_deg = 0.0;
   ToolOrientation::Flip tif_flip = ToolOrientation::Flip::None;
+  double tif_rate = 1.0, tif_width = 1.0;  // over those of the file or the formula
   PathSpec path;
   std::string keep_out;  // areas that the tool does not enter while it is down: AREA;AREA;...
   Motion motion = Motion::Moving;

@@ -47,6 +47,8 @@ JobOptions unusual() {
   o.tif_centre = parse_tif_centre("0.5,-0.25");
   o.tif_angle_deg = -37.5;
   o.tif_flip = ToolOrientation::Flip::Y;
+  o.tif_rate = 1.131;
+  o.tif_width = 0.97;
   o.path = parse_path_spec("nearest:cell=2,critical=-inf");
   o.keep_out = "circle:1,2,0.5;file:/data/zones.txt";
   o.motion = Motion::Stop;
