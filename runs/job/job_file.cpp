@@ -17,6 +17,7 @@
 #include "runs/machine/machine_option.h"
 #include "runs/machine/machine_table.h"
 #include "runs/map_steps/map_steps.h"
+#include "runs/programs/shipped_templates.h"
 
 namespace dwell {
 namespace {
@@ -101,24 +102,29 @@ void note_changed_words(int schema, const std::string& source, const std::string
 
 }  // namespace
 
-std::string rebased_option(const JobOptionRecord& record, const std::string& value, const std::filesystem::path& folder,
+std::string renamed_option(const JobOptionRecord& record, const std::string& value, const FileNames& name,
                            const std::string& source) {
   if (value.empty()) return value;
   if (record.key == "template" && is_shipped_template(value)) return value;
-  if (record.is_file && names_a_file(value)) return (folder / value).lexically_normal().string();
+  if (record.is_file && names_a_file(value)) return name(value);
   if (record.key == "map_steps" || record.key == "tif_steps") {
     try {
-      return rebased_map_steps(value, folder);
+      return renamed_map_steps(value, name);
     } catch (const InputError& error) {
       throw InputError(fmt::format("{}: {}", source, error.what()));
     }
   }
-  if (record.key == "keep_out") return rebased_keep_out(value, folder);
+  if (record.key == "keep_out") return renamed_keep_out(value, name);
   constexpr std::string_view kPathFile = "file:";
-  if (record.key == "path" && value.starts_with(kPathFile) && value != kPathFile) {
-    return std::string(kPathFile) + (folder / value.substr(kPathFile.size())).lexically_normal().string();
-  }
+  if (record.key == "path" && value.starts_with(kPathFile) && value != kPathFile)
+    return std::string(kPathFile) + name(value.substr(kPathFile.size()));
   return value;
+}
+
+std::string rebased_option(const JobOptionRecord& record, const std::string& value, const std::filesystem::path& folder,
+                           const std::string& source) {
+  const auto rebased = [&folder](const std::string& file) { return (folder / file).lexically_normal().string(); };
+  return renamed_option(record, value, rebased, source);
 }
 
 void read_job_file(const std::filesystem::path& file, JobOptions& options) {

@@ -41,13 +41,13 @@ void check_keep_out(const std::string& text) {
   }
 }
 
-std::string rebased_keep_out(const std::string& text, const std::filesystem::path& folder) {
-  std::string rebased;
+std::string renamed_keep_out(const std::string& text, const std::function<std::string(const std::string&)>& name) {
+  std::string renamed;
   for (const std::string& part : parts_of(text)) {
-    rebased += rebased.empty() ? "" : ";";
-    rebased += is_file(part) ? std::string(kFile) + (folder / file_of(part)).lexically_normal().string() : part;
+    renamed += renamed.empty() ? "" : ";";
+    renamed += is_file(part) ? std::string(kFile) + name(file_of(part)) : part;
   }
-  return rebased;
+  return renamed;
 }
 
 std::vector<std::string> keep_out_files(const std::string& text) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -13,8 +13,8 @@ namespace dwell {
 /// empty lines and those that begin with # are skipped. Throws InputError naming the part and what is accepted.
 void check_keep_out(const std::string& text);
 
-/// The same with the names of files made those of a folder.
-std::string rebased_keep_out(const std::string& text, const std::filesystem::path& folder);
+/// The same with other names for the files: what `name` makes of each.
+std::string renamed_keep_out(const std::string& text, const std::function<std::string(const std::string&)>& name);
 
 std::vector<std::string> keep_out_files(const std::string& text);
 

@@ -336,12 +336,12 @@ std::vector<std::string> map_step_files(const std::string& text) {
   return files;
 }
 
-std::string rebased_map_steps(const std::string& text, const std::filesystem::path& folder) {
+std::string renamed_map_steps(const std::string& text, const std::function<std::string(const std::string&)>& name) {
   std::string result;
   for (MapStep& step : parse_map_steps(text)) {
-    for (auto& [name, value] : step.given) {
+    for (auto& [argument, value] : step.given) {
       for (const MapStepArgument& a : step.record->arguments) {
-        if (names_file(a) && a.name == name) value = (folder / value).lexically_normal().string();
+        if (names_file(a) && a.name == argument) value = name(value);
       }
     }
     result += (result.empty() ? "" : "; ") + to_string(step, false);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -15,8 +15,8 @@ const std::vector<MapStepRecord>& map_step_table();
 /// Steps separated by semicolons, as --map-steps and the job file have them. Throws InputError.
 std::vector<MapStep> parse_map_steps(const std::string& text);
 
-/// The steps with the names of their files taken relative to `folder`. Throws InputError.
-std::string rebased_map_steps(const std::string& text, const std::filesystem::path& folder);
+/// The steps with other names for their files: what `name` makes of each. Throws InputError.
+std::string renamed_map_steps(const std::string& text, const std::function<std::string(const std::string&)>& name);
 
 /// The files of other maps that the steps read, as given. Throws InputError.
 std::vector<std::string> map_step_files(const std::string& text);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <set>
 
 #include "core/base/grid_limit.h"
@@ -229,7 +230,8 @@ TEST(MapSteps, RefuseHostileText) {
 }
 
 TEST(MapSteps, FileNamesAreTakenRelativeToAFolder) {
-  EXPECT_EQ(rebased_map_steps("crop:data; subtract:file=a/b.csv,resample;average:x.csv,/y.csv,least=2", "/jobs"),
+  const auto in_jobs = [](const std::string& file) { return (std::filesystem::path("/jobs") / file).string(); };
+  EXPECT_EQ(renamed_map_steps("crop:data; subtract:file=a/b.csv,resample;average:x.csv,/y.csv,least=2", in_jobs),
             "crop:data; subtract:file=/jobs/a/b.csv,how=resample; average:/jobs/x.csv,/y.csv,least=2");
 }
 
