@@ -119,8 +119,9 @@ void draw_no_data(Sheet& sheet, const SheetBox& field) {
 void draw_key(Sheet& sheet, const std::vector<PanelKey>& key, Point at) {
   const double line = kLineHeight * kLabel.size;
   for (const PanelKey& entry : key) {
-    sheet.line({at.x, at.y + 0.5 * line}, {at.x + 24.0, at.y + 0.5 * line}, {entry.colour, 3.0});
-    sheet.text({at.x + 32.0, at.y + 0.5 * line + kMiddleToBaseline * kLabel.size}, entry.label, kLabel);
+    if (!entry.is_text) sheet.line({at.x, at.y + 0.5 * line}, {at.x + 24.0, at.y + 0.5 * line}, {entry.colour, 3.0});
+    sheet.text({at.x + (entry.is_text ? 0.0 : 32.0), at.y + 0.5 * line + kMiddleToBaseline * kLabel.size}, entry.label,
+               kLabel);
     at.y += line;
   }
 }

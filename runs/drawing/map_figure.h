@@ -14,6 +14,7 @@ namespace dwell {
 struct PanelKey {
   Colour colour;
   std::string label;
+  bool is_text = false;  // a line of words alone
 };
 
 /// One field of a figure.
