@@ -13,7 +13,8 @@
 #include "core/tif/removal_kernel.h"
 #include "core/tif/scaled_removal.h"
 #include "paths/feed/execution.h"
-#include "runs/figure/predicted_removal.h"
+#include "runs/figure/moved_program.h"
+#include "runs/figure/tool_removal.h"
 #include "runs/plan/dwell_plan.h"
 #include "runs/plan/laid_path.h"
 #include "runs/plan/machine_program.h"
@@ -21,24 +22,6 @@
 
 namespace dwell {
 namespace {
-
-Program moved(Program program, const PlaneTransform& transform) {
-  for (ProgramStep& step : program.steps) {
-    step.start = transform(step.start);
-    step.finish = transform(step.finish);
-    if (!step.speeds) continue;
-    const Point origin = transform({});
-    step.speeds->in = transform(step.speeds->in) - origin;
-    step.speeds->out = transform(step.speeds->out) - origin;
-  }
-  return program;
-}
-
-PlaneTransform after(const PlaneTransform& second, const PlaneTransform& first) {
-  const Point shift = second(first.shift);
-  return {second.xx * first.xx + second.xy * first.yx, second.xx * first.xy + second.xy * first.yy,
-          second.yx * first.xx + second.yy * first.yx, second.yx * first.xy + second.yy * first.yy, shift};
-}
 
 class CampaignShop {
  public:
@@ -64,10 +47,28 @@ class CampaignShop {
     const double rate = truth_.rate * (1.0 + truth_.drift * random_.normal());
     const RemovalFunction tool = scaled_removal(start_.tif, rate, truth_.width);
     const RemovalKernel kernel = pixel_kernel(tool, surface_.grid.pitch_x, surface_.grid.pitch_y);
-    surface_ = surface_after(surface_, simulate(moved(motion, misplaced_), surface_, kernel, start_.threads));
+    const Program as_run = moved_program(jittered(motion), misplaced_);
+    surface_ = surface_after(surface_, simulate(as_run, surface_, kernel, start_.threads));
+  }
+
+  /// The program with every end of a move a little beside its place.
+  Program jittered(Program program) {
+    if (!(truth_.position > 0.0)) return program;
+    Point last;
+    for (std::size_t k = 0; k < program.steps.size(); ++k) {
+      ProgramStep& step = program.steps[k];
+      const bool halts = step.start == step.finish;
+      if (k == 0) last = step.start + beside();
+      step.start = last;
+      if (!halts) last = step.finish + beside();
+      step.finish = last;
+    }
+    return program;
   }
 
  private:
+  Point beside() { return {truth_.position * random_.normal(), truth_.position * random_.normal()}; }
+
   const CampaignStart& start_;
   const CampaignTruth& truth_;
   RandomNumbers random_;
@@ -98,16 +99,18 @@ Campaign simulate_campaign(const CampaignStart& start, const CampaignTruth& trut
     const double max_feed = start.options.machine.feed_limits().max_feed;
     const LaidPath laid = lay_path(part, start.path, Motion::Moving, max_feed, here);
     const DwellPlan dwell = find_dwell(part, laid, start.options, here);
-    Program motion = program_of(make_machine_program(laid, dwell, start.options.machine, here).table);
+    const MachineProgram program = make_machine_program(laid, dwell, start.options.machine, here);
+    const bool of_speeds = dwell.motion && dwell.motion->program;
+    Program motion = of_speeds ? *dwell.motion->program : program_of(program.table);
     if (start.options.machine.machine) motion = execute(motion, *start.options.machine.machine, here).motion;
     result.predicted = dwell.motion ? dwell.motion->executed() : dwell.residual.rms_about_zero();
     result.seconds = dwell.seconds.sum();
-    shop.polish(moved(motion, commanded));
+    shop.polish(moved_program(motion, commanded));
     result.after = shop.rms();
     HeightMap next = shop.measured();
     if (learning.learns) {
       const PredictedRemoval predicted =
-          predict_removal(measured, known, motion, kRegisteredWidths, known.fwhm, start.threads, here);
+          ToolRemoval(part, part.kernel).predict(motion, kRegisteredWidths, known.fwhm, here);
       RemovalRegistrationOptions options;
       options.correlated_mm = known.fwhm;
       const RemovalRegistration found =
@@ -116,7 +119,7 @@ Campaign simulate_campaign(const CampaignStart& start, const CampaignTruth& trut
       campaign.fault = result.lesson->orientation_fault;
       known = scaled_removal(known, result.lesson->rate, result.lesson->width);
       const PlaneTransform off = similarity(found.about, result.lesson->shift, result.lesson->degrees, 1.0);
-      commanded = after(commanded, off.inverse());
+      commanded = composed(commanded, off.inverse());
     }
     measured = std::move(next);
     campaign.runs.push_back(std::move(result));

@@ -20,6 +20,7 @@ struct CampaignTruth {
   double degrees = 0.0;            // turned about the middle of the map
   double drift = 0.0;              // standard deviation by which the rate changes from run to run, as a share
   double noise = 0.0;              // of a measurement, a pixel, standard deviation [nm]
+  double position = 0.0;           // of every end of a move, in x and in y, standard deviation [mm]
 };
 
 /// What the runs of a campaign learn.

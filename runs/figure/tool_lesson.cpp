@@ -75,7 +75,8 @@ ToolLesson learn_from(const RemovalRegistration& found, double fwhm, const Lesso
   decide(rotation, std::abs(rotation.found.value), policy);
   const double farthest = policy.orientation_share * fwhm;
   const bool is_certain = shift.found.value - farthest > policy.errors * shift.found.error;
-  if (is_certain && !holds(policy.taken, LessonSubject::Shift)) {
+  const bool answered = holds(policy.taken, LessonSubject::Shift) || holds(policy.left, LessonSubject::Shift);
+  if (is_certain && !answered) {
     lesson.orientation_fault = fmt::format(
         "what was removed lies {:.3g} +- {:.2g} mm ({:.3g} in x, {:.3g} in y) from where it was meant to, more than a "
         "quarter of the tool's {:.3g} mm: that is no error of positioning to be made up for, but of orientation or "

@@ -47,7 +47,8 @@ const std::map<std::string, RoomRanks>& room_ranks() {
         {"reports", 3},
         {"example", 3},
         {"campaigns", 4},
-        {"figure", 4}}}};
+        {"figure", 5},
+        {"figure/store", 6}}}};
   return kRanks;
 }
 

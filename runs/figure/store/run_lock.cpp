@@ -1,4 +1,4 @@
-#include "runs/figure/run_lock.h"
+#include "runs/figure/store/run_lock.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>

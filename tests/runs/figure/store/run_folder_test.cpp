@@ -1,4 +1,4 @@
-#include "runs/figure/run_folder.h"
+#include "runs/figure/store/run_folder.h"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -15,7 +15,7 @@
 
 #include "core/base/errors.h"
 #include "core/base/whole_file.h"
-#include "runs/figure/run_lock.h"
+#include "runs/figure/store/run_lock.h"
 #include "tests/core/base/temporary_folder.h"
 
 namespace dwell {
@@ -33,12 +33,18 @@ void fill(const OutputFolder& folder, int number) {
 }
 
 RunFolder made_run(const fs::path& folder) {
-  return make_run_folder(folder, {{"target", "rms<=1nm"}}, [](const OutputFolder& f) { fill(f, 1); });
+  return make_run_folder(folder, [](const OutputFolder& f) {
+    fill(f, 1);
+    return nlohmann::ordered_json{{"target", "rms<=1nm"}};
+  });
 }
 
 void append(RunFolder& run, const char* kind, int iteration) {
   const int number = static_cast<int>(run.steps().size()) + 1;
-  run.append(kind, iteration, {{"n", number}}, [&](const OutputFolder& f) { fill(f, number); });
+  run.append(kind, iteration, [&](const OutputFolder& f) {
+    fill(f, number);
+    return nlohmann::ordered_json{{"n", number}};
+  });
 }
 
 std::string refusal_of(const fs::path& folder) {
@@ -109,12 +115,11 @@ TEST(RunFolder, IsAsBeforeWhereAStepFails) {
   const test::TemporaryFolder temporary;
   const fs::path folder = temporary.path() / "run";
   RunFolder run = made_run(folder);
-  EXPECT_THROW(run.append("plan", 1, {},
-                          [](const OutputFolder& f) {
-                            f.write("map.bin", "half");
-                            throw InputError("no");
-                          }),
-               InputError);
+  const auto fail = [](const OutputFolder& f) -> nlohmann::ordered_json {
+    f.write("map.bin", "half");
+    throw InputError("no");
+  };
+  EXPECT_THROW(run.append("plan", 1, fail), InputError);
   EXPECT_EQ(run.steps().size(), 1U);
   EXPECT_EQ(RunFolder(folder).steps().size(), 1U);
   std::size_t entries = 0;

@@ -44,13 +44,16 @@ class RunFolder {
   const std::vector<RunStep>& steps() const { return steps_; }
   std::filesystem::path path_of(const RunStep& step) const { return folder_ / step.folder; }
 
-  /// Writes the files of a step into its folder.
-  using Write = std::function<void(const OutputFolder& folder)>;
+  const RunStep& step(int number) const { return steps_.at(static_cast<std::size_t>(number) - 1); }
+  /// Where the next step will be, if it is of this kind.
+  std::filesystem::path path_of_next(const std::string& kind, int iteration) const;
+
+  /// Writes the files of a step into its folder, and gives what the step says of itself.
+  using Write = std::function<nlohmann::ordered_json(const OutputFolder& folder)>;
   /// Adds a step: `write` fills its folder, then its step.json is made, and the folder gets its name in one step of the
   /// file system. Throws what `write` throws, InputError where the disk is full or read-only; the run is then as
   /// before. The caller holds the run's lock.
-  const RunStep& append(const std::string& kind, int iteration, const nlohmann::ordered_json& content,
-                        const Write& write);
+  const RunStep& append(const std::string& kind, int iteration, const Write& write);
 
   /// What does not agree with the hashes: a file that is changed, missing, or not listed; a sentence each, naming it.
   /// Empty if all is as it was written. Cost: reads everything.
@@ -63,7 +66,6 @@ class RunFolder {
 
 /// Makes the folder of a new run with its first step, whole or not at all. Throws InputError as OutputFolder: what is
 /// there is never replaced.
-RunFolder make_run_folder(const std::filesystem::path& folder, const nlohmann::ordered_json& content,
-                          const RunFolder::Write& write);
+RunFolder make_run_folder(const std::filesystem::path& folder, const RunFolder::Write& write);
 
 }  // namespace dwell

@@ -1,4 +1,4 @@
-#include "runs/figure/run_folder.h"
+#include "runs/figure/store/run_folder.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -76,7 +76,7 @@ Json json_of_step(const RunStep& step, const std::string& previous) {
 /// Fills a step's folder and closes it with its step.json.
 RunStep write_step(RunStep step, const std::string& previous, const OutputFolder& folder,
                    const RunFolder::Write& write) {
-  write(folder);
+  step.content = write(folder);
   const fs::path place = folder.path("");
   for (const std::string& name : files_below(place)) {
     bring_to_disk(place / name);
@@ -144,12 +144,15 @@ RunFolder::RunFolder(fs::path folder) : folder_(std::move(folder)) {
   }
 }
 
-const RunStep& RunFolder::append(const std::string& kind, int iteration, const Json& content, const Write& write) {
+fs::path RunFolder::path_of_next(const std::string& kind, int iteration) const {
+  return folder_ / folder_name(static_cast<int>(steps_.size()) + 1, kind, iteration);
+}
+
+const RunStep& RunFolder::append(const std::string& kind, int iteration, const Write& write) {
   RunStep step;
   step.number = static_cast<int>(steps_.size()) + 1;
   step.kind = kind;
   step.iteration = iteration;
-  step.content = content;
   step.folder = folder_name(step.number, kind, iteration);
   OutputFolder folder(folder_ / step.folder, files_of_a_step());
   step = write_step(std::move(step), steps_.back().sha256, folder, write);
@@ -184,7 +187,7 @@ std::vector<std::string> RunFolder::faults() const {
   return faults;
 }
 
-RunFolder make_run_folder(const fs::path& folder, const Json& content, const RunFolder::Write& write) {
+RunFolder make_run_folder(const fs::path& folder, const RunFolder::Write& write) {
   static const ResultFiles kNothing{"figure run that is not begun", kStepFile, {}, {}, nullptr};
   std::error_code error;
   if (fs::exists(folder / folder_name(1, kFirstKind, 0), error)) {
@@ -197,7 +200,6 @@ RunFolder make_run_folder(const fs::path& folder, const Json& content, const Run
     RunStep step;
     step.number = 1;
     step.kind = kFirstKind;
-    step.content = content;
     write_step(std::move(step), "", first, write);
     first.commit();
   }
