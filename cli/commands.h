@@ -15,6 +15,11 @@ void add_tif_command(CLI::App& program, int& exit_code);
 void add_machine_command(CLI::App& program, int& exit_code);
 /// Its subcommand `fit`.
 void add_machine_fit_command(CLI::App& machine, int& exit_code);
+void add_figure_command(CLI::App& program, int& exit_code);
+/// Its subcommands `status`, `check`, `withdraw`.
+void add_figure_record_commands(CLI::App& figure, int& exit_code);
+/// Its subcommand `simulate`.
+void add_figure_simulate_command(CLI::App& figure, int& exit_code);
 void add_example_command(CLI::App& program, int& exit_code);
 
 }  // namespace dwell::cli

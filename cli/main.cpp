@@ -54,6 +54,7 @@ int run(int argc, char** argv) {
   add_paths_command(program, exit_code);
   add_pareto_command(program, exit_code);
   add_simulate_command(program, exit_code);
+  add_figure_command(program, exit_code);
   add_map_command(program, exit_code);
   add_profile_command(program, exit_code);
   add_tif_command(program, exit_code);
