@@ -10,6 +10,7 @@
 #include <limits>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -18,6 +19,7 @@
 #include "core/base/errors.h"
 #include "core/base/grid_limit.h"
 #include "core/form/map_statistics.h"
+#include "core/map/map_decimate.h"
 #include "core/map/map_outliers.h"
 #include "core/map/map_sampler.h"
 #include "core/map/robust_plane.h"
@@ -42,9 +44,25 @@ struct Pair {
   const HeightMap& fixed;
   Point about;         // middle of the moving map
   Point level_centre;  // of the fixed map
+  Point guard;         // how far inside the moving map's data a place must lie [mm]
 
-  Pair(const HeightMap& m, const HeightMap& f)
-      : moving(m), fixed(f), about(middle_of(m.grid)), level_centre(middle_of(f.grid)) {}
+  /// Maps of the two, perhaps averaged in blocks, with the middles of the maps themselves.
+  Pair(const HeightMap& m, const HeightMap& f, Point middle_of_moving, Point middle_of_fixed)
+      : moving(m), fixed(f), about(middle_of_moving), level_centre(middle_of_fixed) {}
+
+  /// The same within the moving map alone: farther from its edges and holes than the spline's continuation reaches,
+  /// whose slopes are no one's.
+  void keep_inside(const Grid& grid) {
+    constexpr double kReach = 3.0;  // pixels
+    guard = {kReach * grid.pitch_x, kReach * grid.pitch_y};
+  }
+
+  bool has_data(Point p) const {
+    if (!moving.has_data(p)) return false;
+    if (guard == Point{}) return true;
+    const Point x{guard.x, 0.0}, y{0.0, guard.y};
+    return moving.has_data(p + x) && moving.has_data(p - x) && moving.has_data(p + y) && moving.has_data(p - y);
+  }
 
   /// The place on the moving map that lies at p of the fixed one.
   Point back(const Parameters& q, Point p) const {
@@ -101,7 +119,7 @@ std::vector<Index> common_pixels(const Pair& pair, const Parameters& q) {
   std::vector<Index> pixels;
   for (Index r = (g.rows - 1) % stride / 2; r < g.rows; r += stride) {
     for (Index c = (g.cols - 1) % stride / 2; c < g.cols; c += stride) {
-      if (std::isfinite(pair.fixed.at(r, c)) && pair.moving.has_data(pair.back(q, g.centre(r, c)))) {
+      if (std::isfinite(pair.fixed.at(r, c)) && pair.has_data(pair.back(q, g.centre(r, c)))) {
         pixels.push_back(g.index(r, c));
       }
     }
@@ -143,6 +161,10 @@ DifferenceSize size_of_difference(const Pair& pair, const Parameters& q, bool le
           level ? robust_plane(difference, pixels, true).scatter : robust_sigma(residuals(pair, q, pixels))};
 }
 
+constexpr double kLeastMapInformation = 1e-8;  // a slope of 1e-4 of the largest
+// What averaged maps say less of may be the spline's own doing at their edges.
+constexpr double kLeastCoarseInformation = 1e-4;
+
 class RegistrationFit {
  public:
   RegistrationFit(const Pair& pair, const RegistrationOptions& options, int threads) : pair_(pair), threads_(threads) {
@@ -164,8 +186,39 @@ class RegistrationFit {
     return solve_registration(problem, threads_, progress);
   }
 
+  /// Whether the maps, with the weights of the last fit, say how they lie: about no free number less than this share
+  /// of what they say about the one that they say most of.
+  bool is_determined(const Parameters& q, const std::vector<Index>& pixels, double least) const {
+    return is_determined(normal_of(q, pixels).matrix, least);
+  }
+
   /// Standard errors of all parameters, from the weights of the last fit.
   Parameters standard_errors(const Parameters& q, const std::vector<Index>& pixels) const {
+    const Normal all = normal_of(q, pixels);
+    if (!is_determined(all.matrix, kLeastMapInformation)) {
+      throw InputError(
+          "registration: the maps do not say how they lie (flat, or alike after some shift, rotation or scale); fewer "
+          "free numbers or maps with more structure are required");
+    }
+    const auto spare = static_cast<double>(static_cast<Index>(pixels.size()) - static_cast<Index>(free_.size()));
+    const double variance = all.squares / spare;  // enough_pixels sees to it that there are more
+    const Eigen::MatrixXd covariance =
+        solve_symmetric(all.matrix, Eigen::MatrixXd::Identity(all.matrix.rows(), all.matrix.cols()));
+    Parameters errors{};
+    for (std::size_t k = 0; k < free_.size(); ++k) {
+      const auto i = static_cast<Eigen::Index>(k);
+      errors[static_cast<std::size_t>(free_[k])] = std::sqrt(variance * covariance(i, i));
+    }
+    return errors;
+  }
+
+ private:
+  struct Normal {
+    Eigen::MatrixXd matrix;  // of the free parameters
+    double squares = 0.0;    // of the residuals, weighted
+  };
+
+  Normal normal_of(const Parameters& q, const std::vector<Index>& pixels) const {
     Eigen::Matrix<double, kParameters, kParameters> all = decltype(all)::Zero();
     double squares = 0.0;
     for (const Index i : pixels) {
@@ -176,31 +229,19 @@ class RegistrationFit {
       all += weight * slopes * slopes.transpose();
       squares += weight * r * r;
     }
-    const Eigen::MatrixXd normal = all(free_, free_);
-    // Parameters are scaled by steps of like effect: a shift by one pixel, and a rotation and a magnification that move
-    // the rim by one.
+    return {all(free_, free_), squares};
+  }
+
+  /// Parameters are scaled by steps of like effect: a shift by one pixel, and a rotation and a magnification that move
+  /// the rim by one.
+  bool is_determined(const Eigen::MatrixXd& normal, double least) const {
     const Eigen::VectorXd step = natural_steps()(free_);
     const Eigen::MatrixXd natural = step.asDiagonal() * normal * step.asDiagonal();
     const SymmetricEigen eigen = symmetric_eigen(natural);
-    constexpr double kLeastInformation = 1e-8;  // a slope of 1e-4 of the largest
-    if (!(eigen.converged && eigen.values.maxCoeff() > 0.0 &&
-          eigen.values.minCoeff() > kLeastInformation * eigen.values.maxCoeff())) {
-      throw InputError(
-          "registration: the maps do not say how they lie (flat, or alike after some shift, rotation or scale); fewer "
-          "free numbers or maps with more structure are required");
-    }
-    const auto spare = static_cast<double>(static_cast<Index>(pixels.size()) - static_cast<Index>(free_.size()));
-    const double variance = squares / spare;  // enough_pixels sees to it that there are more
-    const Eigen::MatrixXd covariance = solve_symmetric(normal, Eigen::MatrixXd::Identity(normal.rows(), normal.cols()));
-    Parameters errors{};
-    for (std::size_t k = 0; k < free_.size(); ++k) {
-      const auto i = static_cast<Eigen::Index>(k);
-      errors[static_cast<std::size_t>(free_[k])] = std::sqrt(variance * covariance(i, i));
-    }
-    return errors;
+    return eigen.converged && eigen.values.maxCoeff() > 0.0 &&
+           eigen.values.minCoeff() > least * eigen.values.maxCoeff();
   }
 
- private:
   Row natural_steps() const {
     const Grid& g = pair_.fixed.grid;
     const double half = 0.5 * std::hypot(g.width(), g.height()), pitch = std::min(g.pitch_x, g.pitch_y);
@@ -232,6 +273,69 @@ std::vector<Index> enough_pixels(const Pair& pair, const Parameters& q) {
                   counted(pixels.size(), "pixel"), 10 * kParameters));
 }
 
+/// Fits from q, the pixels and the scale of the loss chosen anew after each fit, until it no longer changes. Returns
+/// the number of iterations.
+int fit_until_settled(const Pair& pair, RegistrationFit& fit, Parameters& q, const Progress& progress) {
+  constexpr int kPasses = 10;
+  int iterations = 0;
+  std::vector<Index> pixels = enough_pixels(pair, q);
+  for (int pass = 0; pass < kPasses; ++pass) {
+    progress.step(fmt::format("registration: {}, pass {}, RMS {:.4g} nm", counted(pixels.size(), "pixel"), pass + 1,
+                              rms(residuals(pair, q, pixels))));
+    const Parameters before = q;
+    iterations += fit.run(q, pixels, progress);
+    pixels = enough_pixels(pair, q);
+    const double moved = std::hypot(q[kX] - before[kX], q[kY] - before[kY]);
+    const double turned = std::abs(q[kAngle] - before[kAngle]) + std::abs(q[kScale] - before[kScale]);
+    if (moved <= 1e-6 * pair.fixed.grid.pitch_x && turned <= 1e-9) break;
+  }
+  return iterations;
+}
+
+HeightMap first_pixels(const HeightMap& map, Index rows, Index columns) {
+  Grid grid = map.grid;
+  grid.rows = rows, grid.cols = columns;
+  HeightMap part(grid);
+  for (Index r = 0; r < rows; ++r) {
+    for (Index c = 0; c < columns; ++c) part.at(r, c) = map.at(r, c);
+  }
+  return part;
+}
+
+/// The map averaged in blocks of about this size [mm]; nothing where fewer than kLeastBlocks of them would be left.
+std::optional<HeightMap> averaged(const HeightMap& map, double block) {
+  constexpr Index kLeastBlocks = 16;
+  const auto factor = [block](double pitch) { return std::max<Index>(1, std::llround(block / pitch)); };
+  const Index rows = factor(map.grid.pitch_y), columns = factor(map.grid.pitch_x);
+  if (map.grid.rows / rows < kLeastBlocks || map.grid.cols / columns < kLeastBlocks) return std::nullopt;
+  // A block that is not full lies elsewhere than its middle.
+  return decimate_map(first_pixels(map, map.grid.rows / rows * rows, map.grid.cols / columns * columns), rows, columns);
+}
+
+/// The fit on maps averaged in blocks of eight, four and two pixels, one after the other: waves of a few pixels, dust
+/// and noise would hold a fit that starts farther off than they are long. A coarse fit that finds too little in its
+/// maps leaves q as it is.
+void fit_coarse_to_fine(const HeightMap& moving, const HeightMap& fixed, const RegistrationOptions& options,
+                        int threads, Parameters& q, const Progress& progress) {
+  const double pitch = std::max({moving.grid.pitch_x, moving.grid.pitch_y, fixed.grid.pitch_x, fixed.grid.pitch_y});
+  for (const double block : {8.0, 4.0, 2.0}) {
+    const auto coarse_moving = averaged(moving, block * pitch), coarse_fixed = averaged(fixed, block * pitch);
+    if (!coarse_moving || !coarse_fixed) continue;
+    Pair pair(*coarse_moving, *coarse_fixed, middle_of(moving.grid), middle_of(fixed.grid));
+    pair.keep_inside(coarse_moving->grid);
+    if (common_pixels(pair, q).size() < 10 * kParameters) continue;
+    RegistrationFit fit(pair, options, threads);
+    Parameters found = q;
+    try {
+      fit_until_settled(pair, fit, found, progress);
+    } catch (const InputError&) {
+      continue;  // it lost the overlap
+    }
+    const std::vector<Index> pixels = common_pixels(pair, found);
+    if (pixels.size() >= 10 * kParameters && fit.is_determined(found, pixels, kLeastCoarseInformation)) q = found;
+  }
+}
+
 }  // namespace
 
 MapRegistration register_maps(const HeightMap& moving, const HeightMap& fixed, const RegistrationOptions& options,
@@ -241,7 +345,7 @@ MapRegistration register_maps(const HeightMap& moving, const HeightMap& fixed, c
   std::tie(clear_moving, result.spikes_moving) = without_spikes(moving, threads, progress);
   std::tie(clear_fixed, result.spikes_fixed) = without_spikes(fixed, threads, progress);
   progress.step("registration: coarse start");
-  const Pair pair(clear_moving, clear_fixed);
+  const Pair pair(clear_moving, clear_fixed, middle_of(moving.grid), middle_of(fixed.grid));
   Parameters q{};
   result.before = size_of_difference(pair, q, options.level);
   if (options.range.shift > 0.0 || options.range.degrees > 0.0) {
@@ -249,20 +353,12 @@ MapRegistration register_maps(const HeightMap& moving, const HeightMap& fixed, c
     const RegistrationStart start = coarse_registration(clear_moving, clear_fixed, range, threads, progress);
     q[kX] = start.shift.x, q[kY] = start.shift.y, q[kAngle] = start.degrees / kDegrees;
   }
-  std::vector<Index> pixels = enough_pixels(pair, q);
-  if (options.level) start_level(pair, q, pixels);
+  const std::vector<Index> first = enough_pixels(pair, q);
+  if (options.level) start_level(pair, q, first);
+  fit_coarse_to_fine(clear_moving, clear_fixed, options, threads, q, progress);
   RegistrationFit fit(pair, options, threads);
-  constexpr int kPasses = 10;
-  for (int pass = 0; pass < kPasses; ++pass) {
-    progress.step(fmt::format("registration: {}, pass {}, RMS {:.4g} nm", counted(pixels.size(), "pixel"), pass + 1,
-                              rms(residuals(pair, q, pixels))));
-    const Parameters before = q;
-    result.iterations += fit.run(q, pixels, progress);
-    pixels = enough_pixels(pair, q);
-    const double moved = std::hypot(q[kX] - before[kX], q[kY] - before[kY]);
-    const double turned = std::abs(q[kAngle] - before[kAngle]) + std::abs(q[kScale] - before[kScale]);
-    if (moved <= 1e-6 * fixed.grid.pitch_x && turned <= 1e-9) break;
-  }
+  result.iterations = fit_until_settled(pair, fit, q, progress);
+  const std::vector<Index> pixels = enough_pixels(pair, q);
   const Parameters errors = fit.standard_errors(q, pixels);
   result.x = {q[kX], errors[kX]}, result.y = {q[kY], errors[kY]};
   result.degrees = {q[kAngle] * kDegrees, errors[kAngle] * kDegrees};

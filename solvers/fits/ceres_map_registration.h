@@ -54,6 +54,6 @@ struct MapRegistration {
 MapRegistration register_maps(const HeightMap& moving, const HeightMap& fixed, const RegistrationOptions& options,
                               int threads = 1, const Progress& progress = {});
 
-inline constexpr Index kRegistrationPoints = 40000;
+inline constexpr Index kRegistrationPoints = 200000;
 
 }  // namespace dwell

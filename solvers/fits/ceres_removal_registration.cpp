@@ -167,7 +167,7 @@ class RemovalResidual final : public ceres::SizedCostFunction<1, kRemovalNumbers
 std::vector<Index> compared_pixels(const RemovalPair& pair, const RemovalNumbers& q) {
   const HeightMap& map = pair.measured();
   const Grid& g = map.grid;
-  const double per_point = static_cast<double>(map.valid_pixels()) / static_cast<double>(kRegistrationPoints);
+  const double per_point = static_cast<double>(map.valid_pixels()) / static_cast<double>(kRemovalPoints);
   const Index stride = std::max<Index>(1, static_cast<Index>(std::ceil(std::sqrt(per_point))));
   std::vector<Index> pixels;
   for (Index r = (g.rows - 1) % stride / 2; r < g.rows; r += stride) {

@@ -53,9 +53,11 @@ struct RemovalRegistration {
 /// White 1980, by clusters), which hold, but for a tenth where clusters are few, where errors are alike over the width
 /// of a tool: drift, metrology, the tool's own shape. The start is as predicted: a shift beyond about half of the
 /// finest waves needs coarse_registration before. Throws InputError for maps that do not overlap or a prediction that
-/// says nothing about a free number, Interrupted. Cost O(points) an iteration; at most kRegistrationPoints points.
+/// says nothing about a free number, Interrupted. Cost O(points) an iteration; at most kRemovalPoints points.
 RemovalRegistration register_removal(const PredictedRemoval& predicted, const HeightMap& measured,
                                      const RemovalRegistrationOptions& options, int threads = 1,
                                      const Progress& progress = {});
+
+inline constexpr Index kRemovalPoints = 40000;
 
 }  // namespace dwell
