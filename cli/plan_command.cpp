@@ -142,7 +142,8 @@ std::string plan_text(const PlannedJob& plan, const WrittenPlan& written) {
                       written.program.file, plan.dwell.motion ? ", executed on the machine" : "");
   text += export_lines(written) + exact_lines(written.exact);
   text += anatomy_lines(written.anatomy, written.exact.statistics) + left_out_line(plan.dwell) + cost_line(plan);
-  text += fmt::format("help      {}\n", written.advice) + surface_lines(written.surface);
+  text += fmt::format("help      {}\n", written.advice) + surface_lines(written.surface) +
+          verdict_lines(written.acceptance);
   text += fmt::format("time      {} for the run: dwell {:.2f} s, {}\n", duration_text(written.run_seconds),
                       plan.dwell.run_dwell(), travel_words(written.travel));
   for (const std::string& warning : written.warnings) text += fmt::format("warning   {}\n", warning);

@@ -253,7 +253,8 @@ std::string simulation_text(const Simulation& s) {
          fmt::format("before    {} ({} removed, {})\n", in_words(s.before), to_string(s.terms),
                      counted(s.before.valid_pixels, "pixel")) +
          fmt::format("after     {} ({} removed)\n", in_words(s.after.statistics), to_string(s.terms)) +
-         exact_lines(s.after) + anatomy_lines(s.anatomy, s.after.statistics) + fmt::format("help      {}\n", s.advice);
+         exact_lines(s.after) + anatomy_lines(s.anatomy, s.after.statistics) + fmt::format("help      {}\n", s.advice) +
+         verdict_lines(s.acceptance);
 }
 
 /// Where another map is read with the plan's options of its own map, what is refused about them says whose they are.
@@ -329,7 +330,7 @@ void add_simulate_command(CLI::App& program, int& exit_code) {
       "map-max-pv", "map-table",    "map-rows",   "map-grid",   "map-steps",  "max-pixels", "tif",
       "tif-pixel",  "tif-no-data",  "tif-table",  "tif-rows",   "tif-grid",   "tif-unit",   "tif-dwell-time",
       "tif-steps",  "tif-pedestal", "tif-centre", "tif-angle",  "tif-flip",   "tif-rate",   "tif-width",
-      "remove",     "aperture",     "machine",    "template",   "threads"};
+      "remove",     "aperture",     "accept",     "machine",    "template",   "threads"};
   command
       ->add_option("plan", arguments->plan,
                    "folder of a plan: its program, with the map, the removal function and all options that it was made "

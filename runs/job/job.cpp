@@ -39,6 +39,16 @@ HeightMap load_map_of(const JobOptions& options, std::vector<InputFile>& inputs,
   }
 }
 
+/// The limits of --accept; `mid` is of this tool.
+std::vector<SurfaceLimit> limits_to_accept(const JobOptions& options, const RemovalFunction& tif) {
+  if (options.accept.empty()) return {};
+  try {
+    return parse_surface_limits(options.accept, tool_band_edges(tif.fwhm));
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("--accept: {}", error.what()));
+  }
+}
+
 /// Lines of G-code from the file of an option, if it is given.
 GcodeInsert load_insert(const char* role, const std::string& file, std::vector<InputFile>& inputs) {
   if (file.empty()) return {};
@@ -94,6 +104,7 @@ Job load_job(const JobOptions& options, const Progress& progress) {
   RemovalFunction tif = load_removal_function(options, job.inputs, progress);
   job.part = std::make_shared<const Part>(
       make_part(std::move(map), std::move(tif), options.remove, options.threads, progress));
+  job.accept = limits_to_accept(options, job.part->tif);
   return job;
 }
 

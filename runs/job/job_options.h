@@ -63,6 +63,7 @@ struct JobOptions {
   FormTerms remove{true, true};
   double fraction = 1.0;  // of the error that a plan removes
   Aperture aperture;
+  std::string accept;  // limits of the surface that is left (surface_limits.h); empty: none
   double min_dwell_s = 0.0;
   double max_feed_mm_per_min = 3000.0;
   WeightGoal smoothness{0.0, GoalKind::Auto};

@@ -21,6 +21,7 @@
 #include "runs/machine/machine_option.h"
 #include "runs/plan/program_prediction.h"
 #include "runs/programs/program_reader.h"
+#include "runs/reports/acceptance_report.h"
 #include "runs/reports/anatomy_lines.h"
 #include "runs/reports/exact_lines.h"
 #include "runs/reports/machine_report.h"
@@ -141,6 +142,8 @@ Simulation simulate_file(const std::filesystem::path& program, const GcodeReadin
   facts.blemishes_left_out = !s.plan.empty() && options.blemishes == BlemishHandling::LeaveOut;
   s.advice = residual_advice(s.anatomy, facts);
   if (auto limit = more_than_before(s.after, s.before)) s.limits.push_back(std::move(*limit));
+  s.acceptance = judge_residual(s.after, job.accept, part.threads, progress.of_part("what is left"));
+  for (std::string& unmet : unmet_limits(s.acceptance)) s.limits.push_back(std::move(unmet));
   return s;
 }
 
@@ -167,6 +170,7 @@ std::string simulation_json(const Simulation& s) {
   }
   if (s.recorded) json["recorded"] = recorded_block(*s.recorded);
   json["anatomy"] = anatomy_block(s.anatomy, s.advice);
+  if (!s.acceptance.empty()) json["acceptance"] = acceptance_block(s.acceptance);
   if (!s.plan.empty()) json["plan"] = s.plan;
   json["differences"] = s.differences;
   json["limits"] = s.limits;

@@ -55,6 +55,7 @@ JobOptions unusual() {
   o.remove = {true, true, true};
   o.aperture = parse_aperture("rect:0,0,1,2");
   o.fraction = 0.8;
+  o.accept = "rms<=1, mid<=0.5nm";
   o.min_dwell_s = 1.0 / 7.0;
   o.max_feed_mm_per_min = 1e7;
   o.machine = "/data/machine.toml";
