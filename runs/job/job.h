@@ -31,6 +31,7 @@ struct Job {
   std::optional<ProgramTemplate> layout;  // of one more program
   std::optional<LogLesson> lesson{};      // of the log, once the path is laid
   std::vector<SurfaceLimit> accept{};     // that the surface is judged by
+  std::vector<std::string> notes{};       // what reading the files has to say, a sentence each
 };
 
 /// Reads map and removal function and makes the part; the path is not looked at. Throws InputError naming flag or file,

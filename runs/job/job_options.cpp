@@ -369,6 +369,10 @@ std::vector<JobOptionRecord> make_table() {
   const auto lift_height = std::find_if(table.begin(), table.end(),
                                         [](const JobOptionRecord& record) { return record.flag == "lift-height"; });
   table.insert(lift_height + 1, of_program.begin(), of_program.end());
+  const std::vector<JobOptionRecord> of_profile = profile_option_records();
+  const auto map_steps = std::find_if(table.begin(), table.end(),
+                                      [](const JobOptionRecord& record) { return record.flag == "map-steps"; });
+  table.insert(map_steps + 1, of_profile.begin(), of_profile.end());
   const std::vector<JobOptionRecord> of_log = log_option_records();
   const auto rounds =
       std::find_if(table.begin(), table.end(), [](const JobOptionRecord& record) { return record.flag == "rounds"; });

@@ -54,7 +54,8 @@ HeightMap profile_strip(const ProfileInput& profile, double width_mm) {
   }
   for (Index row = 0; row < map.grid.rows; ++row)
     std::copy(line.begin(), line.end(), map.values.begin() + static_cast<std::ptrdiff_t>(row * map.grid.cols));
-  map.history.push_back(fmt::format("profile without {}, the same in every row", profile.form.text));
+  const std::string pole = profile.rest.pole ? fmt::format(" with its pole at x = {:.6g} mm", *profile.rest.pole) : "";
+  map.history.push_back(fmt::format("profile without {}{}, the same in every row", profile.form.text, pole));
   return map;
 }
 

@@ -304,6 +304,7 @@ WrittenPlan write_plan(const PlannedJob& plan, const OutputFolder& folder, const
   const double max_feed = options.machine.feed_limits().max_feed;
   written.run_seconds = run.run_seconds(max_feed);
   written.warnings = plan.job.options.notes;
+  written.warnings.insert(written.warnings.end(), plan.job.notes.begin(), plan.job.notes.end());
   if (plan.job.lesson) {
     const std::vector<std::string>& notes = plan.job.lesson->notes;
     written.warnings.insert(written.warnings.end(), notes.begin(), notes.end());

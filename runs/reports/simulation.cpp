@@ -17,6 +17,7 @@
 #include "paths/feed/machine_check.h"
 #include "runs/base/inputs_json.h"
 #include "runs/job/job.h"
+#include "runs/job/line_profile_map.h"
 #include "runs/job/program_style.h"
 #include "runs/machine/machine_option.h"
 #include "runs/plan/program_prediction.h"
@@ -108,8 +109,8 @@ Simulation simulate_file(const std::filesystem::path& program, const GcodeReadin
   s.inputs.insert(s.inputs.end(), job.inputs.begin(), job.inputs.end());
   s.terms = part.form;
   s.before = part.before;
-  s.map = {options.map,        part.map.grid, part.map.history, job.map_pixels, to_string(options.aperture),
-           to_string(s.terms), s.before};
+  s.map = {heights_file(options),       part.map.grid,      part.map.history, job.map_pixels,
+           to_string(options.aperture), to_string(s.terms), s.before};
   s.tif = part.tif;
   s.volume_factor = part.kernel.volume_factor;
   check_steps(s.program, part);
