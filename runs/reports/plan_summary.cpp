@@ -18,6 +18,7 @@
 #include "runs/reports/options_json.h"
 #include "runs/reports/plan_blocks.h"
 #include "runs/reports/plan_costs.h"
+#include "runs/reports/resume_report.h"
 #include "runs/reports/tool_sheet.h"
 #include "runs/reports/weight_lines.h"
 
@@ -178,6 +179,7 @@ std::string plan_summary_text(const PlannedJob& plan, const WrittenPlan& written
                   {"options", options_json(plan.job)},
                   {"names_from", names_from(plan)},
                   {"inputs", inputs_json(plan.job.inputs)}});
+  if (plan.resumed) summary["resume"] = resume_block(*plan.resumed);
   if (!written.acceptance.empty()) summary["acceptance"] = acceptance_block(written.acceptance);
   if (!written.exports.empty()) summary["exports"] = exports_json(written);
   if (plan.dwell.motion) {

@@ -89,6 +89,7 @@ std::map<std::string, std::vector<Words>> runs_of_commands() {
         SmallInputs::plan({"--map", "specked.csv", "--out", "a", "--blemishes", "leave-out"}),
         SmallInputs::plan({"--out", "a", "--machine", "machine.toml", "--export", "pvt-csv,xps-trj"}),
         SmallInputs::plan({"--out", "a", "--machine", "blocks.toml", "--accept", "rms<=1um, mid<=1pm, slope<=3mrad"}),
+        {"plan", "--resume", "200", "--log-plan", "plan", "--out", "a"},
         {"plan", "--log", "run.csv", "--log-plan", "plan", "--machine", "machine.toml", "--out", "a"}}},
       {"paths",
        {{"paths", "--map", "wide.csv", "--tif", "gaussian:peak=10,fwhm=3,radius=4", "--threads", "1", "--paths",
