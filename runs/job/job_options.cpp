@@ -365,18 +365,14 @@ std::vector<JobOptionRecord> make_table() {
        "where the result is written; replaced whole if it holds an earlier one of the same kind", true, false,
        [](Options& o, const std::string& t) { o.out = t; }, [](const Options& o) { return o.out; }},
   };
-  const std::vector<JobOptionRecord> of_program = program_option_records();
-  const auto lift_height = std::find_if(table.begin(), table.end(),
-                                        [](const JobOptionRecord& record) { return record.flag == "lift-height"; });
-  table.insert(lift_height + 1, of_program.begin(), of_program.end());
-  const std::vector<JobOptionRecord> of_profile = profile_option_records();
-  const auto map_steps = std::find_if(table.begin(), table.end(),
-                                      [](const JobOptionRecord& record) { return record.flag == "map-steps"; });
-  table.insert(map_steps + 1, of_profile.begin(), of_profile.end());
-  const std::vector<JobOptionRecord> of_log = log_option_records();
-  const auto rounds =
-      std::find_if(table.begin(), table.end(), [](const JobOptionRecord& record) { return record.flag == "rounds"; });
-  table.insert(rounds + 1, of_log.begin(), of_log.end());
+  const auto insert_after = [&table](const char* flag, const std::vector<JobOptionRecord>& part) {
+    const auto at =
+        std::find_if(table.begin(), table.end(), [flag](const auto& record) { return record.flag == flag; });
+    table.insert(at + 1, part.begin(), part.end());
+  };
+  insert_after("lift-height", program_option_records());
+  insert_after("map-steps", profile_option_records());
+  insert_after("rounds", log_option_records());
   return table;
 }
 
