@@ -12,6 +12,7 @@
 #include "runs/job/input_files.h"
 #include "runs/job/job_file.h"
 #include "runs/job/keep_out_option.h"
+#include "runs/job/line_profile_map.h"
 #include "runs/machine/machine_option.h"
 #include "runs/map_steps/map_steps.h"
 #include "runs/programs/shipped_templates.h"
@@ -49,6 +50,11 @@ JobOptions JobArguments::options() const {
 JobOptions JobArguments::options_over(JobOptions options) const {
   for (const Given& given : given_) {
     if (given.option->count() == 0) continue;
+    if (given.record->flag == "map") forget_line_profile(options);
+    if (given.record->flag == "line-profile") forget_map(options);
+  }
+  for (const Given& given : given_) {
+    if (given.option->count() == 0) continue;
     std::string text = fmt::format("{}", fmt::join(given.option->results(), ";"));
     const bool is_alone = text.empty() || text == "true";  // as CLI11 has it
     if (is_alone && !given.record->alone.empty()) text = given.record->alone;
@@ -61,6 +67,7 @@ void JobArguments::require(const JobOptions& options, const std::vector<std::str
                            const std::vector<std::string>& others) {
   std::vector<std::string> missing;
   for (const JobOptionRecord& record : job_option_table()) {
+    if (record.flag == "map" && !options.line_profile.empty()) continue;  // which takes its place
     const bool wanted = std::find(flags.begin(), flags.end(), record.flag) != flags.end();
     if (wanted && record.get(options).empty()) missing.push_back("--" + record.flag);
   }
@@ -84,6 +91,7 @@ std::vector<const JobOptionRecord*> JobArguments::given() const {
 std::vector<ReadFile> JobArguments::files_read(const JobOptions& options) const {
   std::vector<ReadFile> read{{"the job file", job_},
                              {"the map", options.map},
+                             {"the line profile", options.line_profile},
                              {"the removal function", options.tif},
                              {"the machine", is_inline_machine(options.machine) ? "" : options.machine},
                              {"the header", options.header},

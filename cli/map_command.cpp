@@ -32,7 +32,8 @@ struct MapArguments {
   std::unique_ptr<JobArguments> job;
   std::string file, write, write_image, png;
   std::vector<std::string> steps;
-  std::string remove = "piston,tilt", form, window = "hann", bands = "33,0.12", limit, psd_png, profile, profile_png;
+  std::string remove = "piston,tilt", form, window = "hann", bands = "33,0.12", limit, accept, psd_png, profile,
+              profile_png;
   JsonOption json;
   bool psd = false;
 };
@@ -46,6 +47,9 @@ MapReportOptions report_options(const MapArguments& arguments, const CLI::App& c
   options.window = of_option("--window", [&a] { return parse_spectral_window(a.window); });
   options.band_edges = of_option("--bands", [&a] { return parse_band_edges(a.bands); });
   if (!a.limit.empty()) options.limit = of_option("--limit", [&a] { return parse_psd_limit(a.limit); });
+  if (!a.accept.empty()) {
+    options.accept = of_option("--accept", [&] { return parse_surface_limits(a.accept, options.band_edges); });
+  }
   const bool asked = command.count("--bands") + command.count("--limit") + command.count("--window") > 0;
   options.spectrum = arguments.psd || asked || !arguments.psd_png.empty();
   if (!arguments.profile_png.empty() && arguments.profile.empty()) {
@@ -171,6 +175,10 @@ void add_report_options(CLI::App& command, MapArguments& arguments) {
        "line A f^-B that the spectra along x and y must not exceed, A in nm^2 mm, f in 1/mm; radial:A,B in nm^2 mm^2 "
        "for "
        "the radial one");
+  text(
+      "--accept", arguments.accept, "LIMITS",
+      "limits that the map, form removed, is judged by, as rms<=1,pv<=10nm,slope<=0.2urad, of rms, pv, pvr, slope, mid "
+      "(the middle of --bands) and band(A..Bmm): exit code 3 where one is not met");
   text("--profile", arguments.profile, "LINE", "y=MM (along x), x=MM (along y) or X0,Y0,X1,Y1 in mm");
   arguments.json.add_to(command);
   text("--psd-png", arguments.psd_png, "FILE", "draw the spectra: .png, .svg or .pdf");

@@ -14,9 +14,11 @@
 #include "cli/terminal.h"
 #include "core/base/counted.h"
 #include "core/base/duration_text.h"
+#include "core/base/errors.h"
 #include "core/base/units.h"
 #include "runs/job/job_file.h"
 #include "runs/job/program_style.h"
+#include "runs/programs/program_block.h"
 #include "runs/reports/aim.h"
 #include "runs/reports/anatomy_lines.h"
 #include "runs/reports/exact_lines.h"
@@ -27,6 +29,8 @@
 #include "runs/reports/plan_files.h"
 #include "runs/reports/plan_output.h"
 #include "runs/reports/recorded_plan.h"
+#include "runs/reports/resume_plan.h"
+#include "runs/reports/resume_report.h"
 #include "runs/reports/tool_sheet.h"
 #include "runs/reports/travel_words.h"
 #include "runs/reports/weight_lines.h"
@@ -40,6 +44,7 @@ struct PlanArguments {
   JsonOption json;
   ResultFolder folder;
   bool write_job = false;
+  std::string resume;  // where the program of --log-plan stopped; empty: a plan of its own
 };
 
 /// What the machine makes of the plan; empty without one.
@@ -83,6 +88,16 @@ std::string limit_lines(const WrittenPlan& written) {
       share(BindingLimit::Speed), share(BindingLimit::Rest));
 }
 
+/// How the dwell was found, and how near to the optimum it is.
+std::string solver_lines(const PlannedJob& plan) {
+  if (plan.resumed) return "solver    none: the dwell of the plan is kept\n";
+  return fmt::format("solver    {}: {} after {}, {}, {:.2f} s\n", to_string(plan.dwell.solver.kind),
+                     to_string(plan.dwell.solver.status), counted(plan.dwell.solver.iterations, "iteration"),
+                     counted(plan.dwell.solver.operator_applications, "operator application"),
+                     plan.dwell.solver.seconds) +
+         optimum_line(plan.dwell);
+}
+
 /// What the log of an earlier run has taught; empty without one.
 std::string lesson_lines(const PlannedJob& plan) {
   if (!plan.job.lesson) return "";
@@ -112,7 +127,8 @@ std::string export_lines(const WrittenPlan& written) {
 
 /// The text for people.
 std::string plan_text(const PlannedJob& plan, const WrittenPlan& written) {
-  std::string text = map_line(plan.part().map.grid, plan.part().before.valid_pixels);
+  std::string text = plan.resumed ? resume_lines(*plan.resumed) : "";
+  text += map_line(plan.part().map.grid, plan.part().before.valid_pixels);
   text += fmt::format("before    {} ({} removed)\n", in_words(plan.part().before), to_string(plan.part().form));
   text += aim_line(correction_aim(plan.job));
   text += tool_lines(tool_sheet(plan.part().tif));
@@ -121,11 +137,7 @@ std::string plan_text(const PlannedJob& plan, const WrittenPlan& written) {
                       plan.laid.metrics.longest_jump, counted(plan.laid.metrics.lifts, "lift"));
   for (const std::string& note : plan.laid.path.notes) text += fmt::format("          {}\n", note);
   text += weight_lines(plan);
-  text +=
-      fmt::format("solver    {}: {} after {}, {}, {:.2f} s\n", to_string(plan.dwell.solver.kind),
-                  to_string(plan.dwell.solver.status), counted(plan.dwell.solver.iterations, "iteration"),
-                  counted(plan.dwell.solver.operator_applications, "operator application"), plan.dwell.solver.seconds);
-  text += optimum_line(plan.dwell);
+  text += solver_lines(plan);
   text +=
       fmt::format("dwell     total {}, from {:.4g} s to {:.4g} s a point, step RMS {:.4g} s{}\n",
                   duration_text(plan.dwell.seconds.sum()), plan.dwell.seconds.minCoeff(), plan.dwell.seconds.maxCoeff(),
@@ -142,7 +154,8 @@ std::string plan_text(const PlannedJob& plan, const WrittenPlan& written) {
                       written.program.file, plan.dwell.motion ? ", executed on the machine" : "");
   text += export_lines(written) + exact_lines(written.exact);
   text += anatomy_lines(written.anatomy, written.exact.statistics) + left_out_line(plan.dwell) + cost_line(plan);
-  text += fmt::format("help      {}\n", written.advice) + surface_lines(written.surface);
+  text += fmt::format("help      {}\n", written.advice) + surface_lines(written.surface) +
+          verdict_lines(written.acceptance);
   text += fmt::format("time      {} for the run: dwell {:.2f} s, {}\n", duration_text(written.run_seconds),
                       plan.dwell.run_dwell(), travel_words(written.travel));
   for (const std::string& warning : written.warnings) text += fmt::format("warning   {}\n", warning);
@@ -166,18 +179,42 @@ JobOptions options_of(const PlanArguments& arguments) {
   return options;
 }
 
+/// Options that the rest of a program may have beside those of its plan.
+void check_resume_options(const PlanArguments& arguments) {
+  const std::set<std::string> accepted{"log-plan", "log-columns", "log-period", "log-tolerance", "out",
+                                       "accept",   "threads",     "max-pixels", "figures",       "figure-range"};
+  if (arguments.job->has_file())
+    throw InputError("--resume: not with --job; the rest of a program has the options of its plan");
+  std::string names;
+  for (const std::string& flag : accepted) names += (names.empty() ? "--" : ", --") + flag;
+  for (const JobOptionRecord* record : arguments.job->given()) {
+    if (accepted.contains(record->flag)) continue;
+    throw InputError(
+        fmt::format("--{}: not with --resume, which goes on with the plan's own program; accepted beside it: {}",
+                    record->flag, names));
+  }
+}
+
 int run_plan(const PlanArguments& arguments) {
+  const bool resumes = !arguments.resume.empty();
+  if (resumes) check_resume_options(arguments);
   const JobOptions options = options_of(arguments);
   if (arguments.write_job) {
     print(job_file_text(options));
     return kDone;
   }
-  JobArguments::require(options, {"map", "tif", "path", "out"});
-  const std::vector<ReadFile> read = arguments.job->files_read(options);
+  if (resumes) {
+    JobArguments::require(options, {"log-plan", "out"});
+  } else {
+    JobArguments::require(options, {"map", "tif", "path", "out"});
+  }
+  std::vector<ReadFile> read = arguments.job->files_read(options);
+  if (resumes && !is_program_block(arguments.resume)) read.push_back({"the log", arguments.resume});
   arguments.json.check(read, options.out);
   OutputFolder folder = arguments.folder.make(options.out, plan_files(), read);
   const Progress progress = terminal_progress();
-  const PlannedJob plan = plan_job(options, progress);
+  const PlannedJob plan =
+      resumes ? resume_plan(arguments.resume, options, folder, progress) : plan_job(options, progress);
   const WrittenPlan written = write_plan(plan, folder, progress);
   folder.commit();
   finish_progress();
@@ -195,11 +232,19 @@ void add_plan_command(CLI::App& program, int& exit_code) {
   arguments->json.add_to(*command);
   command->add_flag("--write-job", arguments->write_job,
                     "print a job file with these options, with comments, and stop");
+  command
+      ->add_option(
+          "--resume", arguments->resume,
+          "the rest of the program in --log-plan, which was stopped: in this line of program.nc (1234), in the "
+          "block of this number (N1234), or where this log of the controller ends; it keeps its dwell and all "
+          "other options of its plan")
+      ->type_name("LINE|LOG");
   command->footer(
       "Example:\n"
       "  dwell plan --map mirror.csv --map-pixel 0.0938 --tif spot.csv --tif-pixel 0.0938 \\\n"
       "             --path raster:pitch=1 --max-feed 3000 --out plan/\n"
       "  dwell plan --log-plan plan/ --log run.csv --machine machine.toml --out next/\n"
+      "  dwell plan --resume 1234 --log-plan plan/ --out rest/\n"
       "Exit codes: 0 done, 1 internal fault, 2 bad usage or input, 3 done but a limit was reached, 130 interrupted.");
   command->callback([arguments, &exit_code] { exit_code = run_plan(*arguments); });
 }

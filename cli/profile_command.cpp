@@ -11,8 +11,8 @@
 #include "cli/terminal.h"
 #include "core/base/errors.h"
 #include "core/formats/map_formats.h"
+#include "runs/profile/profile_strip.h"
 #include "runs/reports/profile_report.h"
-#include "runs/reports/profile_strip.h"
 
 namespace dwell::cli {
 namespace {
@@ -33,7 +33,7 @@ int run_profile(const ProfileArguments& a) {
                       a.json.output(),
                       {Kind::Figure, "--png", a.png}},
                      {{"the profile", a.file}});
-  const ProfileReport report = read_profile(a.file, a.read, form);
+  const ProfileInput report = read_profile(a.file, a.read, form);
   std::optional<HeightMap> strip;
   if (!a.write_map.empty()) strip = profile_strip(report, a.line_width.value_or(0.0));
   PendingFiles files;

@@ -111,14 +111,16 @@ SimulationRequest request_of_plan(const SimulateArguments& a) {
     flags.insert(record->flag);
     if (record->flag == "threads" || record->flag == "max-pixels") continue;  // change no result
     const std::string now = record->get(request.options), then = record->get(plan.options);
-    const bool file =
-        record->flag == "map" || record->flag == "tif" || record->flag == "machine" || record->flag == "template";
+    const bool file = record->flag == "map" || record->flag == "line-profile" || record->flag == "tif" ||
+                      record->flag == "machine" || record->flag == "template";
     if (file && !are_same_file(now, then)) {
       request.source.given.push_back(given_file_sentence(record->flag, now, then));
     } else if (!file && now != then) {
       request.source.given.push_back(given_sentence(record->flag, now, then));
     }
   }
+  if (flags.contains("map")) flags.insert("line-profile");  // whichever the plan has, its file is not looked at
+  if (flags.contains("line-profile")) flags.insert("map");
   request.source.other.map |= flags.contains("map") || flags.contains("map-steps");
   request.source.other.tif |= flags.contains("tif");
   if (!a.program.empty()) {
@@ -253,7 +255,8 @@ std::string simulation_text(const Simulation& s) {
          fmt::format("before    {} ({} removed, {})\n", in_words(s.before), to_string(s.terms),
                      counted(s.before.valid_pixels, "pixel")) +
          fmt::format("after     {} ({} removed)\n", in_words(s.after.statistics), to_string(s.terms)) +
-         exact_lines(s.after) + anatomy_lines(s.anatomy, s.after.statistics) + fmt::format("help      {}\n", s.advice);
+         exact_lines(s.after) + anatomy_lines(s.anatomy, s.after.statistics) + fmt::format("help      {}\n", s.advice) +
+         verdict_lines(s.acceptance);
 }
 
 /// Where another map is read with the plan's options of its own map, what is refused about them says whose they are.
@@ -325,11 +328,13 @@ void add_simulate_command(CLI::App& program, int& exit_code) {
       program.add_subcommand("simulate", "predict the surface that a feed table or G-code program leaves");
   auto arguments = std::make_shared<SimulateArguments>();
   const std::vector<std::string> flags{
-      "map",        "map-pixel",    "map-unit",   "wavelength", "wave-scale", "map-origin", "map-no-data",
-      "map-max-pv", "map-table",    "map-rows",   "map-grid",   "map-steps",  "max-pixels", "tif",
-      "tif-pixel",  "tif-no-data",  "tif-table",  "tif-rows",   "tif-grid",   "tif-unit",   "tif-dwell-time",
-      "tif-steps",  "tif-pedestal", "tif-centre", "tif-angle",  "tif-flip",   "tif-rate",   "tif-width",
-      "remove",     "aperture",     "machine",    "template",   "threads"};
+      "map",          "map-pixel",       "map-unit",     "wavelength",     "wave-scale", "map-origin",
+      "map-no-data",  "map-max-pv",      "map-table",    "map-rows",       "map-grid",   "map-steps",
+      "line-profile", "profile-columns", "profile-unit", "profile-remove", "line-width", "max-pixels",
+      "tif",          "tif-pixel",       "tif-no-data",  "tif-table",      "tif-rows",   "tif-grid",
+      "tif-unit",     "tif-dwell-time",  "tif-steps",    "tif-pedestal",   "tif-centre", "tif-angle",
+      "tif-flip",     "tif-rate",        "tif-width",    "remove",         "aperture",   "accept",
+      "machine",      "template",        "threads"};
   command
       ->add_option("plan", arguments->plan,
                    "folder of a plan: its program, with the map, the removal function and all options that it was made "

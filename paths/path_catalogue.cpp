@@ -18,6 +18,7 @@
 #include "paths/lattice/peano.h"
 #include "paths/lattice/random_path.h"
 #include "paths/lines/cross_hatch.h"
+#include "paths/lines/line_path.h"
 #include "paths/lines/multi_pitch.h"
 #include "paths/lines/random_raster.h"
 #include "paths/lines/raster.h"
@@ -240,6 +241,10 @@ std::vector<PathRecord> make_catalogue() {
            "...][,min-pitch=MM][,max-pitch=MM][,step=MM][,angle=DEGREES][,overrun=MM][,lift=PITCHES|inf][,smooth=MM]",
            "straight lines, closer together where more is to be removed", ""},
           parse_multi_pitch_options, multi_pitch_distances, plan_multi_pitch),
+      row<LinePathOptions>(
+          {"line", "step=MM[,y=MM][,overrun=MM]", "one track along x, for a profile or a strip", "step"},
+          parse_line_path_options, line_path_distances,
+          [](const LinePathOptions& o, const PathJob& job) { return with_overrun<line_path>(o, job); }),
       row<PathFromFile>({"file", "PATH.csv", "dwell points in the order of a file", ""}, parse_file, no_distances,
                         plan_from_file),
   };

@@ -53,15 +53,34 @@ HeightMap without_narrow_holes(HeightMap map, double widest) {
   return map;
 }
 
+/// Distances as edge_distances has them, but along the line alone of a map that is one row or one column of pixels:
+/// such a map is a line over a part, and beside it lies what was not measured.
+std::vector<double> distances_on_line(const HeightMap& map) {
+  const double pitch = map.grid.rows == 1 ? map.grid.pitch_x : map.grid.pitch_y;
+  std::vector<double> distance(map.values.size(), 0.0);
+  double since = 0.0;
+  for (std::size_t i = 0; i < distance.size(); ++i)
+    distance[i] = since = std::isfinite(map.values[i]) ? since + pitch : 0.0;
+  since = 0.0;
+  for (std::size_t i = distance.size(); i-- > 0;) {
+    since = std::isfinite(map.values[i]) ? since + pitch : 0.0;
+    distance[i] = std::min(distance[i], since);
+  }
+  return distance;
+}
+
 }  // namespace
 
 EdgeZone edge_zone(const HeightMap& map, double fwhm, int threads) {
   EdgeZone zone;
   zone.width = kEdgeZoneInFwhm * fwhm;
   zone.holds.assign(map.values.size(), 0);
-  const bool whole = map.valid_pixels() == map.grid.size();
-  const std::vector<double> distance = edge_distances(whole ? map : without_narrow_holes(map, fwhm), threads);
-  const double half = 0.5 * std::min(map.grid.pitch_x, map.grid.pitch_y);  // from a centre to the pixel's side
+  const Grid& g = map.grid;
+  const bool whole = map.valid_pixels() == g.size(), line = std::min(g.rows, g.cols) == 1 && g.size() > 1;
+  const std::vector<double> distance =
+      line ? distances_on_line(map) : edge_distances(whole ? map : without_narrow_holes(map, fwhm), threads);
+  // From a centre to the pixel's side.
+  const double half = 0.5 * (!line ? std::min(g.pitch_x, g.pitch_y) : g.rows == 1 ? g.pitch_x : g.pitch_y);
   for (std::size_t i = 0; i < map.values.size(); ++i)
     zone.holds[i] = std::isfinite(map.values[i]) && distance[i] - half <= zone.width ? 1 : 0;
   zone.pixels = std::accumulate(zone.holds.begin(), zone.holds.end(), Index{0});

@@ -39,7 +39,9 @@ struct ProfileRest {
   std::optional<double> radius;  // Sphere [mm], infinite of a plane
   std::optional<double> pole;    // Ellipse [mm]
   std::optional<double> angle;   // Ellipse, grazing [rad]
-  std::vector<std::string> hints;  // what would fit at least twice as well, a sentence each: another sign or end
+  /// A sentence each: what would fit an ellipse at least twice as well, another sign or end; that the form of a curved
+  /// mirror seems to be in heights of which none was taken out (they span over 1 um, mostly of a curve).
+  std::vector<std::string> hints;
 };
 
 /// Takes the form out of what was measured, by least squares in which every place counts by the length that it stands

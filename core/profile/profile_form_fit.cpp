@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "core/base/errors.h"
@@ -249,6 +250,28 @@ std::vector<std::string> hints_of(const LineProfile& profile, const ProfileForm&
   return hints;
 }
 
+/// What shows that a mirror's form is still in the heights: they span far more than errors of a figure do, and a
+/// parabola explains most of it. Nothing where a curved form is taken out.
+std::optional<std::string> curved_hint(const LineProfile& profile, const ProfileForm& form) {
+  constexpr double kClearly = 0.5, kFigure = 1000.0;  // [nm]
+  if (form.kind != ProfileForm::Kind::None && (form.kind != ProfileForm::Kind::Polynomial || form.degree > 1))
+    return std::nullopt;
+  const auto without = [&profile](int degree) {
+    ProfileForm polynomial;
+    polynomial.degree = degree;
+    return fit_form(profile, profile.values(), polynomial).rest;
+  };
+  if (profile.x.size() < 5) return std::nullopt;  // a parabola fits too few places whatever they are
+  const std::vector<double> lengths = place_lengths(profile.x), level = without(1);
+  const double span = profile_figures(line_profile(profile.measured, profile.x, level)).height_pv;
+  if (!(span > kFigure) || !(rms_about_mean(without(2), lengths) < kClearly * rms_about_mean(level, lengths)))
+    return std::nullopt;
+  return fmt::format(
+      "the heights span {:.4g} um about a straight line, far more than errors of a figure, and most of it is a curve: "
+      "the form of the mirror seems to be in them; take out its sphere, or its ellipse with p, q and angle",
+      1e-3 * span);
+}
+
 }  // namespace
 
 ProfileRest remove_profile_form(const LineProfile& profile, const ProfileForm& form) {
@@ -276,6 +299,7 @@ ProfileRest remove_profile_form(const LineProfile& profile, const ProfileForm& f
     rest.angle = found.mirror.grazing;
     rest.hints = hints_of(profile, form, rms_about_mean(fit.rest, place_lengths(profile.x)));
   }
+  if (auto hint = curved_hint(profile, form)) rest.hints.push_back(std::move(*hint));
   return rest;
 }
 

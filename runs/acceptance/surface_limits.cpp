@@ -129,6 +129,11 @@ void judge_band(const ArealPsd& psd, SurfaceVerdict& verdict) {
   verdict.note = band.note;
 }
 
+HeightMap about_mean(HeightMap map, double mean) {
+  for (double& value : map.values) value -= mean;
+  return map;
+}
+
 std::optional<double> finite_or_none(double value) {
   return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
@@ -138,6 +143,13 @@ std::optional<double> finite_or_none(double value) {
 std::vector<SurfaceLimit> parse_surface_limits(std::string_view text, const std::vector<double>& band_edges) {
   return LimitReader(text, band_edges).read();
 }
+
+void check_surface_limits(std::string_view text) {
+  // Edges that no band of a specification has, so that `mid` is no band that the text limits as well.
+  parse_surface_limits(text, {1.7e300, 1.3e300});
+}
+
+std::vector<double> tool_band_edges(double fwhm) { return {2.0 * fwhm, 0.5 * fwhm}; }
 
 std::string surface_limits_text(const std::vector<SurfaceLimit>& limits) {
   std::string text;
@@ -177,7 +189,7 @@ std::vector<SurfaceVerdict> judge_surface(const HeightMap& map, const FormTerms&
         if (!verdict.value) verdict.note = "no neighbouring pixels along both axes";
         break;
       case SurfaceQuantity::Band:
-        if (!psd) psd = areal_psd(figure, options);
+        if (!psd) psd = areal_psd(about_mean(figure, statistics.mean), options);
         judge_band(*psd, verdict);
         break;
     }

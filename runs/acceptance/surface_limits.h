@@ -37,6 +37,14 @@ struct SurfaceLimit {
 /// may be limited twice.
 std::vector<SurfaceLimit> parse_surface_limits(std::string_view text, const std::vector<double>& band_edges);
 
+/// The same of an option that is read before the edges of the bands are known; throws for whatever is wrong in the text
+/// by itself.
+void check_surface_limits(std::string_view text);
+
+/// The edges between the bands that a tool of this FWHM [mm] corrects (waves longer than two of them), hardly reaches,
+/// and does not reach but leaves marks in (shorter than half of one) [mm, descending].
+std::vector<double> tool_band_edges(double fwhm);
+
 /// The limits as text that parses to the same.
 std::string surface_limits_text(const std::vector<SurfaceLimit>& limits);
 
@@ -51,7 +59,8 @@ struct SurfaceVerdict {
   double margin() const { return limit.most - value.value_or(limit.most); }
 };
 
-/// Judges a surface less its form terms. Bands are of the areal spectrum with the usual window. Throws InputError if no
+/// Judges a surface less its form terms. Bands are of the areal spectrum with the usual window, the mean, where it
+/// counts, taken out, since it would leak through the window. Throws InputError if no
 /// pixel is finite, Interrupted. Cost O(pixels), and one transform where a band is limited.
 std::vector<SurfaceVerdict> judge_surface(const HeightMap& map, const FormTerms& form,
                                           const std::vector<SurfaceLimit>& limits, int threads = 1,

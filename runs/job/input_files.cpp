@@ -81,7 +81,8 @@ MapReadOptions tif_reading(const JobOptions& options, MapQuantity quantity) {
 }  // namespace
 
 HeightMap load_map(const JobOptions& options, std::vector<InputFile>& inputs, const Progress& progress) {
-  if (options.map.empty()) throw InputError("--map: required; a height-error map, for instance mirror.csv");
+  if (options.map.empty())
+    throw InputError("--map: required; a height-error map, for instance mirror.csv (or --line-profile)");
   const MapReadOptions read = map_reading(options);
   progress.step("reading the map");
   HeightMap map = read_map(options.map, read, progress.of_part("map"));

@@ -11,6 +11,7 @@
 #include "paths/domain/keep_out.h"
 #include "runs/job/input_files.h"
 #include "runs/job/keep_out_option.h"
+#include "runs/job/line_profile_map.h"
 #include "runs/job/program_style.h"
 #include "runs/machine/machine_option.h"
 #include "runs/plan/pitch_choice.h"
@@ -26,16 +27,27 @@ const PathSpec& required_path(const JobOptions& options) {
   return options.path;
 }
 
-/// Where both files lack a pitch, both are named at once.
-HeightMap load_map_of(const JobOptions& options, std::vector<InputFile>& inputs, const Progress& progress) {
+/// The map of the job, or that of its line profile. Where both files lack a pitch, both are named at once.
+HeightMap load_map_of(const JobOptions& options, Job& job, const Progress& progress) {
+  if (!options.line_profile.empty()) return load_line_profile(options, job.inputs, job.notes, progress);
   try {
-    return load_map(options, inputs, progress);
+    return load_map(options, job.inputs, progress);
   } catch (const MissingPitch&) {
     const std::vector<std::string> missing = missing_pitches(options);
     if (missing.size() < 2) throw;
     throw InputError(
         fmt::format("{}: required [mm] > 0; there is no pixel pitch in the map {}, nor in the removal function {}",
                     fmt::join(missing, ", "), options.map, options.tif));
+  }
+}
+
+/// The limits of --accept; `mid` is of this tool.
+std::vector<SurfaceLimit> limits_to_accept(const JobOptions& options, const RemovalFunction& tif) {
+  if (options.accept.empty()) return {};
+  try {
+    return parse_surface_limits(options.accept, tool_band_edges(tif.fwhm));
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("--accept: {}", error.what()));
   }
 }
 
@@ -71,6 +83,7 @@ DwellOptions dwell_options(const Job& job) {
 }
 
 Job load_job(const JobOptions& options, const Progress& progress) {
+  check_profile_options(options);
   Job job;
   job.options = options;
   if (!options.machine.empty()) {
@@ -87,13 +100,14 @@ Job load_job(const JobOptions& options, const Progress& progress) {
     job.inputs.push_back({"template", options.program_template, sha256_of(text)});
     job.layout = parse_program_template(text, options.program_template);
   }
-  HeightMap map = load_map_of(options, job.inputs, progress);
+  HeightMap map = load_map_of(options, job, progress);
   job.map_pixels = map.valid_pixels();
   map = within(std::move(map), options.aperture, progress);
   progress.check();
   RemovalFunction tif = load_removal_function(options, job.inputs, progress);
   job.part = std::make_shared<const Part>(
       make_part(std::move(map), std::move(tif), options.remove, options.threads, progress));
+  job.accept = limits_to_accept(options, job.part->tif);
   return job;
 }
 

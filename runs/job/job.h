@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/map/aperture.h"
+#include "runs/acceptance/surface_limits.h"
 #include "runs/base/input_file.h"
 #include "runs/job/job_options.h"
 #include "runs/job/log_lesson.h"
@@ -29,6 +30,8 @@ struct Job {
   GcodeInsert header, footer;             // of program.nc
   std::optional<ProgramTemplate> layout;  // of one more program
   std::optional<LogLesson> lesson{};      // of the log, once the path is laid
+  std::vector<SurfaceLimit> accept{};     // that the surface is judged by
+  std::vector<std::string> notes{};       // what reading the files has to say, a sentence each
 };
 
 /// Reads map and removal function and makes the part; the path is not looked at. Throws InputError naming flag or file,

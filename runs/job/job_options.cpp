@@ -17,6 +17,7 @@
 #include "core/tif/models/removal_models.h"
 #include "core/tif/removal_orientation.h"
 #include "paths/path_catalogue.h"
+#include "runs/acceptance/surface_limits.h"
 #include "runs/drawing/figure_format.h"
 #include "runs/job/keep_out_option.h"
 #include "runs/job/place_option.h"
@@ -260,6 +261,16 @@ std::vector<JobOptionRecord> make_table() {
        "share of the error that the plan removes, form terms aside, from 0.01 to 1: 0.8 leaves a fifth of it", false,
        true, [](Options& o, const std::string& t) { o.fraction = number(t, ranges::kFraction); },
        [](const Options& o) { return shown(o.fraction); }},
+      {"accept", "accept", "LIMITS",
+       "limits that the surface which the program leaves is judged by, as rms<=1,pv<=10nm,slope<=0.2urad, of rms, pv, "
+       "pvr, slope, mid and band(A..Bmm): exit code 3 where one is not met; mid lies between two FWHM of the tool and "
+       "half of one; or none",
+       false, false,
+       [](Options& o, const std::string& t) {
+         if (t != "none") check_surface_limits(t);
+         o.accept = t == "none" ? "" : t;
+       },
+       [](const Options& o) { return o.accept; }},
       {"min-dwell", "min_dwell_s", "S", "shortest dwell time at a point in s", false, true,
        [](Options& o, const std::string& t) { o.min_dwell_s = number(t, ranges::kDwell); },
        [](const Options& o) { return shown(o.min_dwell_s); }},
@@ -354,14 +365,14 @@ std::vector<JobOptionRecord> make_table() {
        "where the result is written; replaced whole if it holds an earlier one of the same kind", true, false,
        [](Options& o, const std::string& t) { o.out = t; }, [](const Options& o) { return o.out; }},
   };
-  const std::vector<JobOptionRecord> of_program = program_option_records();
-  const auto lift_height = std::find_if(table.begin(), table.end(),
-                                        [](const JobOptionRecord& record) { return record.flag == "lift-height"; });
-  table.insert(lift_height + 1, of_program.begin(), of_program.end());
-  const std::vector<JobOptionRecord> of_log = log_option_records();
-  const auto rounds =
-      std::find_if(table.begin(), table.end(), [](const JobOptionRecord& record) { return record.flag == "rounds"; });
-  table.insert(rounds + 1, of_log.begin(), of_log.end());
+  const auto insert_after = [&table](const char* flag, const std::vector<JobOptionRecord>& part) {
+    const auto at =
+        std::find_if(table.begin(), table.end(), [flag](const auto& record) { return record.flag == flag; });
+    table.insert(at + 1, part.begin(), part.end());
+  };
+  insert_after("lift-height", program_option_records());
+  insert_after("map-steps", profile_option_records());
+  insert_after("rounds", log_option_records());
   return table;
 }
 

@@ -42,7 +42,11 @@ struct JobOptions {
   std::optional<MapRows> map_rows;  // nothing: as the format says
   std::optional<ScatterOptions> map_grid;
   std::string map_steps;
-  std::optional<double> max_pixels;  // nothing: kMaxPixels, and no file that unpacks to many times its size
+  std::string line_profile;                   // in the place of a map; empty: none
+  std::string profile_columns, profile_unit;  // empty: as its header says
+  std::string profile_remove = "piston,tilt";
+  std::optional<double> line_width_mm;  // nothing: one row of pixels
+  std::optional<double> max_pixels;     // nothing: kMaxPixels, and no file that unpacks to many times its size
   std::string tif;
   std::optional<Point> tif_pixel_mm;
   std::string tif_unit;  // empty: as the file says, else nm/s
@@ -63,6 +67,7 @@ struct JobOptions {
   FormTerms remove{true, true};
   double fraction = 1.0;  // of the error that a plan removes
   Aperture aperture;
+  std::string accept;  // limits of the surface that is left (surface_limits.h); empty: none
   double min_dwell_s = 0.0;
   double max_feed_mm_per_min = 3000.0;
   WeightGoal smoothness{0.0, GoalKind::Auto};
@@ -123,6 +128,9 @@ const std::vector<JobOptionRecord>& job_option_table();
 
 /// The part of the table about how program.nc is written.
 std::vector<JobOptionRecord> program_option_records();
+
+/// The part about a line profile in the place of a map.
+std::vector<JobOptionRecord> profile_option_records();
 
 /// The part about the log of an earlier run.
 std::vector<JobOptionRecord> log_option_records();

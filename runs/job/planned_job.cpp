@@ -11,6 +11,7 @@
 #include "runs/job/option_flags.h"
 #include "runs/job/program_style.h"
 #include "runs/machine/machine_option.h"
+#include "runs/plan/kept_dwell.h"
 #include "runs/plan/leave_out.h"
 #include "runs/plan/rounded_motion.h"
 #include "runs/programs/program_formats.h"
@@ -119,6 +120,20 @@ void check_exports(const JobOptions& options) {
 
 namespace {
 
+/// The program of a plan that has its dwell, and the motion that its exports say.
+void make_program(PlannedJob& planned, const DwellOptions& options, const Progress& progress) {
+  planned.program = make_machine_program(planned.laid, planned.dwell, options.machine, progress);
+  if (planned.dwell.motion && planned.dwell.motion->program) {
+    planned.program.motion = planned.dwell.motion->program;
+  } else if (!option_that_needs_motion(planned.job.options).empty() && planned.dwell.motion) {
+    planned.program.motion = motion_to_be_rounded(*options.machine.machine, [&](double acceleration_share) {
+      return exported_motion(planned.program.table.path, planned.laid.motion, *options.machine.machine,
+                             options.machine.feed_limits().max_feed, planned.dwell.motion->seconds, progress,
+                             margins_of(acceleration_share));
+    });
+  }
+}
+
 /// `used` went of the time limit before [s].
 PlannedJob plan_loaded(Job job, JobPath path, double used, const Progress& progress) {
   PlannedJob planned;
@@ -143,16 +158,7 @@ PlannedJob plan_loaded(Job job, JobPath path, double used, const Progress& progr
     planned.dwell = leave_out_blemishes(planned.part(), planned.laid, std::move(planned.dwell), options, progress);
   }
   if (planned.blocks) planned.blocks->bounded = strokes_bounded_by_blocks(planned.laid, planned.dwell, options.machine);
-  planned.program = make_machine_program(planned.laid, planned.dwell, options.machine, progress);
-  if (planned.dwell.motion && planned.dwell.motion->program) {
-    planned.program.motion = planned.dwell.motion->program;
-  } else if (!option_that_needs_motion(planned.job.options).empty() && planned.dwell.motion) {
-    planned.program.motion = motion_to_be_rounded(*options.machine.machine, [&](double acceleration_share) {
-      return exported_motion(planned.program.table.path, planned.laid.motion, *options.machine.machine,
-                             options.machine.feed_limits().max_feed, planned.dwell.motion->seconds, progress,
-                             margins_of(acceleration_share));
-    });
-  }
+  make_program(planned, options, progress);
   return planned;
 }
 
@@ -171,6 +177,18 @@ PlannedJob plan_job(const JobOptions& options, const Progress& progress) {
 PlannedJob plan_job(Job job, JobPath path, const Progress& progress) {
   check_log_options(job.options);
   return plan_loaded(std::move(job), std::move(path), 0.0, progress);
+}
+
+PlannedJob keep_plan(Job job, LaidPath laid, const Weights& weights, const std::vector<double>& commanded,
+                     const Progress& progress) {
+  check_exports(job.options);
+  PlannedJob planned;
+  planned.job = std::move(job);
+  planned.laid = std::move(laid);
+  const DwellOptions options = dwell_options(planned.job);
+  planned.dwell = keep_dwell(planned.part(), planned.laid, options, weights, commanded, progress);
+  make_program(planned, options, progress);
+  return planned;
 }
 
 }  // namespace dwell

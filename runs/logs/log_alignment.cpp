@@ -253,11 +253,15 @@ void find_gaps(const MotionLog& log, AlignedLog& aligned) {
   }
 }
 
+void check_tolerance(double tolerance) {
+  if (!(std::isfinite(tolerance) && tolerance > 0.0))
+    throw InputError("log tolerance", fmt::format("{} mm", tolerance), "a finite number > 0");
+}
+
 }  // namespace
 
 AlignedLog align_log(const MotionLog& log, const Program& program, double tolerance, const Progress& progress) {
-  if (!(std::isfinite(tolerance) && tolerance > 0.0))
-    throw InputError("log tolerance", fmt::format("{} mm", tolerance), "a finite number > 0");
+  check_tolerance(tolerance);
   const Aligner aligner(log.seconds, log.places, program, tolerance, place_noise(log.places), progress);
   const std::optional<Attempt> attempt = aligner.best_attempt();
   if (!attempt || !attempt->whole) refuse(log, program, tolerance, aligner, attempt, progress);
@@ -275,6 +279,42 @@ AlignedLog align_log(const MotionLog& log, const Program& program, double tolera
   share_halts(program, aligned);
   find_gaps(log, aligned);
   return aligned;
+}
+
+LogEnd end_of_log(const MotionLog& log, const Program& program, double tolerance, const Progress& progress) {
+  constexpr double kRest = 0.2;  // [s]
+  check_tolerance(tolerance);
+  const Aligner aligner(log.seconds, log.places, program, tolerance, place_noise(log.places), progress);
+  const std::optional<Attempt> attempt = aligner.best_attempt();
+  if (!attempt) refuse(log, program, tolerance, aligner, attempt, progress);
+  if (attempt->whole) {
+    throw InputError(
+        fmt::format("{}: it has run {} to the end of its work: nothing is left to be done", log.file, program.file));
+  }
+  std::size_t last = attempt->end - 1;  // sample
+  if (attempt->off > tolerance) {
+    // It leaves the path: where it was stopped, if it rested there before.
+    last -= std::min(last - attempt->begin, kStrays + 1);
+    const auto rested = [&](std::size_t i) {
+      std::size_t before = i;
+      while (before > attempt->begin && log.seconds[i] - log.seconds[before] < kRest) --before;
+      return log.seconds[i] - log.seconds[before] >= kRest &&
+             distance(log.places[i], log.places[before]) <= aligner.same_place();
+    };
+    const Point leaves = log.places[last];
+    while (last > attempt->begin && !rested(last) && distance(log.places[last], leaves) <= 2.0 * tolerance) --last;
+    if (!rested(last)) refuse(log, program, tolerance, aligner, attempt, progress);
+  }
+  const double way = attempt->ways[last - attempt->begin];
+  LogEnd end;
+  double left = way;
+  end.step = aligner.extent().first;
+  while (end.step + 1 < aligner.extent().end && left >= program.steps[end.step].length())
+    left -= program.steps[end.step++].length();
+  const ProgramStep& step = program.steps[end.step];
+  end.share = step.length() > 0.0 ? std::clamp(left / step.length(), 0.0, 1.0) : 0.0;
+  end.place = step.start + end.share * (step.finish - step.start);
+  return end;
 }
 
 Program recorded_motion(const MotionLog& log, const AlignedLog& aligned, const Program& program) {

@@ -41,6 +41,19 @@ inline constexpr double kLogTolerance = 0.1;
 AlignedLog align_log(const MotionLog& log, const Program& program, double tolerance = kLogTolerance,
                      const Progress& progress = {});
 
+/// Where a log of a program that was stopped ends on its path.
+struct LogEnd {
+  std::size_t step = 0;  // of the program
+  double share = 0.0;    // of that step's length that was run
+  Point place;           // on the path [mm]
+};
+
+/// The end of a log that begins as align_log has it and ends on the path, or leaves it from a place where the tool
+/// rested before (it was lifted and taken away). Throws InputError for a program that removes nothing, for a log of
+/// another path, and for one that has run the program to its end; Interrupted. Cost as align_log.
+LogEnd end_of_log(const MotionLog& log, const Program& program, double tolerance = kLogTolerance,
+                  const Progress& progress = {});
+
 /// The motion as recorded, as steps at constant speed from sample to sample while the tool is at work: it is so between
 /// the beginning and the end of each row of steps that remove. Rests at their ends, in which it is lifted or lowered,
 /// count as lifted.

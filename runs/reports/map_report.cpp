@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/base/memory.h"
+#include "runs/reports/acceptance_report.h"
 
 namespace dwell {
 namespace {
@@ -56,6 +57,7 @@ bool SpectrumReport::limit_met() const {
 
 std::vector<std::string> MapReport::broken_limits() const {
   std::vector<std::string> limits;
+  for (std::string& unmet : unmet_limits(acceptance)) limits.push_back(std::move(unmet));
   if (!spectrum) return limits;
   for (const CurveReport& c : spectrum->curves) {
     if (!c.limit || c.limit->met()) continue;
@@ -94,6 +96,10 @@ MapReport map_report(const HeightMap& map, const MapReportOptions& options, cons
     report.form_residual = with_robust_pv(map_statistics(residual, {}, options.threads), residual, options.threads);
   }
   if (options.spectrum) report.spectrum = spectrum_report(report.figure, options, progress);
+  if (!options.accept.empty()) {
+    progress.step("judging the map");
+    report.acceptance = judge_surface(report.figure, {}, options.accept, options.threads, progress);
+  }
   return report;
 }
 

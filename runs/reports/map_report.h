@@ -10,6 +10,7 @@
 #include "core/map/surface_slope.h"
 #include "core/spectra/psd_line.h"
 #include "core/spectra/wavelength_bands.h"
+#include "runs/acceptance/surface_limits.h"
 #include "runs/base/input_file.h"
 #include "runs/base/json_blocks.h"
 #include "runs/drawing/figure_format.h"
@@ -24,6 +25,7 @@ struct MapReportOptions {
   SpectralWindow window;
   std::vector<double> band_edges{33.0, 0.12};  // [mm]
   std::optional<PsdLimit> limit;
+  std::vector<SurfaceLimit> accept;  // that the figure is judged by
   int threads = 1;
 };
 
@@ -60,7 +62,10 @@ struct MapReport {
   MapStatistics form_residual;  // of the map without `form`
   std::optional<SpectrumReport> spectrum;
 
-  /// A sentence for each spectrum that is above its limit; not empty = exit code 3.
+  std::vector<SurfaceVerdict> acceptance;
+
+  /// A sentence for each limit of `acceptance` that is not met and each spectrum above its limit; not empty = exit
+  /// code 3.
   std::vector<std::string> broken_limits() const;
 };
 

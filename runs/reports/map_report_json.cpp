@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "runs/base/inputs_json.h"
+#include "runs/reports/acceptance_report.h"
 #include "runs/reports/map_report.h"
 #include "runs/reports/surface_sheet.h"
 
@@ -86,6 +87,7 @@ std::string map_report_json(const MapReport& report, const MapFigures& map, cons
   }
   if (report.spectrum) json["spectrum"] = spectrum_json(*report.spectrum);
   if (profile) json["profile"] = {{"line", profile->name}, {"pv_nm", profile->pv()}, {"rms_nm", profile->rms()}};
+  if (!report.acceptance.empty()) json["acceptance"] = acceptance_block(report.acceptance);
   json["limits"] = report.broken_limits();
   json["inputs"] = inputs_json(inputs);
   return json_text(std::move(json));

@@ -138,6 +138,7 @@ std::string map_report_text(const MapReport& report) {
   text += dropped_text(report.removed_fit);
   if (report.form) text += form_text(report);
   if (report.spectrum) text += spectrum_text(*report.spectrum, report.statistics.rms_about_zero());
+  text += verdict_lines(report.acceptance);
   return text;
 }
 

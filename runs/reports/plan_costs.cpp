@@ -17,7 +17,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// How far the path reaches beyond the pixels with data, on the side where it least does [mm]; below zero where it ends
-/// before.
+/// before. A map of one row or column has two ends and no other sides.
 double overrun_of(const HeightMap& map, const ToolPath& path) {
   constexpr double kInfinite = std::numeric_limits<double>::infinity();
   const Grid& g = map.grid;
@@ -32,7 +32,9 @@ double overrun_of(const HeightMap& map, const ToolPath& path) {
   for (const Point p : path.points) {
     first = {std::min(first.x, p.x), std::min(first.y, p.y)}, last = {std::max(last.x, p.x), std::max(last.y, p.y)};
   }
-  return std::min({low.x - first.x, low.y - first.y, last.x - high.x, last.y - high.y});
+  const double in_x = std::min(low.x - first.x, last.x - high.x), in_y = std::min(low.y - first.y, last.y - high.y);
+  if (g.size() == 1 || (g.rows > 1 && g.cols > 1)) return std::min(in_x, in_y);
+  return g.rows == 1 ? in_x : in_y;
 }
 
 /// The share of the mean square that a run that leaves `rms` would leave less than one that leaves `left`.

@@ -29,6 +29,7 @@
 #include "runs/programs/program_comments.h"
 #include "runs/programs/program_formats.h"
 #include "runs/programs/program_reader.h"
+#include "runs/reports/acceptance_report.h"
 #include "runs/reports/exact_lines.h"
 #include "runs/reports/plan_costs.h"
 #include "runs/reports/plan_pictures.h"
@@ -188,6 +189,8 @@ void study_surface(const PlannedJob& plan, WrittenPlan& written, const Progress&
       });
   written.exact.statistics = statistics;
   written.advice = residual_advice(written.anatomy, advice_facts(plan));
+  written.acceptance = judge_residual(written.exact, plan.job.accept, part.threads, progress);
+  for (std::string& unmet : unmet_limits(written.acceptance)) written.limits.push_back(std::move(unmet));
 }
 
 /// The first program of positions, velocities and times, whose figure holds for others of the same steps.
@@ -301,6 +304,7 @@ WrittenPlan write_plan(const PlannedJob& plan, const OutputFolder& folder, const
   const double max_feed = options.machine.feed_limits().max_feed;
   written.run_seconds = run.run_seconds(max_feed);
   written.warnings = plan.job.options.notes;
+  written.warnings.insert(written.warnings.end(), plan.job.notes.begin(), plan.job.notes.end());
   if (plan.job.lesson) {
     const std::vector<std::string>& notes = plan.job.lesson->notes;
     written.warnings.insert(written.warnings.end(), notes.begin(), notes.end());

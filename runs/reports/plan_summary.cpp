@@ -11,12 +11,14 @@
 #include "core/base/units.h"
 #include "core/base/utf8_text.h"
 #include "runs/base/inputs_json.h"
+#include "runs/reports/acceptance_report.h"
 #include "runs/reports/aim.h"
 #include "runs/reports/log_report.h"
 #include "runs/reports/machine_report.h"
 #include "runs/reports/options_json.h"
 #include "runs/reports/plan_blocks.h"
 #include "runs/reports/plan_costs.h"
+#include "runs/reports/resume_report.h"
 #include "runs/reports/tool_sheet.h"
 #include "runs/reports/weight_lines.h"
 
@@ -177,6 +179,8 @@ std::string plan_summary_text(const PlannedJob& plan, const WrittenPlan& written
                   {"options", options_json(plan.job)},
                   {"names_from", names_from(plan)},
                   {"inputs", inputs_json(plan.job.inputs)}});
+  if (plan.resumed) summary["resume"] = resume_block(*plan.resumed);
+  if (!written.acceptance.empty()) summary["acceptance"] = acceptance_block(written.acceptance);
   if (!written.exports.empty()) summary["exports"] = exports_json(written);
   if (plan.dwell.motion) {
     summary["machine"] = machine_block(*plan.job.machine);

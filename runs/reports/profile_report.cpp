@@ -8,7 +8,6 @@
 
 #include "core/base/numbers.h"
 #include "core/base/version.h"
-#include "core/base/whole_file.h"
 #include "runs/base/inputs_json.h"
 #include "runs/base/json_blocks.h"
 #include "runs/drawing/line_chart.h"
@@ -36,22 +35,22 @@ std::string spacing_text(const ProfileSpacing& spacing) {
   return fmt::format("{:.6g} to {:.6g} mm apart (median {:.6g} mm)", spacing.least, spacing.most, spacing.median);
 }
 
-std::string removed_text(const ProfileReport& report) {
-  const ProfileRest& rest = report.rest;
-  std::string text = fmt::format("removed   {}", report.form.text);
+std::string removed_text(const ProfileInput& profile) {
+  const ProfileRest& rest = profile.rest;
+  std::string text = fmt::format("removed   {}", profile.form.text);
   if (rest.pole)
-    text += fmt::format(", pole at x = {:.6g} mm{}", *rest.pole, report.form.fit_position ? " (fitted)" : "");
+    text += fmt::format(", pole at x = {:.6g} mm{}", *rest.pole, profile.form.fit_position ? " (fitted)" : "");
   if (rest.angle) {
     text += fmt::format(", grazing angle {:.6g} degrees{}", *rest.angle * kDegreesPerRadian,
-                        report.form.fit_angle ? " (fitted)" : "");
+                        profile.form.fit_angle ? " (fitted)" : "");
   }
-  if (rest.radius) text += fmt::format(", radius {:.6g} mm{}", *rest.radius, report.form.radius ? "" : " (fitted)");
+  if (rest.radius) text += fmt::format(", radius {:.6g} mm{}", *rest.radius, profile.form.radius ? "" : " (fitted)");
   if (rest.tilt) text += fmt::format(", tilt {:.6g} urad", *rest.tilt);
   return text + "\n";
 }
 
-std::string source_text(const ProfileReport& report) {
-  const ProfileText& source = report.source;
+std::string source_text(const ProfileInput& profile) {
+  const ProfileText& source = profile.source;
   return fmt::format("columns   {} in {}, {} in {}{}\n", source.place_column, source.place_unit, source.value_column,
                      source.value_unit, source.turned ? "; places decrease in the file" : "");
 }
@@ -66,37 +65,22 @@ ChartPanel rest_panel(const LineProfile& rest, const std::vector<double>& values
 
 }  // namespace
 
-ProfileReport read_profile(const std::string& file, const ProfileReadOptions& options, const ProfileForm& form) {
-  const std::string bytes = read_whole_file(file);
-  ProfileReport report;
-  report.input = {"profile", file, sha256_of(bytes)};
-  report.source = parse_profile_text(bytes, options, file);
-  report.measured =
-      line_profile(report.source.quantity, std::exchange(report.source.x, {}), std::exchange(report.source.values, {}));
-  report.form = form;
-  report.rest = remove_profile_form(report.measured, form);
-  report.before = profile_figures(report.measured);
-  report.after = profile_figures(report.rest.profile);
-  report.spacing = profile_spacing(report.measured);
-  return report;
-}
-
-std::string profile_text(const ProfileReport& report) {
-  const std::vector<double>& x = report.measured.x;
-  std::string text = fmt::format("file      {} (sha256 {})\n", report.input.file, report.input.sha256);
-  text += source_text(report);
+std::string profile_text(const ProfileInput& profile) {
+  const std::vector<double>& x = profile.measured.x;
+  std::string text = fmt::format("file      {} (sha256 {})\n", profile.input.file, profile.input.sha256);
+  text += source_text(profile);
   text += fmt::format("places    {} from {:.9g} to {:.9g} mm, {:.9g} mm long, {}\n", x.size(), x.front(), x.back(),
-                      x.back() - x.front(), spacing_text(report.spacing));
-  text += figures_text("before", report.before) + removed_text(report) + figures_text("after", report.after);
-  for (const std::string& hint : report.rest.hints) text += fmt::format("hint      {}\n", hint);
+                      x.back() - x.front(), spacing_text(profile.spacing));
+  text += figures_text("before", profile.before) + removed_text(profile) + figures_text("after", profile.after);
+  for (const std::string& hint : profile.rest.hints) text += fmt::format("hint      {}\n", hint);
   return text;
 }
 
-std::string profile_json(const ProfileReport& report) {
-  const std::vector<double>& x = report.measured.x;
-  const ProfileText& source = report.source;
+std::string profile_json(const ProfileInput& profile) {
+  const std::vector<double>& x = profile.measured.x;
+  const ProfileText& source = profile.source;
   nlohmann::ordered_json json = json_of_command("profile");
-  json["profile"] = {{"file", report.input.file},
+  json["profile"] = {{"file", profile.input.file},
                      {"quantity", source.quantity == ProfileQuantity::Slope ? "slope" : "height"},
                      {"place_column", source.place_column},
                      {"place_unit", source.place_unit},
@@ -107,31 +91,31 @@ std::string profile_json(const ProfileReport& report) {
                      {"from_mm", x.front()},
                      {"to_mm", x.back()},
                      {"length_mm", x.back() - x.front()},
-                     {"least_spacing_mm", report.spacing.least},
-                     {"median_spacing_mm", report.spacing.median},
-                     {"largest_spacing_mm", report.spacing.most}};
-  json["before"] = figures_block(report.before);
-  const ProfileRest& rest = report.rest;
-  json["removed"] = {{"form", report.form.text},
+                     {"least_spacing_mm", profile.spacing.least},
+                     {"median_spacing_mm", profile.spacing.median},
+                     {"largest_spacing_mm", profile.spacing.most}};
+  json["before"] = figures_block(profile.before);
+  const ProfileRest& rest = profile.rest;
+  json["removed"] = {{"form", profile.form.text},
                      {"tilt_urad", finite_or_null(rest.tilt)},
                      {"radius_mm", finite_or_null(rest.radius)},
                      {"pole_mm", finite_or_null(rest.pole)},
                      {"angle_deg", rest.angle ? finite_or_null(*rest.angle * kDegreesPerRadian) : nullptr}};
-  json["after"] = figures_block(report.after);
+  json["after"] = figures_block(profile.after);
   json["hints"] = rest.hints;
-  json["inputs"] = inputs_json({report.input});
+  json["inputs"] = inputs_json({profile.input});
   return json_text(json);
 }
 
-std::string profile_rest_csv(const ProfileReport& report) {
-  return profile_csv(report.rest.profile, fmt::format("dwell {} profile, without {}", version(), report.form.text));
+std::string profile_rest_csv(const ProfileInput& profile) {
+  return profile_csv(profile.rest.profile, fmt::format("dwell {} profile, without {}", version(), profile.form.text));
 }
 
-std::string profile_rest_picture(const ProfileReport& report, FigureFormat format) {
-  const LineProfile& rest = report.rest.profile;
+std::string profile_rest_picture(const ProfileInput& profile, FigureFormat format) {
+  const LineProfile& rest = profile.rest.profile;
   const std::string title = fmt::format("{}: slope {:.4g} urad RMS, height {:.4g} nm RMS ({} removed)",
-                                        std::filesystem::path(report.input.file).filename().string(),
-                                        report.after.slope_rms, report.after.height_rms, report.form.text);
+                                        std::filesystem::path(profile.input.file).filename().string(),
+                                        profile.after.slope_rms, profile.after.height_rms, profile.form.text);
   return draw_line_charts(
       title, "", {rest_panel(rest, rest.slope, "slope [urad]"), rest_panel(rest, rest.height, "height [nm]")}, format);
 }

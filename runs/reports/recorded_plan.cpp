@@ -103,6 +103,7 @@ JobOptions options_of(const nlohmann::json& summary, const std::string& file, co
 }
 
 std::string flag_of_role(const std::string& role) {
+  if (role == "profile") return "line-profile";
   return role == "map" || role == "tif" || role == "machine" ? role : "map-steps";
 }
 

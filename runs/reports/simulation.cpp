@@ -17,10 +17,12 @@
 #include "paths/feed/machine_check.h"
 #include "runs/base/inputs_json.h"
 #include "runs/job/job.h"
+#include "runs/job/line_profile_map.h"
 #include "runs/job/program_style.h"
 #include "runs/machine/machine_option.h"
 #include "runs/plan/program_prediction.h"
 #include "runs/programs/program_reader.h"
+#include "runs/reports/acceptance_report.h"
 #include "runs/reports/anatomy_lines.h"
 #include "runs/reports/exact_lines.h"
 #include "runs/reports/machine_report.h"
@@ -107,8 +109,8 @@ Simulation simulate_file(const std::filesystem::path& program, const GcodeReadin
   s.inputs.insert(s.inputs.end(), job.inputs.begin(), job.inputs.end());
   s.terms = part.form;
   s.before = part.before;
-  s.map = {options.map,        part.map.grid, part.map.history, job.map_pixels, to_string(options.aperture),
-           to_string(s.terms), s.before};
+  s.map = {heights_file(options),       part.map.grid,      part.map.history, job.map_pixels,
+           to_string(options.aperture), to_string(s.terms), s.before};
   s.tif = part.tif;
   s.volume_factor = part.kernel.volume_factor;
   check_steps(s.program, part);
@@ -141,6 +143,8 @@ Simulation simulate_file(const std::filesystem::path& program, const GcodeReadin
   facts.blemishes_left_out = !s.plan.empty() && options.blemishes == BlemishHandling::LeaveOut;
   s.advice = residual_advice(s.anatomy, facts);
   if (auto limit = more_than_before(s.after, s.before)) s.limits.push_back(std::move(*limit));
+  s.acceptance = judge_residual(s.after, job.accept, part.threads, progress.of_part("what is left"));
+  for (std::string& unmet : unmet_limits(s.acceptance)) s.limits.push_back(std::move(unmet));
   return s;
 }
 
@@ -167,6 +171,7 @@ std::string simulation_json(const Simulation& s) {
   }
   if (s.recorded) json["recorded"] = recorded_block(*s.recorded);
   json["anatomy"] = anatomy_block(s.anatomy, s.advice);
+  if (!s.acceptance.empty()) json["acceptance"] = acceptance_block(s.acceptance);
   if (!s.plan.empty()) json["plan"] = s.plan;
   json["differences"] = s.differences;
   json["limits"] = s.limits;

@@ -13,6 +13,7 @@
 #include "core/tif/removal_kernel.h"
 #include "paths/feed/lift_rests.h"
 #include "paths/feed/motion_nodes.h"
+#include "runs/acceptance/surface_limits.h"
 #include "runs/base/input_file.h"
 #include "runs/base/json_blocks.h"
 #include "runs/job/job_options.h"
@@ -68,6 +69,7 @@ struct Simulation {
   std::vector<MotionNode> nodes;            // of its motion, where they are wanted
   ResidualAnatomy anatomy;                  // of what it leaves
   std::string advice;                       // what would help most, a sentence
+  std::vector<SurfaceVerdict> acceptance;   // how it stands to the job's limits
   std::string plan;                         // as SimulationSource
   std::vector<std::string> differences;     // from the plan that the program was made by, a sentence each
   std::vector<std::string> limits;          // that were reached, a sentence each
@@ -77,8 +79,8 @@ struct Simulation {
 /// continuously, at the commanded speeds or, with a machine, as that executes the program. With a log of a run, what
 /// the recorded motion leaves stands beside it (recorded_run). `every_pixel`: the exact figure from every pixel
 /// (exact_residual), which takes longer. `keep_nodes`: with a machine, keeps the nodes of its motion. `reading`: for
-/// G-code that leaves something to its controller. Of the job it uses map, tif, remove, aperture and threads. Map and
-/// removal function are held to what the program's header says of them (program_record.h). Throws InputError,
+/// G-code that leaves something to its controller. Of the job it uses map, tif, remove, aperture, accept and threads.
+/// Map and removal function are held to what the program's header says of them (program_record.h). Throws InputError,
 /// Interrupted.
 Simulation simulate_file(const std::filesystem::path& program, const GcodeReading& reading, const JobOptions& options,
                          const Progress& progress, bool every_pixel = false, const SimulationSource& source = {},

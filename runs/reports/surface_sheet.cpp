@@ -7,6 +7,7 @@
 
 #include "core/form/map_statistics.h"
 #include "core/spectra/psd.h"
+#include "runs/acceptance/surface_limits.h"
 #include "runs/base/json_blocks.h"
 
 namespace dwell {
@@ -37,7 +38,7 @@ Json figures_json(const SurfaceFigures& figures) {
 
 SurfaceSheet surface_sheet(const HeightMap& before, const HeightMap& after, double fwhm, int threads,
                            const Progress& progress) {
-  const std::vector<double> edges{2.0 * fwhm, 0.5 * fwhm};
+  const std::vector<double> edges = tool_band_edges(fwhm);
   progress.step("slopes and bands before");
   SurfaceSheet sheet;
   sheet.before = figures_of(before, edges, threads);

@@ -24,8 +24,7 @@ struct SurfaceSheet {
   SurfaceFigures before, after;
 };
 
-/// The bands are those that a tool of this FWHM [mm] corrects (waves longer than two of them), hardly reaches, and does
-/// not reach but leaves marks in (shorter than half of one). Throws Interrupted. Cost: two FFTs of the map.
+/// The bands are those of a tool of this FWHM [mm] (tool_band_edges). Throws Interrupted. Cost: two FFTs of the map.
 SurfaceSheet surface_sheet(const HeightMap& before, const HeightMap& after, double fwhm, int threads,
                            const Progress& progress);
 

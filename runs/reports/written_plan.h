@@ -10,6 +10,7 @@
 #include "core/removal/exact_residual.h"
 #include "paths/feed/binding_limits.h"
 #include "paths/feed/motion_nodes.h"
+#include "runs/acceptance/surface_limits.h"
 #include "runs/base/json_blocks.h"
 #include "runs/plan/machine_program.h"
 #include "runs/reports/surface_sheet.h"
@@ -29,14 +30,15 @@ struct WrittenExport {
 
 /// What was written, and the surface that the program on disk leaves.
 struct WrittenPlan {
-  ExactResidual exact;                // what the program leaves, as read back
-  ResidualAnatomy anatomy;            // of that surface
-  std::string advice;                 // what would help most, a sentence
-  SurfaceSheet surface;               // slopes and bands before, and of that surface
-  double run_seconds = 0.0;           // of program.nc, as read back, lifted moves included
-  TravelTimes travel;                 // besides the dwell; `travel.lifted` is what program.nc does not say
-  std::vector<std::string> warnings;  // what a machine shop would question, a sentence each
-  ProgramFigures program;             // of it, for the summary
+  ExactResidual exact;                     // what the program leaves, as read back
+  ResidualAnatomy anatomy;                 // of that surface
+  std::string advice;                      // what would help most, a sentence
+  SurfaceSheet surface;                    // slopes and bands before, and of that surface
+  std::vector<SurfaceVerdict> acceptance;  // how that surface stands to the job's limits
+  double run_seconds = 0.0;                // of program.nc, as read back, lifted moves included
+  TravelTimes travel;                      // besides the dwell; `travel.lifted` is what program.nc does not say
+  std::vector<std::string> warnings;       // what a machine shop would question, a sentence each
+  ProgramFigures program;                  // of it, for the summary
   std::string program_sha256;
   /// Whether feed.csv, read back, removes with the steps of program.nc; if not, it is simulated too. Nothing where the
   /// plan has no feed table.

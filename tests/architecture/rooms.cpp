@@ -43,6 +43,7 @@ const std::map<std::string, RoomRanks>& room_ranks() {
         {"logs", 1},
         {"plan", 1},
         {"map_steps", 1},
+        {"profile", 1},
         {"job", 2},
         {"reports", 3},
         {"example", 3},

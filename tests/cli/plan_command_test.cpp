@@ -37,6 +37,7 @@ TEST(PlanCommand, WritesEveryFileAndPrintsWhatItDid) {
     if (!format.word.empty()) files.erase(format.file);  // of plans with --export
   }
   for (const char* file : {"learnt.csv", "learnt_removal.npy", "learnt_removal.npy.json"}) files.erase(file);  // --log
+  for (const char* file : {"remaining.npy", "remaining.npy.json"}) files.erase(file);  // --resume
   files.erase("program_parts.csv");  // --max-lines
   for (const std::string& figure : figures_without_machine()) files.insert(figure + ".png");
   EXPECT_EQ(names_in(inputs / "plan"), files);

@@ -76,6 +76,59 @@ TEST(ProfileCommand, WritesAStripThatAPlanCorrects) {
   EXPECT_LT(slope("after"), 0.3 * slope("before"));
 }
 
+TEST(ProfileCommand, IsPlannedOnWithoutAMapInBetween) {
+  const TemporaryFolder folder;
+  folder.file("nom.dat", nom_text());
+  const std::vector<std::string> profile{"--line-profile", "nom.dat",          "--profile-unit",
+                                         "mm,-urad",       "--profile-remove", kEllipse};
+  const std::vector<std::string> tool{"--tif", "gaussian:peak=1,fwhm=8,radius=12"};
+  const auto run = [&](std::vector<std::string> words, const std::vector<std::string>& more) {
+    for (const auto* part : {&profile, &tool, &more}) words.insert(words.end(), part->begin(), part->end());
+    return test::run_program(folder.path(), words);
+  };
+  const ProgramResult planned = run({"plan"}, {"--path", "line:step=2", "--out", "plan", "--accept", "slope<=1urad"});
+  ASSERT_EQ(planned.exit_code, 0) << planned.err;
+  expect_has(planned.out, "accept    slope ");
+  const json plan = json::parse(read_whole_file(folder.path() / "plan/summary.json"));
+  EXPECT_EQ(plan["map"]["file"], "nom.dat");
+  EXPECT_EQ(plan["map"]["rows"], 1);
+  expect_has(plan["map"]["history"][0].get<std::string>(), "pole at x = ");
+  EXPECT_NEAR(plan["surface"]["before"]["slope_rms_urad"]["total"].get<double>(), 0.5, 0.01);
+  EXPECT_EQ(plan["inputs"][0]["role"], "profile");
+
+  const ProgramResult again = test::run_program(folder.path(), {"simulate", "plan", "--json"});
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_EQ(json::parse(again.out)["map"]["file"], "nom.dat");
+  EXPECT_NEAR(json::parse(again.out)["program"]["residual_rms_nm"].get<double>(),
+              plan["program"]["residual_rms_nm"].get<double>(), 1e-6);
+  const ProgramResult alone = run({"simulate", "--program", "plan/program.nc"}, {});
+  EXPECT_EQ(alone.exit_code, 0) << alone.err;
+  EXPECT_EQ(alone.out.find("differs"), std::string::npos) << alone.out;
+  // Another file in the profile's place must be meant, and a map may take it.
+  folder.file("nom.dat", nom_text() + "\n");
+  const ProgramResult changed = test::run_program(folder.path(), {"simulate", "plan"});
+  EXPECT_EQ(changed.exit_code, 2);
+  expect_has(changed.err, "--line-profile");
+  ASSERT_EQ(test::run_program(folder.path(), {"profile", "nom.dat", "--unit", "mm,-urad", "--remove", kEllipse,
+                                              "--write-map", "line.npy"})
+                .exit_code,
+            0);
+  const ProgramResult on_map = test::run_program(folder.path(), {"simulate", "plan", "--map", "line.npy"});
+  EXPECT_EQ(on_map.exit_code, 0) << on_map.err;
+  expect_has(on_map.out, "differs   map given instead of the plan's: line.npy; the plan's is none");
+}
+
+TEST(ProfileCommand, HintsAtAFormThatIsStillInTheHeights) {
+  const TemporaryFolder folder;
+  folder.file("nom.dat", nom_text());
+  const ProgramResult raw = test::run_program(folder.path(), {"profile", "nom.dat", "--unit", "mm,-urad"});
+  ASSERT_EQ(raw.exit_code, 0) << raw.err;
+  expect_has(raw.out, "hint      the heights span 14.03 um");
+  const ProgramResult formless =
+      test::run_program(folder.path(), {"profile", "nom.dat", "--unit", "mm,-urad", "--remove", kEllipse});
+  EXPECT_EQ(formless.out.find("hint "), std::string::npos) << formless.out;
+}
+
 TEST(ProfileCommand, SaysTheOtherSignAndRefusesWithFlags) {
   const TemporaryFolder folder;
   folder.file("nom.dat", nom_text());

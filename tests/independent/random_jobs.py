@@ -49,6 +49,13 @@ def random_map(dice, pitch):
     return part
 
 
+def middle_rows(part, count):
+    """A strip of the part, where one track reaches every pixel."""
+    first = (len(part.y()) - count) // 2
+    return HeightMap(part.heights[first:first + count], part.pitch,
+                     (part.origin[0], part.origin[1] + first * part.pitch[1]))
+
+
 def model(name, **parameters):
     """The same function for --tif and here."""
     text = ",".join(f"{key}={value!r}" for key, value in parameters.items())
@@ -117,7 +124,7 @@ def random_path(dice, kind, width, part, folder):
         "spiral": f"pitch={pitch},turn={dice.choice(('cw', 'ccw'))}", "circles": f"pitch={pitch}",
         "fibonacci": f"pitch={pitch}", "nearest": f"cell={pitch},critical=-inf",
         "random": f"pitch={pitch},angle={angle},seed={seed}", "hilbert": f"pitch={pitch},angle={angle}",
-        "peano": f"pitch={pitch},gaps=lift", "multi-pitch": f"min-pitch={pitch},max-pitch={round(1.2 * pitch, 3)}",
+        "line": f"step={pitch},y={float(part.y()[len(part.y()) // 2])!r}", "peano": f"pitch={pitch},gaps=lift", "multi-pitch": f"min-pitch={pitch},max-pitch={round(1.2 * pitch, 3)}",
     }
     if kind == "file":
         write_path(dice, folder / "path.csv", part, pitch)
@@ -140,7 +147,8 @@ def write_path(dice, file, part, pitch):
 def random_job(number, path, folder, kind=None):
     """Job `number`; with it go pitches, dialects, removal functions (unless a kind is given), form terms and motion."""
     dice = random.Random(f"dwell {number}")
-    write_text(folder / "part.csv", random_map(dice, PITCHES[(number // 2) % len(PITCHES)]))
+    part = random_map(dice, PITCHES[(number // 2) % len(PITCHES)])
+    write_text(folder / "part.csv", middle_rows(part, 5) if path == "line" else part)
     part = read_text(folder / "part.csv")
     width = round(max(PIXELS_A_WIDTH * max(part.pitch), dice.uniform(2, 3)), 3)
     kind = kind or SMOOTH_FUNCTIONS[number % len(SMOOTH_FUNCTIONS)]

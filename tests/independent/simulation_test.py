@@ -30,7 +30,7 @@ from simulation import removal, without_form
 
 # The path of each job; with the number of a job go its dialect, its removal function and more (random_jobs.py).
 PATHS = ("raster", "spiral", "random", "cross-hatch", "circles", "fibonacci", "random-raster", "nearest", "hilbert",
-         "multi-pitch", "peano", "file")
+         "multi-pitch", "peano", "file", "line")
 # What the program's spline on pixels and the quadrature here leave is below a third of these.
 LARGEST_SHARE = 0.002  # of the removal of the pixel
 RMS_SHARE = 0.0002  # of the largest removal

@@ -151,7 +151,7 @@ TEST(PathSpec, NamesWhatItDoesNotKnow) {
             "path \"nearest:cell=1,improve=3opt\": improve = \"3opt\"; accepted: none, 2opt");
   EXPECT_EQ(parse_message("zigzag:pitch=1"),
             "path \"zigzag:pitch=1\": unknown kind \"zigzag\"; accepted: raster, cross-hatch, random-raster, spiral, "
-            "circles, fibonacci, nearest, random, hilbert, peano, multi-pitch, file");
+            "circles, fibonacci, nearest, random, hilbert, peano, multi-pitch, line, file");
   EXPECT_EQ(parse_message("file:"), "path \"file:\": the name of a file is missing; required: file:PATH.csv");
   for (const char* start : {"5", "5/", "/5", "a/b", "1/2/3"}) {
     const std::string text = std::string("nearest:cell=1,start=") + start;

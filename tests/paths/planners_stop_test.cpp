@@ -70,6 +70,7 @@ void expect_stops(const Work& work, std::size_t least, const std::string& what) 
 std::string text_for(const PathRecord& record, const std::string& file) {
   if (record.one_value) return record.name + ":" + file;
   if (record.name == "nearest") return "nearest:cell=1,improve=2opt,critical=14";
+  if (record.name == "line") return "line:step=0.002,y=250";
   if (record.spacing.empty()) return record.name + ":pitches=2/1,step=1";
   return record.name + ":" + record.spacing + "=1";
 }

@@ -238,6 +238,21 @@ TEST(ResidualAnatomy, RefusesAMapWithoutDataAndAToolWithoutWidth) {
     test::expect_input_error([&] { residual_anatomy(map, wrong, {}); }, {"fwhm", "a finite number > 0"});
 }
 
+TEST(EdgeZone, OfALineIsAtItsEnds) {
+  HeightMap row(Grid{1, 40, 0.25, 3.0, {}}, std::vector<double>(40, 1.0));
+  row.values[20] = std::nan("");
+  HeightMap column(Grid{40, 1, 3.0, 0.25, {}}, row.values);
+  // A zone of 1 mm: four pixels of 0.25 mm whose near sides are within it.
+  for (const HeightMap& line : {row, column}) {
+    const EdgeZone zone = edge_zone(line, 2.0, 1);
+    for (std::size_t i = 0; i < 40; ++i) {
+      const bool near = i < 4 || (i > 15 && i < 25 && i != 20) || i > 35;
+      EXPECT_EQ(zone.holds[i], near ? 1 : 0) << i;
+    }
+    EXPECT_EQ(zone.pixels, 16);
+  }
+}
+
 TEST(EdgeZone, IsTheDefinition) {
   const Grid grid{30, 34, 0.5, 0.3, {}};
   HeightMap map = surface(grid, [](Point) { return 1.0; });

@@ -33,6 +33,11 @@ JobOptions unusual() {
   o.map_rows = MapRows::Top;
   o.map_grid = ScatterOptions{0.3, 1.0 / 7.0};
   o.map_steps = "crop:data; subtract:file=/data/b.csv,how=resample";
+  o.line_profile = "/data/nom.dat";
+  o.profile_columns = "x,slope";
+  o.profile_unit = "mm,-urad";
+  o.profile_remove = "ellipse:p=7500,q=2500,angle=0.6";
+  o.line_width_mm = 12.5;
   o.max_pixels = 1e6;
   o.tif = "gaussian:peak=1,fwhm=2.8,radius=5";
   o.tif_pixel_mm = square_pitch(0.2);
@@ -55,6 +60,7 @@ JobOptions unusual() {
   o.remove = {true, true, true};
   o.aperture = parse_aperture("rect:0,0,1,2");
   o.fraction = 0.8;
+  o.accept = "rms<=1, mid<=0.5nm";
   o.min_dwell_s = 1.0 / 7.0;
   o.max_feed_mm_per_min = 1e7;
   o.machine = "/data/machine.toml";

@@ -1,4 +1,4 @@
-#include "runs/reports/profile_strip.h"
+#include "runs/profile/profile_strip.h"
 
 #include <fmt/format.h>
 
@@ -23,10 +23,10 @@ bool lies_evenly(const std::vector<double>& x, double pitch) {
 
 /// The pitch of the pixels: the median distance, or the mean one where that makes the places lie evenly, which a
 /// rounded median does not over a long profile.
-double strip_pitch(const ProfileReport& report) {
-  const std::vector<double>& x = report.measured.x;
+double strip_pitch(const ProfileInput& profile) {
+  const std::vector<double>& x = profile.measured.x;
   const double mean = (x.back() - x.front()) / static_cast<double>(x.size() - 1);
-  return lies_evenly(x, mean) ? mean : report.spacing.median;
+  return lies_evenly(x, mean) ? mean : profile.spacing.median;
 }
 
 double strip_rows(double width_mm, double pitch) {
@@ -39,10 +39,10 @@ double strip_rows(double width_mm, double pitch) {
 
 }  // namespace
 
-HeightMap profile_strip(const ProfileReport& report, double width_mm) {
+HeightMap profile_strip(const ProfileInput& profile, double width_mm) {
   constexpr double kSlack = 1e-9;
-  const LineProfile& rest = report.rest.profile;
-  const double pitch = strip_pitch(report), rows = strip_rows(width_mm, pitch);
+  const LineProfile& rest = profile.rest.profile;
+  const double pitch = strip_pitch(profile), rows = strip_rows(width_mm, pitch);
   const double cols = std::floor((rest.x.back() - rest.x.front()) / pitch * (1.0 + kSlack)) + 1.0;
   const Point origin{rest.x.front(), -0.5 * pitch * (rows - 1.0)};
   HeightMap map(limited_grid(rows, cols, {pitch, pitch}, origin, "the strip of the profile"));
@@ -54,7 +54,8 @@ HeightMap profile_strip(const ProfileReport& report, double width_mm) {
   }
   for (Index row = 0; row < map.grid.rows; ++row)
     std::copy(line.begin(), line.end(), map.values.begin() + static_cast<std::ptrdiff_t>(row * map.grid.cols));
-  map.history.push_back(fmt::format("profile without {}, the same in every row", report.form.text));
+  const std::string pole = profile.rest.pole ? fmt::format(" with its pole at x = {:.6g} mm", *profile.rest.pole) : "";
+  map.history.push_back(fmt::format("profile without {}{}, the same in every row", profile.form.text, pole));
   return map;
 }
 

@@ -1,4 +1,4 @@
-#include "runs/reports/profile_strip.h"
+#include "runs/profile/profile_strip.h"
 
 #include <gtest/gtest.h>
 
@@ -10,13 +10,13 @@
 namespace dwell {
 namespace {
 
-ProfileReport report_of(const std::string& text) {
+ProfileInput report_of(const std::string& text) {
   const test::TemporaryFolder folder;
   return read_profile(folder.file("line.csv", text), {}, parse_profile_form("none"));
 }
 
 TEST(ProfileStrip, HasTheHeightsOfTheProfileInEveryRow) {
-  const ProfileReport report = report_of("x_mm,height_nm\n-0.2,5\n0.1,7\n0.4,-3\n0.7,2.5\n1,0\n");
+  const ProfileInput report = report_of("x_mm,height_nm\n-0.2,5\n0.1,7\n0.4,-3\n0.7,2.5\n1,0\n");
   const HeightMap line = profile_strip(report, 0.0);
   EXPECT_EQ(line.grid.rows, 1);
   EXPECT_NEAR(line.grid.pitch_x, 0.3, 1e-15);
@@ -45,7 +45,7 @@ TEST(ProfileStrip, PutsUnevenPlacesOnEvenPixels) {
 }
 
 TEST(ProfileStrip, RefusesOtherWidthsAndTooManyPixels) {
-  const ProfileReport report = report_of("x_mm,height_nm\n0,5\n0.5,7\n1,-3\n1.5,2.5\n");
+  const ProfileInput report = report_of("x_mm,height_nm\n0,5\n0.5,7\n1,-3\n1.5,2.5\n");
   test::expect_input_error([&] { profile_strip(report, 0.7); }, {"`line width` = 0.7 mm", "0.5 mm"});
   test::expect_input_error([&] { profile_strip(report, 0.2); }, {"`line width`"});
   test::expect_input_error([&] { profile_strip(report, 1e9); }, {"the strip of the profile"});
