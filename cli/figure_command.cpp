@@ -32,11 +32,12 @@
 namespace dwell::cli {
 namespace {
 
-/// The flags of the job table but for some.
+/// The flags of the job table but for some, and for those that no run from map to map has.
 std::vector<std::string> flags_without(const std::vector<std::string>& left_out) {
   std::vector<std::string> flags = every_flag();
   std::erase_if(flags, [&left_out](const std::string& flag) {
-    return flag.starts_with("log") || std::find(left_out.begin(), left_out.end(), flag) != left_out.end();
+    return flag.starts_with("log") || flag == "removal" || flag == "piston" ||
+           std::find(left_out.begin(), left_out.end(), flag) != left_out.end();
   });
   return flags;
 }

@@ -249,8 +249,8 @@ std::vector<JobOptionRecord> make_table() {
        [](Options& o, const std::string& t) { o.motion = parse_motion(t); },
        [](const Options& o) { return to_string(o.motion); }},
       {"remove", "remove", "TERMS", "form terms that do not count: piston,tilt,power,astigmatism or none", false, false,
-       [](Options& o, const std::string& t) { o.remove = parse_form_terms(t); },
-       [](const Options& o) { return to_string(o.remove); }},
+       [](Options& o, const std::string& t) { o.remove = parse_form_terms(t), o.remove_given = true; },
+       [](const Options& o) { return to_string(o.remove_given ? o.remove : form_terms(o)); }},
       {"aperture", "aperture", "AREA",
        "what counts: map, rect:X0,Y0,X1,Y1, circle:X,Y,R, ellipse:X,Y,A,B[,DEG], annulus:X,Y,RIN,ROUT or "
        "polygon:X,Y,X,Y,...[/HOLE...] in mm",
@@ -354,6 +354,10 @@ std::vector<JobOptionRecord> make_table() {
        "where the result is written; replaced whole if it holds an earlier one of the same kind", true, false,
        [](Options& o, const std::string& t) { o.out = t; }, [](const Options& o) { return o.out; }},
   };
+  const std::vector<JobOptionRecord> of_fit = fit_option_records();
+  const auto aperture =
+      std::find_if(table.begin(), table.end(), [](const JobOptionRecord& record) { return record.flag == "aperture"; });
+  table.insert(aperture + 1, of_fit.begin(), of_fit.end());
   const std::vector<JobOptionRecord> of_program = program_option_records();
   const auto lift_height = std::find_if(table.begin(), table.end(),
                                         [](const JobOptionRecord& record) { return record.flag == "lift-height"; });

@@ -5,7 +5,8 @@ namespace dwell {
 bool is_recorded_option(std::string_view key) {
   // The limit of a map's heights only refuses maps; what passes it is the same map.
   if (key == "map_max_pv_mm") return false;
-  if (key == "wavelength_nm" || key == "wave_scale") return true;  // of the map's heights
+  if (key == "wavelength_nm" || key == "wave_scale") return true;                     // of the map's heights
+  if (key == "weight" || key == "clear_aperture" || key == "piston_nm") return true;  // of what figures are of
   return key == "remove" || key == "aperture" || key.starts_with("map_") || key.starts_with("tif");
 }
 

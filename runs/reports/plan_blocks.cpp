@@ -4,8 +4,8 @@ namespace dwell {
 
 nlohmann::ordered_json plan_map_block(const Job& job) {
   const Part& part = *job.part;
-  return map_block({job.options.map, part.map.grid, part.map.history, job.map_pixels, to_string(job.options.aperture),
-                    to_string(part.form), part.before});
+  return map_block({surface_file(job.options), part.map.grid, part.map.history, job.map_pixels,
+                    to_string(job.options.aperture), to_string(part.form), part.before});
 }
 
 nlohmann::ordered_json plan_tif_block(const Job& job) {

@@ -12,8 +12,10 @@
 #include "core/base/utf8_text.h"
 #include "runs/base/inputs_json.h"
 #include "runs/reports/aim.h"
+#include "runs/reports/counted_figures.h"
 #include "runs/reports/log_report.h"
 #include "runs/reports/machine_report.h"
+#include "runs/reports/objective_lines.h"
 #include "runs/reports/options_json.h"
 #include "runs/reports/plan_blocks.h"
 #include "runs/reports/plan_costs.h"
@@ -177,6 +179,9 @@ std::string plan_summary_text(const PlannedJob& plan, const WrittenPlan& written
                   {"options", options_json(plan.job)},
                   {"names_from", names_from(plan)},
                   {"inputs", inputs_json(plan.job.inputs)}});
+  if (const auto counted = counted_figures(plan.job, written.exact.surface))
+    summary["counted"] = counted_block(*counted);
+  if (plan.job.options.objective.has_slopes()) summary["objective"] = objective_block(plan);
   if (!written.exports.empty()) summary["exports"] = exports_json(written);
   if (plan.dwell.motion) {
     summary["machine"] = machine_block(*plan.job.machine);

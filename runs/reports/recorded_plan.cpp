@@ -103,7 +103,8 @@ JobOptions options_of(const nlohmann::json& summary, const std::string& file, co
 }
 
 std::string flag_of_role(const std::string& role) {
-  return role == "map" || role == "tif" || role == "machine" ? role : "map-steps";
+  return role == "map" || role == "tif" || role == "machine" || role == "weight" || role == "removal" ? role
+                                                                                                      : "map-steps";
 }
 
 }  // namespace
