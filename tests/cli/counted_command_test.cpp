@@ -112,5 +112,15 @@ TEST(AbsoluteRemovalOfACommand, TakesAFileOfDepths) {
   expect_has(inputs.run(words).out, "the depth to remove is below 0 at ");
 }
 
+TEST(AbsoluteRemovalOfACommand, IsNotForARunFromMapToMap) {
+  const SmallInputs inputs;
+  inputs.folder.file("job.toml",
+                     "map = 'map.csv'\nmap_pixel_mm = 0.5\ntif = 'tif.csv'\ntif_pixel_mm = 0.5\n"
+                     "path = 'raster:pitch=1,overrun=2'\nremove = 'tilt'\npiston_nm = 3\n");
+  const ProgramResult result = inputs.run({"figure", "new", "run", "--job", "job.toml"});
+  EXPECT_EQ(result.exit_code, 2);
+  expect_has(result.err, "--removal, --piston: a run goes from one measured map to the next");
+}
+
 }  // namespace
 }  // namespace dwell
