@@ -13,6 +13,7 @@
 #include "runs/job/job_file.h"
 #include "runs/job/keep_out_option.h"
 #include "runs/job/line_profile_map.h"
+#include "runs/job/pixel_weight_option.h"
 #include "runs/machine/machine_option.h"
 #include "runs/map_steps/map_steps.h"
 #include "runs/programs/shipped_templates.h"
@@ -60,6 +61,13 @@ JobOptions JobArguments::options_over(JobOptions options) const {
     if (is_alone && !given.record->alone.empty()) text = given.record->alone;
     set_job_option(options, *given.record, text, "--" + given.record->flag);
   }
+  // A map takes the place of the job's removal, and the other way round.
+  const auto is_given = [this](const char* flag) {
+    return std::any_of(given_.begin(), given_.end(),
+                       [flag](const Given& g) { return g.record->flag == flag && g.option->count() > 0; });
+  };
+  if (is_given("removal") && !is_given("map")) options.map.clear();
+  if (is_given("map") && !is_given("removal")) options.removal.clear();
   return options;
 }
 
@@ -69,6 +77,7 @@ void JobArguments::require(const JobOptions& options, const std::vector<std::str
   for (const JobOptionRecord& record : job_option_table()) {
     if (record.flag == "map" && !options.line_profile.empty()) continue;  // which takes its place
     const bool wanted = std::find(flags.begin(), flags.end(), record.flag) != flags.end();
+    if (record.flag == "map" && !options.removal.empty()) continue;  // takes its place
     if (wanted && record.get(options).empty()) missing.push_back("--" + record.flag);
   }
   missing.insert(missing.end(), others.begin(), others.end());
@@ -92,6 +101,7 @@ std::vector<ReadFile> JobArguments::files_read(const JobOptions& options) const 
   std::vector<ReadFile> read{{"the job file", job_},
                              {"the map", options.map},
                              {"the line profile", options.line_profile},
+                             {"the removal", options.removal},
                              {"the removal function", options.tif},
                              {"the machine", is_inline_machine(options.machine) ? "" : options.machine},
                              {"the header", options.header},
@@ -103,6 +113,7 @@ std::vector<ReadFile> JobArguments::files_read(const JobOptions& options) const 
     read.push_back({"the template", options.program_template});
   if (const auto* path = options.path.get_if<PathFromFile>()) read.push_back({"the path", path->file.string()});
   for (const std::string& file : keep_out_files(options.keep_out)) read.push_back({"the zones", file});
+  for (const std::string& file : pixel_weight_files(options.weight)) read.push_back({"the weights", file});
   for (const std::string* steps : {&options.map_steps, &options.tif_steps}) {
     for (const std::string& file : map_step_files(*steps)) read.push_back({"a map of a step", file});
   }

@@ -21,10 +21,12 @@
 #include "runs/programs/program_block.h"
 #include "runs/reports/aim.h"
 #include "runs/reports/anatomy_lines.h"
+#include "runs/reports/counted_figures.h"
 #include "runs/reports/exact_lines.h"
 #include "runs/reports/log_report.h"
 #include "runs/reports/machine_report.h"
 #include "runs/reports/map_line.h"
+#include "runs/reports/objective_lines.h"
 #include "runs/reports/plan_costs.h"
 #include "runs/reports/plan_files.h"
 #include "runs/reports/plan_output.h"
@@ -130,13 +132,14 @@ std::string plan_text(const PlannedJob& plan, const WrittenPlan& written) {
   std::string text = plan.resumed ? resume_lines(*plan.resumed) : "";
   text += map_line(plan.part().map.grid, plan.part().before.valid_pixels);
   text += fmt::format("before    {} ({} removed)\n", in_words(plan.part().before), to_string(plan.part().form));
+  text += counted_lines(counted_figures(plan.job, written.exact.surface));
   text += aim_line(correction_aim(plan.job));
   text += tool_lines(tool_sheet(plan.part().tif));
   text += fmt::format("path      {}, {}, {:.6g} mm, longest jump {:.4g} mm, {}\n", plan.laid.path.kind,
                       counted(plan.laid.metrics.points, "point"), plan.laid.metrics.length,
                       plan.laid.metrics.longest_jump, counted(plan.laid.metrics.lifts, "lift"));
   for (const std::string& note : plan.laid.path.notes) text += fmt::format("          {}\n", note);
-  text += weight_lines(plan);
+  text += objective_line(plan) + weight_lines(plan);
   text += solver_lines(plan);
   text +=
       fmt::format("dwell     total {}, from {:.4g} s to {:.4g} s a point, step RMS {:.4g} s{}\n",

@@ -29,6 +29,7 @@
 #include "runs/programs/program_formats.h"
 #include "runs/programs/shipped_templates.h"
 #include "runs/reports/anatomy_lines.h"
+#include "runs/reports/counted_figures.h"
 #include "runs/reports/exact_lines.h"
 #include "runs/reports/log_report.h"
 #include "runs/reports/machine_report.h"
@@ -111,8 +112,8 @@ SimulationRequest request_of_plan(const SimulateArguments& a) {
     flags.insert(record->flag);
     if (record->flag == "threads" || record->flag == "max-pixels") continue;  // change no result
     const std::string now = record->get(request.options), then = record->get(plan.options);
-    const bool file = record->flag == "map" || record->flag == "line-profile" || record->flag == "tif" ||
-                      record->flag == "machine" || record->flag == "template";
+    const bool file = record->flag == "map" || record->flag == "removal" || record->flag == "line-profile" ||
+                      record->flag == "tif" || record->flag == "machine" || record->flag == "template";
     if (file && !are_same_file(now, then)) {
       request.source.given.push_back(given_file_sentence(record->flag, now, then));
     } else if (!file && now != then) {
@@ -121,7 +122,7 @@ SimulationRequest request_of_plan(const SimulateArguments& a) {
   }
   if (flags.contains("map")) flags.insert("line-profile");  // whichever the plan has, its file is not looked at
   if (flags.contains("line-profile")) flags.insert("map");
-  request.source.other.map |= flags.contains("map") || flags.contains("map-steps");
+  request.source.other.map |= flags.contains("map") || flags.contains("removal") || flags.contains("map-steps");
   request.source.other.tif |= flags.contains("tif");
   if (!a.program.empty()) {
     flags.insert("program");
@@ -254,6 +255,7 @@ std::string simulation_text(const Simulation& s) {
          tool_lines(tool_sheet(s.tif)) +
          fmt::format("before    {} ({} removed, {})\n", in_words(s.before), to_string(s.terms),
                      counted(s.before.valid_pixels, "pixel")) +
+         counted_lines(s.counted) +
          fmt::format("after     {} ({} removed)\n", in_words(s.after.statistics), to_string(s.terms)) +
          exact_lines(s.after) + anatomy_lines(s.anatomy, s.after.statistics) + fmt::format("help      {}\n", s.advice) +
          verdict_lines(s.acceptance);
@@ -302,11 +304,11 @@ int run_simulate(const SimulateArguments& arguments) {
   const Simulation s = simulated(arguments, request, reading, progress);
   progress.step("writing");
   PendingFiles files;
-  files.add_map(arguments.residual, s.after.surface);
+  files.add_map(arguments.residual, s.shown());
   files.add(arguments.png, [&] {
     const std::string title =
         fmt::format("After {}: {} ({} removed)", s.program.file, in_words(s.after.statistics), to_string(s.terms));
-    return map_picture(s.after.surface, {title, "nm", true, {}, {}}, figure_format_of_file(arguments.png));
+    return map_picture(s.shown(), {title, "nm", true, {}, {}, &s.after.surface}, figure_format_of_file(arguments.png));
   });
   files.add(arguments.log_png, [&] {
     return recorded_picture(*s.recorded,
@@ -333,8 +335,9 @@ void add_simulate_command(CLI::App& program, int& exit_code) {
       "line-profile", "profile-columns", "profile-unit", "profile-remove", "line-width", "max-pixels",
       "tif",          "tif-pixel",       "tif-no-data",  "tif-table",      "tif-rows",   "tif-grid",
       "tif-unit",     "tif-dwell-time",  "tif-steps",    "tif-pedestal",   "tif-centre", "tif-angle",
-      "tif-flip",     "tif-rate",        "tif-width",    "remove",         "aperture",   "accept",
-      "machine",      "template",        "threads"};
+      "tif-flip",     "tif-rate",        "tif-width",    "remove",         "aperture",   "clear-aperture",
+      "weight",       "removal",         "piston",       "accept",         "machine",    "template",
+      "threads"};
   command
       ->add_option("plan", arguments->plan,
                    "folder of a plan: its program, with the map, the removal function and all options that it was made "

@@ -17,6 +17,9 @@ struct PictureOptions {
   bool diverging = false;       // true: blue - white - red about zero; false: viridis
   std::optional<double> lower;  // colour limits, in the unit of the values; defaults: colour_limits in
   std::optional<double> upper;  // runs/drawing/colour_map.h
+  /// The map whose range the colours have where no limit is given, as of the pixels that count; null: that which is
+  /// drawn.
+  const HeightMap* range = nullptr;
 };
 
 /// A figure of a map: +x right, +y up, true to the pitches, axes in mm, colour bar. NaN is light grey; a map without
@@ -27,9 +30,11 @@ std::string map_picture(const HeightMap& map, const PictureOptions& options, Fig
 
 /// A figure of a later map of the same surface: once in colours over the range of an earlier map, so that the two
 /// figures can be compared, and once over its own range, because after a good correction the map is almost white on the
-/// earlier range. Diverging colours; FigureRange::Own draws the second alone. As map_picture in all else.
+/// earlier range. Diverging colours; FigureRange::Own draws the second alone. `own`: the map whose range is the own
+/// one; null: `after`. As map_picture in all else.
 std::string after_picture(const HeightMap& before, const HeightMap& after, FigureRange range, const std::string& title,
-                          FigureFormat format = FigureFormat::Png, const Progress& progress = {});
+                          FigureFormat format = FigureFormat::Png, const Progress& progress = {},
+                          const HeightMap* own = nullptr);
 
 /// A figure of the dwell times [s] of a path, each point a square at its place (field_of_dwell in
 /// runs/drawing/plot_field.h); lifted moves are not drawn. The unit is s unless options say otherwise. Throws

@@ -124,9 +124,9 @@ void draw_ring(Sheet& sheet, const Ring& around, const SheetBox& box) {
 }  // namespace
 
 std::string residual_picture(const HeightMap& residual, const ResidualAnatomy& anatomy, const std::string& title,
-                             FigureFormat format, const Progress& progress) {
+                             FigureFormat format, const Progress& progress, const HeightMap* counted) {
   const PlotField field = field_of_map(residual, field_edges(1), progress);
-  const double end = kColourSigmas * robust_sigma(residual);
+  const double end = kColourSigmas * robust_sigma(counted != nullptr ? *counted : residual);
   const ColourLimits limits = end > 0.0 ? colour_limits(residual.values, ColourMap::Diverging, -end, end)
                                         : colour_limits(residual.values, ColourMap::Diverging);
   progress.check();

@@ -81,14 +81,17 @@ MapReadOptions tif_reading(const JobOptions& options, MapQuantity quantity) {
 }  // namespace
 
 HeightMap load_map(const JobOptions& options, std::vector<InputFile>& inputs, const Progress& progress) {
-  if (options.map.empty())
-    throw InputError("--map: required; a height-error map, for instance mirror.csv (or --line-profile)");
+  const std::string& file = surface_file(options);
   const MapReadOptions read = map_reading(options);
   progress.step("reading the map");
-  HeightMap map = read_map(options.map, read, progress.of_part("map"));
-  inputs.push_back({"map", options.map, sha256_of_file(split_map_name(options.map).file)});
+  HeightMap map = read_map(file, read, progress.of_part("map"));
+  inputs.push_back({options.removal.empty() ? "map" : "removal", file, sha256_of_file(split_map_name(file).file)});
   MapStepContext context{read, &inputs, thread_count(options.threads), progress.of_part("map")};
   apply_map_steps(map, parse_map_steps(options.map_steps), context);
+  if (options.piston_nm) {
+    for (double& z : map.values) z += *options.piston_nm;
+    map.history.push_back(fmt::format("piston ({:.6g} nm added)", *options.piston_nm));
+  }
   return map;
 }
 
@@ -262,7 +265,8 @@ bool lacks_pitch(const std::string& file, const MapReadOptions& read) {
 std::vector<std::string> missing_pitches(const JobOptions& options) {
   std::vector<std::string> flags;
   try {
-    if (lacks_pitch(options.map, map_reading(options))) flags.emplace_back("--map-pixel");
+    if (lacks_pitch(options.removal.empty() ? options.map : options.removal, map_reading(options)))
+      flags.emplace_back("--map-pixel");
     if (options.tif.empty() || is_removal_model(split_kind(options.tif).first)) return flags;
     const MapQuantity quantity = options.tif_dwell_time_s ? MapQuantity::Height : MapQuantity::Rate;
     if (lacks_pitch(options.tif, tif_reading(options, quantity))) flags.emplace_back("--tif-pixel");

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "core/base/errors.h"
+#include "core/base/threads.h"
 #include "core/base/whole_file.h"
 #include "core/formats/map_io.h"
 #include "core/map/aperture.h"
@@ -12,6 +14,7 @@
 #include "runs/job/input_files.h"
 #include "runs/job/keep_out_option.h"
 #include "runs/job/line_profile_map.h"
+#include "runs/job/pixel_weight_option.h"
 #include "runs/job/program_style.h"
 #include "runs/machine/machine_option.h"
 #include "runs/plan/pitch_choice.h"
@@ -37,7 +40,7 @@ HeightMap load_map_of(const JobOptions& options, Job& job, const Progress& progr
     if (missing.size() < 2) throw;
     throw InputError(
         fmt::format("{}: required [mm] > 0; there is no pixel pitch in the map {}, nor in the removal function {}",
-                    fmt::join(missing, ", "), options.map, options.tif));
+                    fmt::join(missing, ", "), surface_file(options), options.tif));
   }
 }
 
@@ -49,6 +52,24 @@ std::vector<SurfaceLimit> limits_to_accept(const JobOptions& options, const Remo
   } catch (const InputError& error) {
     throw InputError(fmt::format("--accept: {}", error.what()));
   }
+}
+
+/// Says so where an absolute removal is below zero.
+void note_negative_removal(const Part& part, JobOptions& options) {
+  if (options.removal.empty() && !options.piston_nm) return;
+  if (part.form.piston) return;
+  Index below = 0;
+  double least = 0.0;
+  for (const double depth : part.map.values) {
+    if (!(depth < 0.0)) continue;
+    ++below;
+    least = std::min(least, depth);
+  }
+  if (below == 0) return;
+  options.notes.push_back(fmt::format(
+      "the depth to remove is below 0 at {} of {} pixels, down to {:.4g} nm: no tool adds material, so that "
+      "these stay low; --piston raises all",
+      below, part.before.valid_pixels, least));
 }
 
 /// Lines of G-code from the file of an option, if it is given.
@@ -69,6 +90,7 @@ DwellOptions dwell_options(const JobOptions& o) {
                        o.max_solve_s};
   options.certify = o.certify;
   options.fraction = o.fraction;
+  options.objective = o.objective;
   options.rounds = o.rounds;
   options.schedule = o.schedule;
   options.over_path = has_export_over_path(o.exports);
@@ -104,10 +126,13 @@ Job load_job(const JobOptions& options, const Progress& progress) {
   job.map_pixels = map.valid_pixels();
   map = within(std::move(map), options.aperture, progress);
   progress.check();
+  std::vector<double> weights = load_pixel_weights(options.weight, options.clear_aperture, map, surface_file(options),
+                                                   thread_count(options.threads), job.inputs);
   RemovalFunction tif = load_removal_function(options, job.inputs, progress);
   job.part = std::make_shared<const Part>(
-      make_part(std::move(map), std::move(tif), options.remove, options.threads, progress));
+      make_part(std::move(map), std::move(tif), form_terms(options), options.threads, progress, std::move(weights)));
   job.accept = limits_to_accept(options, job.part->tif);
+  note_negative_removal(*job.part, job.options);
   return job;
 }
 

@@ -14,6 +14,7 @@
 #include "core/base/whole_file.h"
 #include "core/tif/models/removal_models.h"
 #include "runs/job/keep_out_option.h"
+#include "runs/job/pixel_weight_option.h"
 #include "runs/machine/machine_option.h"
 #include "runs/machine/machine_table.h"
 #include "runs/map_steps/map_steps.h"
@@ -115,6 +116,7 @@ std::string renamed_option(const JobOptionRecord& record, const std::string& val
     }
   }
   if (record.key == "keep_out") return renamed_keep_out(value, name);
+  if (record.key == "weight") return renamed_pixel_weights(value, name);
   constexpr std::string_view kPathFile = "file:";
   if (record.key == "path" && value.starts_with(kPathFile) && value != kPathFile)
     return std::string(kPathFile) + name(value.substr(kPathFile.size()));

@@ -250,8 +250,8 @@ std::vector<JobOptionRecord> make_table() {
        [](Options& o, const std::string& t) { o.motion = parse_motion(t); },
        [](const Options& o) { return to_string(o.motion); }},
       {"remove", "remove", "TERMS", "form terms that do not count: piston,tilt,power,astigmatism or none", false, false,
-       [](Options& o, const std::string& t) { o.remove = parse_form_terms(t); },
-       [](const Options& o) { return to_string(o.remove); }},
+       [](Options& o, const std::string& t) { o.remove = parse_form_terms(t), o.remove_given = true; },
+       [](const Options& o) { return to_string(o.remove_given ? o.remove : form_terms(o)); }},
       {"aperture", "aperture", "AREA",
        "what counts: map, rect:X0,Y0,X1,Y1, circle:X,Y,R, ellipse:X,Y,A,B[,DEG], annulus:X,Y,RIN,ROUT or "
        "polygon:X,Y,X,Y,...[/HOLE...] in mm",
@@ -372,6 +372,7 @@ std::vector<JobOptionRecord> make_table() {
   };
   insert_after("lift-height", program_option_records());
   insert_after("map-steps", profile_option_records());
+  insert_after("aperture", fit_option_records());
   insert_after("rounds", log_option_records());
   return table;
 }

@@ -19,6 +19,7 @@
 #include "paths/path_catalogue.h"
 #include "runs/drawing/figure_format.h"
 #include "runs/plan/blemish_handling.h"
+#include "runs/plan/fit_objective.h"
 #include "runs/programs/gcode_dialect.h"
 #include "runs/programs/path_mode_option.h"
 #include "solvers/problem/dwell_solver.h"
@@ -31,6 +32,8 @@ namespace dwell {
 /// (job_option_table) feeds the command line, the job file, the validation and the help text; defaults are those below.
 struct JobOptions {
   std::string map;
+  std::string removal;                  // file of depths to remove, in place of the map; empty: none
+  std::optional<double> piston_nm;      // added to the heights, no level being free; nothing: the map's level
   std::optional<Point> map_pixel_mm;    // in x and y
   std::string map_unit;                 // empty: as the file says, else nm
   std::optional<double> wavelength_nm;  // of heights in waves
@@ -65,9 +68,13 @@ struct JobOptions {
   std::string keep_out;  // areas that the tool does not enter while it is down: AREA;AREA;...
   Motion motion = Motion::Moving;
   FormTerms remove{true, true};
-  double fraction = 1.0;  // of the error that a plan removes
+  bool remove_given = false;  // else form_terms says what holds
+  double fraction = 1.0;      // of the error that a plan removes
   Aperture aperture;
-  std::string accept;  // limits of the surface that is left (surface_limits.h); empty: none
+  std::string accept;       // limits of the surface that is left (surface_limits.h); empty: none
+  Aperture clear_aperture;  // of the map within the aperture
+  std::string weight;       // of pixels: TERM;TERM;...; empty: all the same
+  FitObjective objective;
   double min_dwell_s = 0.0;
   double max_feed_mm_per_min = 3000.0;
   WeightGoal smoothness{0.0, GoalKind::Auto};
@@ -125,6 +132,17 @@ struct JobOptionRecord {
 };
 
 const std::vector<JobOptionRecord>& job_option_table();
+
+/// The file of the surface that is worked: the map, or the removal in its place. Throws InputError if both are given,
+/// or neither is.
+const std::string& surface_file(const JobOptions& options);
+
+/// The form terms that do not count. Where they are not given: none of a removal, and no piston if that is given.
+/// Throws InputError for a piston that is given and does not count.
+FormTerms form_terms(const JobOptions& options);
+
+/// The part of the table about what the fit counts.
+std::vector<JobOptionRecord> fit_option_records();
 
 /// The part of the table about how program.nc is written.
 std::vector<JobOptionRecord> program_option_records();

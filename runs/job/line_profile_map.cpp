@@ -14,7 +14,7 @@ namespace {
 
 bool says_how_to_read_a_map(const std::string& flag) {
   return flag == "map" || (flag.starts_with("map-") && flag != "map-steps") || flag == "wavelength" ||
-         flag == "wave-scale";
+         flag == "wave-scale" || flag == "removal" || flag == "piston";
 }
 
 bool is_of_a_line_profile(const std::string& flag) { return flag.starts_with("profile-") || flag == "line-width"; }
@@ -61,10 +61,6 @@ HeightMap load_line_profile(const JobOptions& options, std::vector<InputFile>& i
   MapStepContext context{read, &inputs, read.threads, progress.of_part("line profile")};
   apply_map_steps(map, parse_map_steps(options.map_steps), context);
   return map;
-}
-
-const std::string& heights_file(const JobOptions& options) {
-  return options.line_profile.empty() ? options.map : options.line_profile;
 }
 
 void forget_line_profile(JobOptions& options) {

@@ -20,9 +20,6 @@ void check_profile_options(const JobOptions& options);
 HeightMap load_line_profile(const JobOptions& options, std::vector<InputFile>& inputs, std::vector<std::string>& notes,
                             const Progress& progress = {});
 
-/// The file that a job's heights come from: its map, or its line profile.
-const std::string& heights_file(const JobOptions& options);
-
 /// The options without what they say of a line profile, or of a map, for another in its place.
 void forget_line_profile(JobOptions& options);
 void forget_map(JobOptions& options);

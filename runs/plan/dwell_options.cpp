@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "core/base/errors.h"
 #include "solvers/weights/weight_option.h"
 
@@ -19,8 +21,30 @@ bool weights_are_searched(const DwellOptions& options) {
   return searched(smoothness) || searched(price);
 }
 
+namespace {
+
+/// What speaks of heights, or knows nothing of slopes.
+void check_slopes(const DwellOptions& options) {
+  for (const auto& [name, goal] :
+       {std::pair("smoothness", &options.smoothness), std::pair("time price", &options.time_price)}) {
+    if (goal->kind != GoalKind::ResidualAtMost) continue;
+    throw InputError(name, to_string(*goal), "another goal, or `objective` height",
+                     fmt::format("`{}` '{}' is a target in heights, but `objective` is {}; required another goal, or "
+                                 "height",
+                                 name, to_string(*goal), to_string(options.objective)));
+  }
+  if (options.solver != SolverKind::Fourier) return;
+  throw InputError("objective", to_string(options.objective), "height",
+                   fmt::format("`objective` {} with `solver` fourier, which divides spectra of heights; required "
+                               "another solver, or height",
+                               to_string(options.objective)));
+}
+
+}  // namespace
+
 void check_weights(const DwellOptions& options) {
   weights_are_searched(options);
+  if (options.objective.has_slopes()) check_slopes(options);
   if (options.time_price.kind == GoalKind::Auto || options.time_worth == TimeWorth{}) return;
   throw InputError("time worth", to_string(options.time_worth), "`time price` auto",
                    fmt::format("`time worth` {} rules the price where that is auto; `time price` is {}: leave one of "

@@ -2,6 +2,7 @@
 
 #include "core/base/time_limit.h"
 #include "paths/feed/schedule_kind.h"
+#include "runs/plan/fit_objective.h"
 #include "runs/plan/machine_limits.h"
 #include "solvers/problem/dwell_solver.h"
 #include "solvers/weights/time_worth.h"
@@ -23,6 +24,7 @@ struct DwellOptions {
   bool over_path = false;                          // its speeds must be such over the path, too (path_linear.h)
   int rounds = 20;                                 // of correction for the motion of the machine, at most; >= 0
   double fraction = 1.0;                           // of the error, form terms aside, that is to be removed; > 0, <= 1
+  FitObjective objective{};                        // heights, slopes or both
 };
 
 /// The clock of max_seconds, of which `used` went before [s]. The phases before a solve have a second even where
@@ -36,8 +38,8 @@ inline TimeLimit time_limit(double max_seconds, double used = 0.0) {
 /// weights shall be the largest that hold a residual: many pairs of weights do, and none of them is the largest.
 bool weights_are_searched(const DwellOptions& options);
 
-/// Throws InputError for weights that contradict each other, before any work is done: as weights_are_searched, and for
-/// a worth of time beside a price that it does not rule.
+/// Throws InputError for weights that contradict each other, before any work is done: as weights_are_searched, for a
+/// worth of time beside a price that it does not rule, and for a target in heights beside an objective with slopes.
 void check_weights(const DwellOptions& options);
 
 }  // namespace dwell

@@ -60,7 +60,7 @@ DwellOptions with_weights(const DwellOptions& options, const Part& part, const L
   if (options.solver == SolverKind::Fourier) return numbers;
   const double smoothness =
       numbers.smoothness.kind == GoalKind::Fixed ? numbers.smoothness.value : usual_smoothness(part, laid);
-  plan.worth = problem.find_price(smoothness, options.time_worth, progress);
+  plan.worth = problem.find_price(part, smoothness, options.time_worth, progress);
   plan.worth_smoothness = smoothness;
   numbers.time_price = {plan.worth->price};
   return numbers;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/form/map_statistics.h"
@@ -123,6 +124,22 @@ Index count_at_least(const Eigen::VectorXd& dwell, const Eigen::VectorXd& least)
   return count;
 }
 
+/// RMS of what is left of a part as the fit counts it: weighted, of slopes where they are its objective [nm].
+double counted_rms(const DwellProblem& p, const Part& part, const HeightMap& left) {
+  const std::vector<Index> pixels = finite_pixels(part.map);
+  Vector heights(static_cast<Index>(pixels.size())), r;
+  for (std::size_t i = 0; i < pixels.size(); ++i)
+    heights[static_cast<Index>(i)] = left.values[static_cast<std::size_t>(pixels[i])];
+  if (p.rows) {
+    p.rows->apply(heights, r);
+  } else {
+    r = heights;
+  }
+  if (p.weights.size() > 0) r.array() *= p.weights.array();
+  if (p.form.cols() > 0) r -= p.form * (p.form.transpose() * r).eval();
+  return r.norm() / std::sqrt(static_cast<double>(p.pixels()));
+}
+
 /// Solves for the target as it is now. A total that is to be held is held by another price, since what the motion
 /// removes on its own may ask for more time as well as for less.
 WeightedDwell solve_again(PlanProblem& problem, const DwellOptions& options, const Weights& weights,
@@ -147,23 +164,30 @@ MotionPlan plan_motion(PlanProblem& problem, const Part& part, const LaidPath& l
   std::vector<double> rounds;
   Eigen::VectorXd corrected = dwell;
   double time_price = weights.time_price;
-  const double planned = loop.rms_of(problem.left_by(dwell));
+  // Rounds are judged by what the fit counts; without weights and slopes that is the RMS that they state.
+  const auto judged = [&](const HeightMap& left) {
+    const DwellProblem& p = problem.with(weights);
+    return p.weights.size() > 0 ? counted_rms(p, part, left) : loop.rms_of(left);
+  };
+  const double planned = judged(problem.left_by(dwell));
+  double least = 0.0;  // of the best round
   int idle = 0;  // rounds one after the other that gained little; the strokes' times may swing once before they settle
   for (int round = 0;; ++round) {
     progress.report(fmt::format("motion: round {}", round));
     MotionPlan now;
     const HeightMap left = loop.execute_dwell(corrected, now, progress);
     rounds.push_back(loop.rms_of(left));
-    const double before = round == 0 ? 0.0 : best.executed();
-    if (round == 0 || rounds.back() < before) {
+    const double before = least, here = judged(left);
+    if (round == 0 || here < before) {
       now.at_least = best.at_least;
       now.best = round;
       now.time_price = time_price;
       best = std::move(now);
+      least = here;
     }
     best.rounds = rounds;
-    idle = round > 0 && rounds.back() > (1.0 - kGainsLittle) * before ? idle + 1 : 0;
-    if (round == options.rounds || idle > 1 || (idle > 0 && best.executed() <= kNearPlan * planned)) break;
+    idle = round > 0 && here > (1.0 - kGainsLittle) * before ? idle + 1 : 0;
+    if (round == options.rounds || idle > 1 || (idle > 0 && least <= kNearPlan * planned)) break;
     // What the dwell leaves less what its motion leaves is what the motion removes beyond it.
     HeightMap defect = problem.left_by(corrected);
     for (std::size_t i = 0; i < defect.values.size(); ++i) defect.values[i] -= left.values[i];

@@ -33,7 +33,8 @@ struct MotionPlan {
 /// options.schedule says, the machine's motion of them is simulated, and what its removal has over that of the dwell is
 /// taken off the target of the next solve, which holds a total that is asked for by another price. `dwell` [s] and
 /// `weights` are those of the solved plan; at most options.rounds such solves, fewer when two in a row gain less than
-/// 0.2 %, or one near the plan. The best round is taken, the first included. `kernel` is that of the problem's lattice.
+/// 0.2 %, or one near the plan. The best round by what the fit counts is taken, the
+/// first included. `kernel` is that of the problem's lattice.
 /// Throws Interrupted. Cost: a schedule, a simulation and a solve a round.
 MotionPlan plan_motion(PlanProblem& problem, const Part& part, const LaidPath& laid, const RemovalKernel& kernel,
                        const DwellOptions& options, const Weights& weights, const Eigen::VectorXd& dwell,

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <utility>
 
 #include "core/base/errors.h"
@@ -12,12 +14,47 @@
 #include "core/form/robust_pv.h"
 
 namespace dwell {
+namespace {
 
-Part make_part(HeightMap map, RemovalFunction tif, const FormTerms& form, int threads, const Progress& progress) {
+constexpr double kNoData = std::numeric_limits<double>::quiet_NaN();
+
+/// Moves pixels of weight 0 from the map to what lies beside it, and keeps the weights if they differ.
+void set_weights(std::vector<double> weights, Part& part) {
+  if (weights.empty()) return;
+  std::vector<double>& heights = part.map.values;
+  if (weights.size() != heights.size()) {
+    throw std::invalid_argument(
+        fmt::format("make_part: {} weights for {} pixels; one each, or none", weights.size(), heights.size()));
+  }
+  HeightMap beside(part.map.grid);
+  Index not_counted = 0;
+  double least = std::numeric_limits<double>::infinity(), most = 0.0;
+  for (std::size_t i = 0; i < heights.size(); ++i) {
+    if (!(weights[i] >= 0.0 && std::isfinite(weights[i])))
+      throw std::invalid_argument(fmt::format("make_part: weight {}; finite and >= 0 is required", weights[i]));
+    if (!std::isfinite(heights[i])) continue;
+    if (weights[i] > 0.0) {
+      least = std::min(least, weights[i]);
+      most = std::max(most, weights[i]);
+      continue;
+    }
+    ++not_counted;
+    beside.values[i] = std::exchange(heights[i], kNoData);
+  }
+  if (!(most > 0.0)) throw InputError("no pixel with data has a weight above 0: nothing counts");
+  if (not_counted > 0) part.beside = std::move(beside);
+  if (least < most) part.weights = std::move(weights);
+}
+
+}  // namespace
+
+Part make_part(HeightMap map, RemovalFunction tif, const FormTerms& form, int threads, const Progress& progress,
+               std::vector<double> weights) {
   check_tool_fits(tif, map.grid);
   Part part;
   part.threads = thread_count(threads);
   part.map = std::move(map);
+  set_weights(std::move(weights), part);
   part.form = form;
   part.figure = without_form(part.map, form, part.threads);
   progress.check();
@@ -36,7 +73,7 @@ Part make_part(HeightMap map, RemovalFunction tif, const FormTerms& form, int th
 }
 
 Part without_pixels(Part part, const std::vector<Index>& pixels) {
-  for (const Index i : pixels) part.map.values[static_cast<std::size_t>(i)] = std::numeric_limits<double>::quiet_NaN();
+  for (const Index i : pixels) part.map.values[static_cast<std::size_t>(i)] = kNoData;
   part.figure = without_form(part.map, part.form, part.threads);
   part.before = map_statistics(part.figure, {}, part.threads);
   return part;

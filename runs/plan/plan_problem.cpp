@@ -13,7 +13,9 @@
 #include "core/removal/removal_geometry.h"
 #include "core/removal/simulate.h"
 #include "paths/feed/plan_program.h"
+#include "runs/plan/counted_pixels.h"
 #include "runs/plan/least_dwell_of.h"
+#include "runs/plan/objective_rows.h"
 #include "solvers/matched/time_price.h"
 #include "solvers/proof.h"
 #include "solvers/solver_catalogue.h"
@@ -46,6 +48,13 @@ Vector target_of(const Part& part, const LaidPath& laid, const std::vector<Index
   return z;
 }
 
+/// What the least dwell leaves of the objective's squares [nm^2]. One operator application.
+double square_at_least_dwell(const DwellProblem& problem) {
+  Vector residual;
+  DwellObjective(problem).residual(problem.lower, residual);
+  return residual.squaredNorm();
+}
+
 /// The rest of the map, which a fraction of less than one leaves on the part; empty for one.
 Vector spared_of(const HeightMap& map, const std::vector<Index>& pixels, double fraction) {
   if (fraction == 1.0) return {};
@@ -63,6 +72,7 @@ PlanProblem::PlanProblem(const Part& part, const LaidPath& laid, const RemovalKe
       pixels_(finite_pixels(part.map)),
       energy_(part.kernel.energy),
       kind_(options.solver),
+      objective_(options.objective),
       geometry_(std::make_shared<const RemovalGeometry>(
           removal_geometry(grid_, pixels_, kernel, laid.strokes, part.threads))),
       removal_(make_removal_operator(*geometry_)) {
@@ -72,19 +82,48 @@ PlanProblem::PlanProblem(const Part& part, const LaidPath& laid, const RemovalKe
   require_memory_to_solve(part, laid, kind_);
   const FeedLimits limits = options.machine.feed_limits();
   progress.step("setting up the target");
-  problem_.removal = removal_.get();
-  problem_.target = target_of(part, laid, pixels_, kernel, limits.max_feed, options.fraction);
-  target_ = problem_.target;
+  target_ = target_of(part, laid, pixels_, kernel, limits.max_feed, options.fraction);
   progress.step("setting up the form terms");
-  problem_.form = form_basis(grid_, pixels_, part.form, {}, part.threads);
+  set_objective(part, objective_);
   spared_ = spared_of(part.map, pixels_, options.fraction);
-  spared_figure_ = spared_;
-  if (spared_.size() > 0 && problem_.form.cols() > 0) {
-    spared_figure_ -= problem_.form * (problem_.form.transpose() * spared_);
+  if (spared_.size() > 0) {
+    spared_residual_ = rows_of(spared_);
+    if (problem_.weights.size() > 0) spared_residual_.array() *= problem_.weights.array();
+    if (problem_.form.cols() > 0) spared_residual_ -= problem_.form * (problem_.form.transpose() * spared_residual_);
   }
   progress.step("setting up the smoothness along the path");
   problem_.parts = {{geometry_, path_smoothness(laid.path, laid.strokes, part.threads)}};
   problem_.lower = least_dwell_of(laid, options.machine);
+}
+
+void PlanProblem::set_objective(const Part& part, const FitObjective& objective) {
+  const std::vector<double> roots = weight_roots(part, pixels_);
+  if (!roots.empty() && kind_ == SolverKind::Fourier) {
+    throw InputError(
+        "`weight` with `solver` fourier: a deconvolution counts all pixels alike; required another solver, or weights "
+        "of which all above 0 are the same");
+  }
+  if (objective.has_slopes()) {
+    ObjectiveRows slopes = objective_rows(part, pixels_, roots, objective);
+    slopes_ = std::make_unique<RowsOfRemoval>(*removal_, *slopes.rows);
+    problem_.removal = slopes_.get();
+    problem_.rows = std::move(slopes.rows);
+    problem_.weights = std::move(slopes.weights);
+    problem_.form = std::move(slopes.form);
+  } else {
+    problem_.removal = removal_.get();
+    problem_.rows.reset();
+    problem_.weights = Vector::Map(roots.data(), static_cast<Index>(roots.size()));
+    problem_.form = form_basis(grid_, pixels_, part.form, roots, part.threads);
+  }
+  set_target(target_);
+}
+
+Vector PlanProblem::rows_of(const Vector& heights) const {
+  if (!problem_.rows) return heights;
+  Vector rows;
+  problem_.rows->apply(heights, rows);
+  return rows;
 }
 
 const DwellProblem& PlanProblem::with(const Weights& weights) {
@@ -106,7 +145,7 @@ SolverOptions PlanProblem::solver_options(double max_seconds, const std::string&
 TradeOff PlanProblem::trade_off_of(const Vector& dwell) {
   Vector residual;
   DwellObjective(problem_).residual(dwell, residual);
-  if (spared_figure_.size() > 0) residual -= spared_figure_;
+  if (spared_residual_.size() > 0) residual -= spared_residual_;
   return {residual.norm() / std::sqrt(static_cast<double>(problem_.pixels())), dwell.sum(), step_rms(problem_, dwell)};
 }
 
@@ -136,9 +175,20 @@ void PlanProblem::prove(double gap, double max_seconds, WeightedDwell& found, Ce
   if (found.solver.iterations > before) found.trade_off = trade_off_of(found.dwell);
 }
 
-TimePrice PlanProblem::find_price(double smoothness, const TimeWorth& worth, const Progress& progress) {
+TimePrice PlanProblem::find_price(const Part& part, double smoothness, const TimeWorth& worth,
+                                  const Progress& progress) {
+  if (!objective_.has_slopes()) {
+    with({smoothness, 0.0});
+    return find_time_price(problem_, worth, progress);
+  }
+  const double slopes = square_at_least_dwell(problem_);
+  set_objective(part, {});
+  const double heights = square_at_least_dwell(problem_);
   with({smoothness, 0.0});
-  return find_time_price(problem_, worth, progress);
+  TimePrice price = find_time_price(problem_, worth, progress);
+  set_objective(part, objective_);
+  if (heights > 0.0) price.price *= slopes / heights;
+  return price;
 }
 
 double PlanProblem::highest_price() {
@@ -151,10 +201,10 @@ double PlanProblem::highest_price() {
 }
 
 void PlanProblem::spare_target(const HeightMap& removal) {
-  problem_.target = target_;
-  if (removal.values.empty()) return;
-  for (std::size_t i = 0; i < pixels_.size(); ++i)
-    problem_.target[static_cast<Index>(i)] -= removal.values[static_cast<std::size_t>(pixels_[i])];
+  Vector heights = target_;
+  for (std::size_t i = 0; i < pixels_.size() && !removal.values.empty(); ++i)
+    heights[static_cast<Index>(i)] -= removal.values[static_cast<std::size_t>(pixels_[i])];
+  set_target(heights);
 }
 
 HeightMap PlanProblem::left_by(const Vector& dwell) const {

@@ -24,7 +24,8 @@ struct WeightedDwell {
   TradeOff trade_off;
 };
 
-/// The dwell problem of a part and a path laid on it, with the weights left open. Its target is the fraction of the
+/// The dwell problem of a part and a path laid on it, with the weights left open: in heights or slopes as the options'
+/// objective says, the pixels weighted as the part says. Its target is the fraction of the
 /// error that the options ask for; what it states of a dwell is what remains on the part, the rest of the error too.
 class PlanProblem {
  public:
@@ -53,9 +54,11 @@ class PlanProblem {
   /// descent, there, of half the mean square residual. 1 if nothing descends. Cost: two operator applications.
   double highest_price();
 
-  /// The time price that the rules give the problem with a smoothness. Throws as find_time_price, which states the
-  /// cost.
-  TimePrice find_price(double smoothness, const TimeWorth& worth, const Progress& progress);
+  /// The time price that the rules give the problem with a smoothness. With slopes it is that of heights, times the
+  /// ratio of the two objectives at the least dwell: a second has to take the same share off what there is. Slopes from
+  /// pixel to pixel are mostly noise, and the rules, which see what no time removes, would make time dear. Throws as
+  /// find_time_price, which states the cost. `part`: the same as before.
+  TimePrice find_price(const Part& part, double smoothness, const TimeWorth& worth, const Progress& progress);
 
   /// The problem with the weights set.
   const DwellProblem& with(const Weights& weights);
@@ -68,17 +71,23 @@ class PlanProblem {
  private:
   SolverOptions solver_options(double max_seconds, const std::string& stage, const Progress& progress) const;
   TradeOff trade_off_of(const Vector& dwell);
+  void set_objective(const Part& part, const FitObjective& objective);
+  /// What of heights of the pixels the objective sees.
+  Vector rows_of(const Vector& heights) const;
+  void set_target(const Vector& heights) { problem_.target = rows_of(heights); }
 
   Grid grid_;                  // of the map
   std::vector<Index> pixels_;  // of the map, linear indices
   double energy_;              // |b|^2 [nm^2/s^2]
   SolverKind kind_;
+  FitObjective objective_;
   std::shared_ptr<const RemovalGeometry> geometry_;
-  std::unique_ptr<RemovalOperator> removal_;
+  std::unique_ptr<RemovalOperator> removal_;  // of heights
+  std::unique_ptr<RemovalOperator> slopes_;   // of the rows of an objective with slopes
   DwellProblem problem_;
-  Vector target_;         // of the part
-  Vector spared_;         // of the map, what the target leaves out on purpose [nm]; empty: nothing
-  Vector spared_figure_;  // the same without the form terms
+  Vector target_;           // heights of the part
+  Vector spared_;           // of the map, what the target leaves out on purpose [nm]; empty: nothing
+  Vector spared_residual_;  // the same as the objective sees it, weighted and without the form terms
 };
 
 }  // namespace dwell

@@ -5,8 +5,9 @@ namespace dwell {
 bool is_recorded_option(std::string_view key) {
   // The limit of a map's heights only refuses maps; what passes it is the same map.
   if (key == "map_max_pv_mm") return false;
-  if (key == "wavelength_nm" || key == "wave_scale") return true;          // of the map's heights
-  if (key.starts_with("profile_") || key == "line_width_mm") return true;  // how it was made of a profile
+  if (key == "wavelength_nm" || key == "wave_scale") return true;                     // of the map's heights
+  if (key.starts_with("profile_") || key == "line_width_mm") return true;             // how it was made of a profile
+  if (key == "weight" || key == "clear_aperture" || key == "piston_nm") return true;  // of what figures are of
   return key == "remove" || key == "aperture" || key.starts_with("map_") || key.starts_with("tif");
 }
 

@@ -6,7 +6,7 @@ namespace dwell {
 
 nlohmann::ordered_json plan_map_block(const Job& job) {
   const Part& part = *job.part;
-  return map_block({heights_file(job.options), part.map.grid, part.map.history, job.map_pixels,
+  return map_block({surface_file(job.options), part.map.grid, part.map.history, job.map_pixels,
                     to_string(job.options.aperture), to_string(part.form), part.before});
 }
 

@@ -24,6 +24,7 @@
 #include "runs/job/learnt_files.h"
 #include "runs/job/option_flags.h"
 #include "runs/job/program_style.h"
+#include "runs/plan/counted_pixels.h"
 #include "runs/plan/program_prediction.h"
 #include "runs/programs/gcode_parts.h"
 #include "runs/programs/program_comments.h"
@@ -286,6 +287,8 @@ WrittenPlan write_plan(const PlannedJob& plan, const OutputFolder& folder, const
   const Program run = run_of(plan, program, progress);
   std::optional<Part> changed;
   written.exact = predict_program(part_to_predict_on(plan, changed), run, plan.dwell.lattice.kernel, progress);
+  if (!plan.part().beside.values.empty())
+    written.beside = shown_surface(plan.part(), written.exact.surface, run, plan.dwell.lattice.kernel);
   write_learnt(plan, folder, program, written);
   if (plan.job.machine) {
     const Machine machine = machine_for_program(plan.job.machine->machine, plan.job.options);
@@ -329,7 +332,7 @@ WrittenPlan write_plan(const PlannedJob& plan, const OutputFolder& folder, const
 
   progress.report("write: pictures and arrays");
   write_plan_pictures(plan, written, folder, progress);
-  write_map(folder.path("residual.npy"), written.exact.surface);
+  write_map(folder.path("residual.npy"), written.shown());
   folder.write("dwell.npy", npy_bytes(std::span<const double>(dwell_to_write(plan))));
   if (plan.dwell.search) folder.write("search.csv", write_trials(*plan.dwell.search));
   written.summary = plan_summary_text(plan, written);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "runs/drawing/path_picture.h"
 #include "runs/drawing/picture.h"
 #include "runs/drawing/residual_picture.h"
+#include "runs/plan/counted_pixels.h"
 #include "runs/reports/figure_output.h"
 
 namespace dwell {
@@ -44,24 +46,25 @@ std::vector<PlanPicture> plan_pictures(const PlannedJob& plan, const WrittenPlan
   const Part& part = plan.part();
   const ToolPath& path = plan.laid.path;
   const std::string removed = to_string(part.form);
+  const auto figure = std::make_shared<const HeightMap>(shown_figure(part));
   return {
       {"before",
-       [&part, removed](FigureFormat format, const Progress& progress) {
+       [&part, figure, removed](FigureFormat format, const Progress& progress) {
          const std::string title = fmt::format("Before: {} ({} removed)", in_words(part.before), removed);
-         return map_picture(part.figure, {title, "nm", true, {}, {}}, format, progress);
+         return map_picture(*figure, {title, "nm", true, {}, {}, &part.figure}, format, progress);
        }},
       {"after",
        [&plan, &part, &written, removed](FigureFormat format, const Progress& progress) {
          const std::string title =
              fmt::format("After (simulated program): {} ({} removed)", in_words(written.exact.statistics), removed);
-         return after_picture(part.figure, written.exact.surface, plan.job.options.figure_range, title, format,
-                              progress);
+         return after_picture(part.figure, written.shown(), plan.job.options.figure_range, title, format, progress,
+                              &written.exact.surface);
        }},
       {"residual",
        [&written, removed](FigureFormat format, const Progress& progress) {
          const std::string title =
              fmt::format("What is left: {} ({} removed)", in_words(written.exact.statistics), removed);
-         return residual_picture(written.exact.surface, written.anatomy, title, format, progress);
+         return residual_picture(written.shown(), written.anatomy, title, format, progress, &written.exact.surface);
        }},
       {"dwell",
        [&plan, &path](FigureFormat format, const Progress& progress) {
@@ -70,14 +73,14 @@ std::vector<PlanPicture> plan_pictures(const PlannedJob& plan, const WrittenPlan
          return dwell_picture(path, plan.program.table.dwell_s, {title, "s", false, {}, {}}, format, progress);
        }},
       {"path",
-       [&plan, &part, &path](FigureFormat format, const Progress& progress) {
+       [&plan, figure, &path](FigureFormat format, const Progress& progress) {
          const std::string title = fmt::format("Path: {}, {}, {:.4g} mm, {}", path.kind, counted(path.size(), "point"),
                                                plan.laid.metrics.length, counted(plan.laid.metrics.lifts, "lift"));
-         return path_picture(part.figure, path, title, format, progress);
+         return path_picture(*figure, path, title, format, progress);
        }},
       {"path_detail",
-       [&part, &path](FigureFormat format, const Progress& progress) {
-         return path_detail_picture(part.figure, path, "Path, detail: " + path.kind, format, progress);
+       [figure, &path](FigureFormat format, const Progress& progress) {
+         return path_detail_picture(*figure, path, "Path, detail: " + path.kind, format, progress);
        }},
   };
 }

@@ -13,8 +13,10 @@
 #include "runs/base/inputs_json.h"
 #include "runs/reports/acceptance_report.h"
 #include "runs/reports/aim.h"
+#include "runs/reports/counted_figures.h"
 #include "runs/reports/log_report.h"
 #include "runs/reports/machine_report.h"
+#include "runs/reports/objective_lines.h"
 #include "runs/reports/options_json.h"
 #include "runs/reports/plan_blocks.h"
 #include "runs/reports/plan_costs.h"
@@ -181,6 +183,9 @@ std::string plan_summary_text(const PlannedJob& plan, const WrittenPlan& written
                   {"inputs", inputs_json(plan.job.inputs)}});
   if (plan.resumed) summary["resume"] = resume_block(*plan.resumed);
   if (!written.acceptance.empty()) summary["acceptance"] = acceptance_block(written.acceptance);
+  if (const auto counted = counted_figures(plan.job, written.exact.surface))
+    summary["counted"] = counted_block(*counted);
+  if (plan.job.options.objective.has_slopes()) summary["objective"] = objective_block(plan);
   if (!written.exports.empty()) summary["exports"] = exports_json(written);
   if (plan.dwell.motion) {
     summary["machine"] = machine_block(*plan.job.machine);

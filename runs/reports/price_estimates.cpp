@@ -10,6 +10,7 @@ double left_by_fit(const DwellPlan& plan) {
 
 std::optional<PriceEstimates> price_estimates(const PlannedJob& plan) {
   const DwellPlan& dwell = plan.dwell;
+  if (plan.job.options.objective.has_slopes()) return std::nullopt;
   if (!dwell.worth || !(dwell.worth->price > 0.0) || dwell.weights.smoothness != dwell.worth_smoothness ||
       dwell.weights.time_price != dwell.worth->price)
     return std::nullopt;

@@ -15,7 +15,8 @@ struct PriceEstimates {
   std::optional<double> unsmoothed_rms;  // as that, without smoothness [nm]
 };
 
-/// Nothing where the price was not found by its worth, or with another smoothness than the plan has.
+/// Nothing where the price was not found by its worth, or with another smoothness than the plan has, or where the model
+/// made slopes small: how heights go with them it does not know.
 std::optional<PriceEstimates> price_estimates(const PlannedJob& plan);
 
 /// RMS about zero that the fit left, blemishes that were left out of it aside [nm].

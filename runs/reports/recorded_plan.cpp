@@ -104,7 +104,8 @@ JobOptions options_of(const nlohmann::json& summary, const std::string& file, co
 
 std::string flag_of_role(const std::string& role) {
   if (role == "profile") return "line-profile";
-  return role == "map" || role == "tif" || role == "machine" ? role : "map-steps";
+  const bool own = role == "map" || role == "tif" || role == "machine" || role == "weight" || role == "removal";
+  return own ? role : "map-steps";
 }
 
 }  // namespace

@@ -20,6 +20,7 @@
 #include "runs/job/line_profile_map.h"
 #include "runs/job/program_style.h"
 #include "runs/machine/machine_option.h"
+#include "runs/plan/counted_pixels.h"
 #include "runs/plan/program_prediction.h"
 #include "runs/programs/program_reader.h"
 #include "runs/reports/acceptance_report.h"
@@ -109,7 +110,7 @@ Simulation simulate_file(const std::filesystem::path& program, const GcodeReadin
   s.inputs.insert(s.inputs.end(), job.inputs.begin(), job.inputs.end());
   s.terms = part.form;
   s.before = part.before;
-  s.map = {heights_file(options),       part.map.grid,      part.map.history, job.map_pixels,
+  s.map = {surface_file(options),       part.map.grid,      part.map.history, job.map_pixels,
            to_string(options.aperture), to_string(s.terms), s.before};
   s.tif = part.tif;
   s.volume_factor = part.kernel.volume_factor;
@@ -130,6 +131,8 @@ Simulation simulate_file(const std::filesystem::path& program, const GcodeReadin
     lattice = finer_lattice(part, lattice);
     s.after = predict_program(predicted, run, lattice.kernel, simulating);
   }
+  s.counted = counted_figures(job, s.after.surface);
+  if (!part.beside.values.empty()) s.beside = shown_surface(part, s.after.surface, run, lattice.kernel);
   if (s.executed) compare_with_commanded(part, s.program, lattice, s, simulating);
   if (source.log) {
     s.recorded = recorded_run(*source.log, s.program, job.machine ? std::optional(job.machine->machine) : std::nullopt,
@@ -172,6 +175,7 @@ std::string simulation_json(const Simulation& s) {
   if (s.recorded) json["recorded"] = recorded_block(*s.recorded);
   json["anatomy"] = anatomy_block(s.anatomy, s.advice);
   if (!s.acceptance.empty()) json["acceptance"] = acceptance_block(s.acceptance);
+  if (s.counted) json["counted"] = counted_block(*s.counted);
   if (!s.plan.empty()) json["plan"] = s.plan;
   json["differences"] = s.differences;
   json["limits"] = s.limits;

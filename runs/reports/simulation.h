@@ -20,6 +20,7 @@
 #include "runs/job/learnt_files.h"
 #include "runs/machine/machine_file.h"
 #include "runs/programs/gcode_reading.h"
+#include "runs/reports/counted_figures.h"
 #include "runs/reports/program_record.h"
 #include "runs/reports/recorded_run.h"
 
@@ -63,7 +64,9 @@ struct Simulation {
   RemovalFunction tif;
   double volume_factor = 1.0;  // of its kernel
   MapStatistics before;
-  ExactResidual after;                      // of the motion, where there is a machine
+  ExactResidual after;                      // of the motion, where there is a machine; of the pixels that count
+  HeightMap beside;                         // its surface with those that do not count; empty if all do [nm]
+  std::optional<CountedFigures> counted;    // where some count less than others, or not at all
   std::optional<ExecutedProgram> executed;  // on a machine
   std::optional<RecordedRun> recorded;      // by a controller
   std::vector<MotionNode> nodes;            // of its motion, where they are wanted
@@ -73,15 +76,18 @@ struct Simulation {
   std::string plan;                         // as SimulationSource
   std::vector<std::string> differences;     // from the plan that the program was made by, a sentence each
   std::vector<std::string> limits;          // that were reached, a sentence each
+
+  /// What is left, to be shown [nm].
+  const HeightMap& shown() const { return beside.values.empty() ? after.surface : beside; }
 };
 
 /// Simulates a program file (feed.csv or G-code) on the job's map with the job's removal function; the tool moves
 /// continuously, at the commanded speeds or, with a machine, as that executes the program. With a log of a run, what
 /// the recorded motion leaves stands beside it (recorded_run). `every_pixel`: the exact figure from every pixel
 /// (exact_residual), which takes longer. `keep_nodes`: with a machine, keeps the nodes of its motion. `reading`: for
-/// G-code that leaves something to its controller. Of the job it uses map, tif, remove, aperture, accept and threads.
-/// Map and removal function are held to what the program's header says of them (program_record.h). Throws InputError,
-/// Interrupted.
+/// G-code that leaves something to its controller. Of the job it uses map, tif, remove, apertures, weight, accept and
+/// threads. Map and removal function are held to what the program's header says of them (program_record.h). Throws
+/// InputError, Interrupted.
 Simulation simulate_file(const std::filesystem::path& program, const GcodeReading& reading, const JobOptions& options,
                          const Progress& progress, bool every_pixel = false, const SimulationSource& source = {},
                          bool keep_nodes = false);

@@ -30,7 +30,8 @@ struct WrittenExport {
 
 /// What was written, and the surface that the program on disk leaves.
 struct WrittenPlan {
-  ExactResidual exact;                     // what the program leaves, as read back
+  ExactResidual exact;                     // what the program leaves, as read back, of the pixels that count
+  HeightMap beside;                        // its surface with those that do not count; empty if all do [nm]
   ResidualAnatomy anatomy;                 // of that surface
   std::string advice;                      // what would help most, a sentence
   SurfaceSheet surface;                    // slopes and bands before, and of that surface
@@ -49,6 +50,9 @@ struct WrittenPlan {
   std::string late_sha256, learnt_removal_sha256;  // of kLateFile and kLearntRemovalFile, where there are any
   std::vector<std::string> limits;  // of the plan, and those that reading its files back has shown; a sentence each
   std::string summary;              // the text of summary.json
+
+  /// What the program leaves, to be shown [nm].
+  const HeightMap& shown() const { return beside.values.empty() ? exact.surface : beside; }
 };
 
 }  // namespace dwell

@@ -1,5 +1,6 @@
 #include "solvers/matched/matched_removal.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -18,14 +19,13 @@ MatchedRemoval::MatchedRemoval(const DwellProblem& problem, const std::vector<Gr
     : problem_(problem),
       pixels_(problem.parts.front().geometry->lattice, factor, problem.parts.front().geometry->threads) {
   const RemovalGeometry& g = *problem.parts.front().geometry;
-  pixels_.add(g.pixels, problem.weights.cwiseAbs2(), SplineGram::Take::Value, 1.0);
+  add_pixels();
   const Grid& lattice = pixels_.lattice();
   form_.resize(lattice.size(), problem.form.cols());
   Vector column, spread;
   for (Index k = 0; k < problem.form.cols(); ++k) {
     column = problem.form.col(k);
-    if (problem.weights.size() != 0) column.array() *= problem.weights.array();
-    pixels_.spread(g.pixels, column, spread);
+    pixels_.spread(g.pixels, heights_of_weighted(column), spread);
     form_.col(k) = spread;
   }
   double coarse = 0.0, fine = 0.0;
@@ -40,6 +40,58 @@ MatchedRemoval::MatchedRemoval(const DwellProblem& problem, const std::vector<Gr
   surface_.resize(lattice.size());
   if (tools_.size() > 1) of_tool_.resize(lattice.size());
   relative_cost_ = coarse / fine;
+}
+
+/// S'R'W^2 R S.
+void MatchedRemoval::add_pixels() {
+  const std::vector<Index>& pixels = problem_.parts.front().geometry->pixels;
+  const Vector squares = problem_.weights.cwiseAbs2();
+  if (!problem_.rows) return pixels_.add(pixels, squares, SplineGram::Take::Value, 1.0);
+  const SurfaceRows& rows = *problem_.rows;
+  if (rows.heights() > 0) {
+    const Index of_heights = squares.size() == 0 ? 0 : rows.heights();
+    pixels_.add(pixels, squares.head(of_heights), SplineGram::Take::Value, 1.0);
+  }
+  add_slopes(0, rows.pairs_x(), SplineGram::Take::StepX);
+  add_slopes(rows.pairs_x(), rows.pairs_y(), SplineGram::Take::StepY);
+}
+
+/// Where the lattice divides the map's pixels, a slope is over n of its own, and taken as that many steps: (sum of n
+/// steps)^2 <= n (sum of their squares), with equality where the surface is straight between two pixels. So the model
+/// sees a little more curvature than there is, and never a descent without any.
+void MatchedRemoval::add_slopes(Index first, Index count, SplineGram::Take take) {
+  const RemovalGeometry& g = *problem_.parts.front().geometry;
+  const SurfaceRows& rows = *problem_.rows;
+  const bool along_x = take == SplineGram::Take::StepX;
+  const Index stride = along_x ? 1 : g.lattice.cols;
+  const double pitch = along_x ? g.lattice.pitch_x : g.lattice.pitch_y;
+  std::vector<std::pair<Index, double>> steps;
+  for (Index k = first; k < first + count; ++k) {
+    const auto [from, to] = rows.pair(k);
+    const Index begin = g.pixels[static_cast<std::size_t>(from)], end = g.pixels[static_cast<std::size_t>(to)];
+    const double w = problem_.weights.size() == 0 ? 1.0 : problem_.weights[rows.heights() + k];
+    const double each = w * w / (pitch * pitch * static_cast<double>((end - begin) / stride));
+    for (Index pixel = begin; pixel < end; pixel += stride) steps.emplace_back(pixel, each);
+  }
+  std::sort(steps.begin(), steps.end());
+  std::vector<Index> pixels;
+  Vector weights(static_cast<Index>(steps.size()));
+  pixels.reserve(steps.size());
+  for (const auto& [pixel, weight] : steps) {
+    weights[static_cast<Index>(pixels.size())] = weight;
+    pixels.push_back(pixel);
+  }
+  pixels_.add(pixels, weights, take, 1.0);
+}
+
+/// R'W r.
+const Vector& MatchedRemoval::heights_of_weighted(const Vector& r) {
+  const bool weighs = problem_.weights.size() != 0;
+  if (weighs) weighted_ = r.cwiseProduct(problem_.weights);
+  const Vector& rows = weighs ? weighted_ : r;
+  if (!problem_.rows) return rows;
+  problem_.rows->apply_adjoint(rows, heights_);
+  return heights_;
 }
 
 void MatchedRemoval::add_tool(const RemovalKernel& kernel, const Grid& dwell) {
@@ -78,12 +130,7 @@ void MatchedRemoval::normal(const std::vector<Vector>& c, std::vector<Vector>& o
 
 void MatchedRemoval::adjoint(const Vector& r, std::vector<Vector>& out) {
   const std::vector<Index>& pixels = problem_.parts.front().geometry->pixels;
-  if (problem_.weights.size() == 0) {
-    pixels_.spread(pixels, r, surface_);
-  } else {
-    weighted_ = r.cwiseProduct(problem_.weights);
-    pixels_.spread(pixels, weighted_, surface_);
-  }
+  pixels_.spread(pixels, heights_of_weighted(r), surface_);
   correlate(surface_, out);
 }
 

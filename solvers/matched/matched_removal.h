@@ -12,7 +12,8 @@ namespace dwell {
 /// The removal of a dwell problem on pixels matched to the removal function. A t is smooth on the scale of the removal
 /// function, so it is the spline S d through its values at every q-th pixel, and d = K c: the coarse kernel times the
 /// dwell c that stands on the nodes of a coarse dwell lattice. What the pixels make of it is exact for ragged
-/// apertures, weights and form terms: S'W (I - Q Q') W S. Work on the map's own pixels is done once, when made, and
+/// apertures, weights, slopes and form terms: S'R'W (I - Q Q') W R S, with R the rows of the problem's objective, the
+/// heights themselves where it has none. Work on the map's own pixels is done once, when made, and
 /// once per adjoint(). Of several parts of a problem, each has its kernel and its dwell lattice, all have the pixels,
 /// and their removals add up. Every part's geometry must be set; the problem must outlive this.
 class MatchedRemoval {
@@ -20,9 +21,9 @@ class MatchedRemoval {
   /// dwell: for each part nodes on the map's lines at every factor-th pixel, anywhere.
   MatchedRemoval(const DwellProblem& problem, const std::vector<Grid>& dwell, CoarseFactor factor);
 
-  /// out = K'S'W (I - Q Q') W S K c; one vector a part, both ways.
+  /// out = K'S'R'W (I - Q Q') W R S K c; one vector a part, both ways.
   void normal(const std::vector<Vector>& c, std::vector<Vector>& out);
-  /// out = K'S'W r for a residual r of the problem: this model's own gradient, consistent with normal().
+  /// out = K'S'R'W r for a residual r of the problem: this model's own gradient, consistent with normal().
   void adjoint(const Vector& r, std::vector<Vector>& out);
   /// Cost of normal() in operator pairs of the full problem, by transform_cost.
   double relative_cost() const { return relative_cost_; }
@@ -34,15 +35,18 @@ class MatchedRemoval {
     std::vector<Index> field_node;  // of every node of the dwell lattice, -1 = out of reach
   };
 
+  void add_pixels();
+  void add_slopes(Index first, Index count, SplineGram::Take take);
+  const Vector& heights_of_weighted(const Vector& r);
   void add_tool(const RemovalKernel& kernel, const Grid& dwell);
   static void put(const Vector& c, Tool& tool);
   void correlate(const Vector& surface, std::vector<Vector>& out);
 
   const DwellProblem& problem_;
   SplineGram pixels_;
-  Eigen::MatrixXd form_;  // S'W Q
+  Eigen::MatrixXd form_;  // S'R'W Q
   std::vector<Tool> tools_;
-  Vector surface_, of_tool_, weighed_, weighted_;
+  Vector surface_, of_tool_, weighed_, weighted_, heights_;
   double relative_cost_ = 1.0;
 };
 

@@ -8,10 +8,19 @@
 namespace dwell {
 namespace {
 
-/// The weights on its four nodes of a map line, k pixels beyond the second of them.
-std::array<double, 4> line_weights(Index k, Index factor, bool slope) {
+/// What is taken of the splines along one axis.
+enum class Along { Value, Slope, Step };
+
+/// The weights on its four nodes of a map line, k pixels beyond the second of them. A step from there ends at the third
+/// node at the latest, where these four still are all that count.
+std::array<double, 4> line_weights(Index k, Index factor, Along take) {
   const double f = static_cast<double>(k) / static_cast<double>(factor), g = 1.0 - f;
-  if (!slope) return bspline_weights(f);
+  if (take == Along::Value) return bspline_weights(f);
+  if (take == Along::Step) {
+    const std::array<double, 4> from = bspline_weights(f),
+                                to = bspline_weights(static_cast<double>(k + 1) / static_cast<double>(factor));
+    return {to[0] - from[0], to[1] - from[1], to[2] - from[2], to[3] - from[3]};
+  }
   const double per_pixel = 1.0 / static_cast<double>(factor);
   return {-0.5 * g * g * per_pixel, (1.5 * f - 2.0) * f * per_pixel, (2.0 - 1.5 * g) * g * per_pixel,
           0.5 * f * f * per_pixel};
@@ -23,10 +32,10 @@ constexpr std::size_t triangle(std::size_t a, std::size_t b) {
   return a * 4 - a * (a + 1) / 2 + b;
 }
 
-std::vector<std::array<double, 10>> products_by_phase(Index factor, bool slope) {
+std::vector<std::array<double, 10>> products_by_phase(Index factor, Along take) {
   std::vector<std::array<double, 10>> result(static_cast<std::size_t>(factor));
   for (Index k = 0; k < factor; ++k) {
-    const auto w = line_weights(k, factor, slope);
+    const auto w = line_weights(k, factor, take);
     for (std::size_t a = 0; a < 4; ++a) {
       for (std::size_t b = a; b < 4; ++b) result[static_cast<std::size_t>(k)][triangle(a, b)] = w[a] * w[b];
     }
@@ -49,8 +58,11 @@ SplineGram::SplineGram(const Grid& map, CoarseFactor factor, int threads)
 // every other one shares no row with the next but one: first these at once, then the others.
 void SplineGram::add(const std::vector<Index>& pixels, const Vector& weights, Take take, double scale) {
   constexpr Index kBlock = 8;
-  const Products along_x = products_by_phase(factor_.x, take == Take::SlopeX);
-  const Products along_y = products_by_phase(factor_.y, take == Take::SlopeY);
+  const auto along = [take](Take slope, Take step) {
+    return take == slope ? Along::Slope : take == step ? Along::Step : Along::Value;
+  };
+  const Products along_x = products_by_phase(factor_.x, along(Take::SlopeX, Take::StepX));
+  const Products along_y = products_by_phase(factor_.y, along(Take::SlopeY, Take::StepY));
   const Addend addend{pixels, weights, scale, along_x, along_y};
   const Index bands = (map_.rows + factor_.y - 1) / factor_.y, blocks = (bands + kBlock - 1) / kBlock;
   for (const Index first : {Index{0}, Index{1}}) {

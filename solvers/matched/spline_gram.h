@@ -11,12 +11,13 @@ namespace dwell {
 
 /// Normal matrices of cubic B-splines on a coarse lattice. With (S d)_i = sum_k d_k B3((x_i - x_k) / hx) B3((y_i -
 /// y_k) / hy) the surface of coefficients d at pixel i, it holds sums of terms S' diag(w) S, where S may also take the
-/// surface's slope along x or y: a stencil of 7 x 7 numbers a node. Ragged edges and weights are summed exactly.
-/// The lattice has every factor-th line of the map and a margin, so that it covers every pixel's support. The sums are
-/// held in single precision.
+/// surface's slope along x or y, or its step from a pixel to the next one along x or y, exactly: a stencil of 7 x 7
+/// numbers a node. Ragged edges and weights are summed exactly. The lattice has every factor-th line of the map and a
+/// margin, so that it covers every pixel's support. The sums are held in single precision.
 class SplineGram {
  public:
-  enum class Take { Value, SlopeX, SlopeY };  // slopes per pixel of the map
+  /// Slopes are per pixel of the map. A step is from the pixel that is added to its neighbour at the larger x (y).
+  enum class Take { Value, SlopeX, SlopeY, StepX, StepY };
 
   /// The zero matrix.
   SplineGram(const Grid& map, CoarseFactor factor, int threads);

@@ -25,7 +25,7 @@ struct DenseProblem {
 
 DenseProblem dense_problem(const DwellProblem& p) {
   DwellObjective objective(p);
-  Eigen::MatrixXd a(p.pixels(), p.points());
+  Eigen::MatrixXd a(p.residuals(), p.points());
   Vector unit = Vector::Zero(p.points()), column;
   for (Index j = 0; j < p.points(); ++j) {
     unit[j] = 1.0;
@@ -201,10 +201,10 @@ class ActiveSet {
 }  // namespace
 
 void DenseNnls::do_solve(const DwellProblem& problem, Vector& t, SolverSummary& summary) {
-  if (problem.points() > kMaxPoints || problem.points() * problem.pixels() > kMaxEntries) {
+  if (problem.points() > kMaxPoints || problem.points() * problem.residuals() > kMaxEntries) {
     throw InputError(
         fmt::format("solver dense-nnls: {} points x {} pixels; at most {} and {} matrix entries (use projected-cg)",
-                    problem.points(), problem.pixels(), counted(kMaxPoints, "point"), kMaxEntries));
+                    problem.points(), problem.residuals(), counted(kMaxPoints, "point"), kMaxEntries));
   }
   StoppingRules rules(problem, options_, summary);
   DwellObjective objective(problem);

@@ -146,6 +146,11 @@ void FourierDeconvolution::do_solve(const DwellProblem& problem, Vector& t, Solv
                     "of one removal function",
                     problem.parts.size()));
   }
+  if (problem.rows) {
+    throw InputError(
+        "solver = 'fourier' with an objective in slopes; accepted: one in heights, as it divides spectra of "
+        "heights");
+  }
   AdapterRun run(problem, options_, t, summary);
   run.settle_by_evaluations(false);
   if (!run.stopped() && problem.points() > 0 && problem.pixels() > 0) {

@@ -39,7 +39,7 @@ Certificate certify(const DwellProblem& problem, const Vector& t) {
 
   Certificate c;
   c.objective = objective.value(r, t);
-  c.residual_rms = std::sqrt(r.squaredNorm() / static_cast<double>(std::max<Index>(1, r.size())));
+  c.residual_rms = std::sqrt(r.squaredNorm() / static_cast<double>(std::max<Index>(1, problem.pixels())));
   // With no target there is nothing to scale by: the absolute gradient is then the measure.
   const double scale = objective.gradient_scale() > 0.0 ? objective.gradient_scale() : 1.0;
   c.projected_gradient = projected.norm() / scale;

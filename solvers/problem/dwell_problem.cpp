@@ -58,7 +58,7 @@ void validate_parts(const DwellProblem& p) {
     if (count == 0 && p.parts.size() > 1) reject(name("geometry and smoothness are empty; one of them is required"));
     if (part.geometry) {
       const RemovalGeometry& g = *part.geometry;
-      check_size(name("geometry pixels").c_str(), static_cast<Index>(g.pixels.size()), p.removal->rows());
+      check_size(name("geometry pixels").c_str(), static_cast<Index>(g.pixels.size()), p.pixels());
       check_size(name("geometry strokes").c_str(), static_cast<Index>(g.strokes.size()), count);
       const auto& of_first = p.parts.front().geometry;
       if (of_first && of_first != part.geometry && !same_pixels(*of_first, g))
@@ -76,6 +76,7 @@ void validate_parts(const DwellProblem& p) {
 void validate(const DwellProblem& p) {
   if (!p.removal) reject("removal is not set");
   check_size("target", p.target.size(), p.removal->rows());
+  if (p.rows) check_size("rows", p.rows->rows(), p.removal->rows());
   check_size("lower", p.lower.size(), p.removal->cols());
   if (p.upper.size() != 0) check_size("upper", p.upper.size(), p.removal->cols());
   if (p.reference.size() != 0) check_size("reference", p.reference.size(), p.removal->cols());
@@ -200,7 +201,7 @@ void DwellObjective::residual(const Vector& t, Vector& r) {
   if (removes) {
     problem_.removal->apply(t, r);
   } else {
-    r.resize(problem_.pixels());
+    r.resize(problem_.residuals());
   }
   for_blocks(r.size(), threads(), [&](Index, Index begin, Index length) {
     const auto z = problem_.target.segment(begin, length);

@@ -9,6 +9,7 @@
 #include "core/removal/removal_geometry.h"
 #include "core/removal/removal_operator.h"
 #include "solvers/problem/path_smoothness.h"
+#include "solvers/problem/surface_rows.h"
 
 namespace dwell {
 
@@ -38,22 +39,30 @@ struct DwellPart {
 /// - Q Q') W with Q = `form`, orthonormal columns spanning W times the terms. A pixel of weight zero thus influences
 /// neither the fit nor the form.
 ///
+/// An objective in slopes has rows R (SurfaceRows): A is then R times the removal, z is R times the heights, and Q and
+/// W are of the rows. Mean squares are over the pixels in any case, so that weights carry the units: those of slopes
+/// are lengths [mm].
+///
 /// Several tools or passes are one problem: A = [A_1 A_2 ...] (StackedRemoval), the dwell vectors one after the other,
 /// and for each a part that says its own smoothness and geometry; alpha |D (t - l)|^2 is then the sum over the parts.
 struct DwellProblem {
-  RemovalOperator* removal = nullptr;  // A, not owned [nm/s]
-  Vector target;                       // z, m [nm]
-  Eigen::MatrixXd form;                // Q, m x 0..kMaxFormTerms
-  Vector weights;                      // diagonal of W, m, >= 0; empty = all one
-  std::vector<DwellPart> parts;        // stretches of t, in order; empty = one part of which nothing is known
-  double alpha = 0.0;                  // >= 0 [nm^2/s^2]
-  double beta = 0.0;                   // >= 0 [nm^2/s^2]
-  double gamma = 0.0;                  // >= 0, price of a second [nm^2/s]
-  Vector reference;                    // t0, n [s]; empty = zero
-  Vector lower;                        // l, n, finite [s]
-  Vector upper;                        // u, n, > = l, may be infinite [s]; empty = infinite
+  RemovalOperator* removal = nullptr;       // A, not owned [nm/s]; of rows [nm/s, urad/s]
+  std::shared_ptr<const SurfaceRows> rows;  // R; null = the heights of the m pixels
+  Vector target;                            // z, m [nm]; of rows [nm, urad]
+  Eigen::MatrixXd form;                     // Q, m x 0..kMaxFormTerms
+  Vector weights;                           // diagonal of W, m, >= 0; empty = all one
+  std::vector<DwellPart> parts;             // stretches of t, in order; empty = one part of which nothing is known
+  double alpha = 0.0;                       // >= 0 [nm^2/s^2]
+  double beta = 0.0;                        // >= 0 [nm^2/s^2]
+  double gamma = 0.0;                       // >= 0, price of a second [nm^2/s]
+  Vector reference;                         // t0, n [s]; empty = zero
+  Vector lower;                             // l, n, finite [s]
+  Vector upper;                             // u, n, > = l, may be infinite [s]; empty = infinite
 
-  Index pixels() const { return target.size(); }
+  /// What a mean square is over.
+  Index pixels() const { return rows ? rows->pixels() : target.size(); }
+  /// Entries of a residual: as many as pixels, but with rows theirs.
+  Index residuals() const { return target.size(); }
   Index points() const { return lower.size(); }
   double upper_at(Index j) const;
   /// The weight of a part's smoothness.

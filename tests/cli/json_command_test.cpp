@@ -90,6 +90,8 @@ std::map<std::string, std::vector<Words>> runs_of_commands() {
         SmallInputs::plan({"--out", "a", "--machine", "machine.toml", "--export", "pvt-csv,xps-trj"}),
         SmallInputs::plan({"--out", "a", "--machine", "blocks.toml", "--accept", "rms<=1um, mid<=1pm, slope<=3mrad"}),
         {"plan", "--resume", "200", "--log-plan", "plan", "--out", "a"},
+        SmallInputs::plan(
+            {"--out", "a", "--objective", "mixed:0.5", "--clear-aperture", "rect:1,1,9,8", "--weight", "centre=2"}),
         {"plan", "--log", "run.csv", "--log-plan", "plan", "--machine", "machine.toml", "--out", "a"}}},
       {"paths",
        {{"paths", "--map", "wide.csv", "--tif", "gaussian:peak=10,fwhm=3,radius=4", "--threads", "1", "--paths",
@@ -106,6 +108,7 @@ std::map<std::string, std::vector<Words>> runs_of_commands() {
         with(kSimulate, {"--exact", "--tif-pedestal", "subtract", "--accept", "pv<=1, band(2..8mm)<=1um"}),
         {"simulate", "plan"},
         {"simulate", "specked"},
+        with(kSimulate, {"--weight", "edge:width=1,weight=0.5"}),
         {"simulate", "plan", "--machine", "machine.toml"},
         {"simulate", "plan", "--machine", "machine.toml", "--log", "run.csv"}}},
       {"machine", {{"machine", "machine.toml"}}},

@@ -22,6 +22,12 @@ namespace {
 void check(const NewRun& run) {
   if (!run.options.log.empty() || !run.options.log_plan.empty())
     throw InputError("--log, --log-plan: a log belongs to a run that was made; give it to dwell figure measured");
+  if (!run.options.removal.empty() || run.options.piston_nm)
+    throw InputError(
+        "--removal, --piston: a run goes from one measured map to the next, whose level no instrument "
+        "measures; required --map without them");
+  if (!run.options.line_profile.empty())
+    throw InputError("--line-profile: a run goes from one map to the next; required --map (dwell profile --write-map)");
   if (run.target.empty()) return;
   if (run.options.time_price_nm2_per_s.kind != GoalKind::Auto || run.options.time_price_nm2_per_s.value != 0.0)
     throw InputError("--target with --time-price: the target steers the price of time; required one of the two");

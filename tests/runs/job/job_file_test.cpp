@@ -59,6 +59,11 @@ JobOptions unusual() {
   o.motion = Motion::Stop;
   o.remove = {true, true, true};
   o.aperture = parse_aperture("rect:0,0,1,2");
+  o.removal = "/data/depth.csv";
+  o.piston_nm = -12.5;
+  o.clear_aperture = parse_aperture("circle:1,2,3");
+  o.weight = "/data/w.npy;centre=2";
+  o.objective = {0.25};
   o.fraction = 0.8;
   o.accept = "rms<=1, mid<=0.5nm";
   o.min_dwell_s = 1.0 / 7.0;

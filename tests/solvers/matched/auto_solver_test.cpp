@@ -99,7 +99,8 @@ TEST(SplineGram, EqualsTheSumOverPixels) {
     if (i % 7 != 3 && i / map.cols != 4) pixels.push_back(i);
   }
   const Vector weights = noise(static_cast<Index>(pixels.size()), 1).cwiseAbs();
-  for (auto take : {SplineGram::Take::Value, SplineGram::Take::SlopeX, SplineGram::Take::SlopeY}) {
+  for (auto take : {SplineGram::Take::Value, SplineGram::Take::SlopeX, SplineGram::Take::SlopeY,
+                    SplineGram::Take::StepX, SplineGram::Take::StepY}) {
     SplineGram gram(map, factor, 1);
     gram.add(pixels, weights, take, 2.0);
     const Grid& lattice = gram.lattice();
@@ -111,6 +112,8 @@ TEST(SplineGram, EqualsTheSumOverPixels) {
         const double u = d.x / lattice.pitch_x, v = d.y / lattice.pitch_y;
         s(i, k) = take == SplineGram::Take::SlopeX   ? b3_slope(u) / 4.0 * b3(v)
                   : take == SplineGram::Take::SlopeY ? b3(u) * b3_slope(v) / 3.0
+                  : take == SplineGram::Take::StepX  ? (b3(u + 0.25) - b3(u)) * b3(v)
+                  : take == SplineGram::Take::StepY  ? b3(u) * (b3(v + 1.0 / 3.0) - b3(v))
                                                      : b3(u) * b3(v);
       }
     }
