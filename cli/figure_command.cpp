@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -79,7 +80,7 @@ int run_new(const NewArguments& a) {
 
 struct PlanStepArguments {
   std::unique_ptr<JobArguments> job;
-  std::string folder;
+  std::string folder, target;
   JsonOption json;
 };
 
@@ -105,7 +106,14 @@ int run_plan_step(const PlanStepArguments& a) {
   const RunLock lock(a.folder);
   say_note(lock);
   run = RunFolder(a.folder);  // as it is now that nobody else changes it
-  const FigureState state = figure_state(run);
+  FigureState state = figure_state(run);
+  if (!a.target.empty()) {
+    const std::string bands = run.step(1).content.at("bands");
+    state.limits = of_option("--target", [&] { return limits_of_target(a.target, bands); });
+    state.target = a.target;
+  }
+  if (state.plan_step)
+    say(fmt::format("dwell: the plan of step {} was not measured; this one takes its place\n", *state.plan_step));
   const JobOptions options = a.job->options_over(state.options);
   a.json.check(a.job->files_read(options), a.folder);
   const PlannedStep step = add_plan(run, state, options, terminal_progress());
@@ -118,6 +126,7 @@ int run_plan_step(const PlanStepArguments& a) {
 struct MeasuredArguments {
   std::unique_ptr<JobArguments> job;
   std::string folder, map, log, learn;
+  std::optional<int> plan;
   std::vector<std::string> steps;
   LogArguments log_reading;
   JsonOption json;
@@ -151,6 +160,8 @@ Measurement measurement_of(const MeasuredArguments& a, const FigureState& state)
   Measurement measurement;
   measurement.map = a.job->options_over(state.conventions);
   measurement.map.map = a.map;
+  measurement.plan_step = a.plan;
+  measurement.threads = a.job->options().threads;
   for (const std::string& step : a.steps)
     measurement.steps_of_this_map += (measurement.steps_of_this_map.empty() ? "" : ";") + step;
   if (!a.log.empty()) {
@@ -178,7 +189,7 @@ int run_measured(const MeasuredArguments& a) {
   if (!step.fault.empty()) {
     nlohmann::ordered_json json = json_of_command("figure measured");
     json["run"] = a.folder;
-    json["content"] = comparison_record(step.comparison);
+    json["content"]["orientation"] = comparison_record(step.comparison)["orientation"];
     json["limits"] = {step.fault};
     a.json.deliver(json_text(json), measured_text(step, fwhm) +
                                         "kept      nothing: the run is as before; once it is known how the part lay, "
@@ -187,7 +198,9 @@ int run_measured(const MeasuredArguments& a) {
   }
   a.json.deliver(json_text(step_json("figure measured", run, run.steps().back())),
                  measured_text(step, fwhm) + fmt::format("written   {}\n", step.folder) +
-                     fmt::format("next      dwell figure plan {}\n", a.folder));
+                     (all_pass(step.next_run.now) && !step.next_run.now.empty()
+                          ? std::string()
+                          : fmt::format("next      dwell figure plan {}\n", a.folder)));
   return kDone;
 }
 
@@ -219,6 +232,8 @@ void add_plan_step(CLI::App& figure, int& exit_code) {
   command->add_option("run", a->folder, "folder of the run")->type_name("RUN")->required();
   std::vector<std::string> left_out = map_flags();
   left_out.insert(left_out.end(), {"out", "map", "tif"});
+  command->add_option("--target", a->target, "limits that this plan steers by, in place of the run's")
+      ->type_name("LIMITS");
   a->job = std::make_unique<JobArguments>(*command, flags_without(left_out), false);
   a->json.add_to(*command);
   command->footer(

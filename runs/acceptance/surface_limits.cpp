@@ -75,8 +75,11 @@ class LimitReader {
     if (limit.name == "slope") return limit.quantity = SurfaceQuantity::Slope, limit;
     limit.quantity = SurfaceQuantity::Band;
     if (limit.name == "mid") {
-      if (band_edges_.size() % 2 != 0) {
-        fail(fmt::format("mid is the band in the middle, and there are {} edges of bands", band_edges_.size()));
+      if (band_edges_.empty() || band_edges_.size() % 2 != 0) {
+        fail(
+            fmt::format("mid is the band in the middle of an even number of wavelengths (--bands 33,0.12), and there "
+                        "are {}",
+                        band_edges_.size()));
       }
       const std::size_t middle = band_edges_.size() / 2;
       limit.longest = band_edges_[middle - 1], limit.shortest = band_edges_[middle];

@@ -4,14 +4,17 @@
 #include <Eigen/QR>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <tuple>
 #include <utility>
 #include <vector>
 
-#include "core/base/errors.h"
+#include "core/base/grid_limit.h"
 #include "core/map/map_sampler.h"
+#include "core/numerics/median.h"
 #include "core/numerics/plane_transform.h"
 #include "solvers/fits/spike_removal.h"
 
@@ -81,94 +84,164 @@ Eigen::Index form_row(const FormTerms& form, Point p, Eigen::Ref<Eigen::RowVecto
   return k;
 }
 
+/// What is measured and what is predicted at the places, NaN where there is none.
+struct RemovalValues {
+  Eigen::VectorXd measured, predicted;
+};
+
+std::vector<double> finite_values(const Eigen::VectorXd& v) {
+  std::vector<double> values;
+  for (const double value : v) {
+    if (std::isfinite(value)) values.push_back(value);
+  }
+  return values;
+}
+
+/// Robust standard deviation about the median; infinite of no values.
+double robust_spread(const Eigen::VectorXd& v) {
+  std::vector<double> values = finite_values(v);
+  if (values.empty()) return std::numeric_limits<double>::infinity();
+  const double middle = upper_median(values);
+  for (double& value : values) value = std::abs(value - middle);
+  return kSigmaPerMedianDeviation * upper_median(std::move(values));
+}
+
+/// Holds values that no removal makes (dust, clamps) to what the others span.
+void hold_outliers(Eigen::VectorXd& v) {
+  constexpr double kSpan = 4.0;  // robust standard deviations
+  const double most = kSpan * robust_spread(v);
+  if (!std::isfinite(most)) return;
+  const double middle = upper_median(finite_values(v));
+  for (double& value : v) {
+    if (std::isfinite(value)) value = std::clamp(value, middle - most, middle + most);
+  }
+}
+
 /// A fit of measured removals by rate times predicted ones and form terms.
 class RateFit {
  public:
   RateFit(const FormTerms& form, Point middle, double scale) : form_(form), middle_(middle), scale_(scale) {}
 
-  /// RMS of what is left [nm]; infinite where fewer than half of the places have both values.
-  template <class Measured, class Predicted>
-  double left(const std::vector<ComparedPlace>& places, const Measured& measured, const Predicted& predicted) const {
+  /// What is left counts up to this size [nm]: a clamp or an edge that no fit explains shall not decide.
+  void limit_sizes(double most) { most_ = most; }
+
+  /// RMS of what is left [nm] at the places where `both` also has values; infinite where these are fewer than half.
+  double left(const std::vector<ComparedPlace>& places, const RemovalValues& values, const RemovalValues& both) const {
     constexpr Eigen::Index kMostTerms = 6;
     const auto all = static_cast<Eigen::Index>(places.size());
     Eigen::MatrixXd basis(all, kMostTerms);
     Eigen::VectorXd d(all), p(all);
     Eigen::Index rows = 0, terms = 0;
-    for (const ComparedPlace& at : places) {
-      d[rows] = measured(at), p[rows] = predicted(at);
-      if (!std::isfinite(d[rows]) || !std::isfinite(p[rows])) continue;
+    for (Eigen::Index k = 0; k < all; ++k) {
+      const double others = both.measured[k] + both.predicted[k];
+      if (!std::isfinite(values.measured[k] + values.predicted[k] + others)) continue;
+      d[rows] = values.measured[k], p[rows] = values.predicted[k];
       Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(kMostTerms);
-      terms = form_row(form_, (1.0 / scale_) * (at.place - middle_), row);
+      terms = form_row(form_, (1.0 / scale_) * (places[static_cast<std::size_t>(k)].place - middle_), row);
       basis.row(rows++) = row;
     }
     if (2 * rows < all || rows <= terms + 1) return std::numeric_limits<double>::infinity();
     const Eigen::MatrixXd q = basis.topLeftCorner(rows, terms);
-    const Eigen::VectorXd md = without(q, d.head(rows)), mp = without(q, p.head(rows));
+    // Fitted to what a removal may be, judged by what was measured.
+    Eigen::VectorXd held = d.head(rows);
+    hold_outliers(held);
+    const Eigen::VectorXd level = level_of(q, held), mp = p.head(rows) - level_of(q, p.head(rows));
     const double square = mp.squaredNorm();
-    const double rate = square > 0.0 ? std::max(0.0, md.dot(mp) / square) : 0.0;  // a tool does not add
-    return std::sqrt((md - rate * mp).squaredNorm() / static_cast<double>(rows));
+    const double rate = square > 0.0 ? std::max(0.0, (held - level).dot(mp) / square) : 0.0;  // a tool does not add
+    const Eigen::ArrayXd sizes = (d.head(rows) - level - rate * mp).array().abs().min(most_);
+    return std::sqrt(sizes.square().mean());
   }
 
  private:
-  static Eigen::VectorXd without(const Eigen::MatrixXd& basis, const Eigen::VectorXd& v) {
-    if (basis.cols() == 0) return v;
-    return v - basis * basis.colPivHouseholderQr().solve(v);
+  static Eigen::VectorXd level_of(const Eigen::MatrixXd& basis, const Eigen::VectorXd& v) {
+    if (basis.cols() == 0) return Eigen::VectorXd::Zero(v.size());
+    return basis * basis.colPivHouseholderQr().solve(v);
   }
 
   FormTerms form_;
   Point middle_;
   double scale_;
+  double most_ = std::numeric_limits<double>::infinity();
 };
 
+/// A way in which part or map may lie, and what it explains.
 struct Trial {
   std::size_t lie = 0;
   bool of_map = false;
   Point shift;
-  double left = std::numeric_limits<double>::infinity();
+  double left = std::numeric_limits<double>::infinity();          // over its own places [nm]
+  double thought_left = std::numeric_limits<double>::infinity();  // of the maps as thought, at the same places [nm]
+  Point from, to;                                                 // of a map: its middle, and where that belongs
+
+  double ratio() const { return thought_left > 0.0 ? left / thought_left : 1.0; }
 };
 
 /// The maps of a run, at the places where they are compared.
 class LyingMaps {
  public:
-  LyingMaps(const HeightMap& before, const HeightMap& after, const HeightMap& predicted, const FormTerms& form,
-            int threads, const Progress& progress)
+  LyingMaps(const HeightMap& before, const HeightMap& after, const HeightMap& removed, const HeightMap& predicted,
+            const FormTerms& form, int threads, const Progress& progress)
       : predicted_(predicted, progress),
         after_(without_spikes(after, threads, progress).first, progress),
         middle_(middle_of_part(before)),
+        middle_of_after_(middle_of_part(after)),
         fit_(form, middle_, std::max(before.grid.width(), before.grid.height())) {
-    HeightMap removed = before;
-    for (std::size_t i = 0; i < removed.values.size(); ++i) removed.values[i] -= after.values[i];
-    if (removed.valid_pixels() == 0) throw InputError("orientation: the maps before and after have no pixel in common");
-    removed = without_spikes(std::move(removed), threads, progress).first;
-    fine_ = some_places(before, removed, 4000);
-    coarse_ = some_places(before, removed, 500);
+    const HeightMap clear = without_spikes(removed, threads, progress).first;
+    fine_ = some_places(before, clear, 4000);
+    coarse_ = some_places(before, clear, 500);
+    thought_ = removal_values(fine_, {}, {});
+    fit_.limit_sizes(0.5 * robust_spread(thought_.measured));
   }
 
   /// How well what was removed fits, lying so and shifted as it fits best, by steps up to the reach [mm].
   Trial removal(std::size_t lie, double reach, double step) const {
     const PlaneTransform back = about(kLies[lie], middle_).inverse();
-    const auto left = [&](const std::vector<ComparedPlace>& places, Point shift) {
-      return fit_.left(
-          places, [](const ComparedPlace& at) { return at.removed; },
-          [&](const ComparedPlace& at) { return predicted_(back(at.place - shift)); });
+    Trial trial;
+    trial.lie = lie;
+    const auto judge = [&](Point shift) {
+      const RemovalValues values = removal_values(fine_, back, shift);
+      return std::pair(fit_.left(fine_, values, thought_), fit_.left(fine_, thought_, values));
     };
-    Trial trial{lie, false, {}, left(fine_, {})};
-    const Point shift = best_shift(reach, step, [&](Point s) { return left(coarse_, s); });
-    const double shifted = left(fine_, shift);
-    if (shifted < kOrientationShare * trial.left) trial.shift = shift, trial.left = shifted;
+    std::tie(trial.left, trial.thought_left) = judge({});
+    const Point shift = best_shift(reach, step, [&](Point s) {
+      const RemovalValues values = removal_values(coarse_, back, s);
+      return fit_.left(coarse_, values, values);
+    });
+    const auto [left, thought_left] = judge(shift);
+    if (left < kOrientationShare * trial.left)
+      trial.shift = shift, trial.left = left, trial.thought_left = thought_left;
     return trial;
   }
 
-  /// How well the removal fits if the map after the run is turned so.
+  /// How well the removal fits if the map after the run is turned so, its middle on that of the part.
   Trial map(std::size_t lie) const {
-    const PlaneTransform back = about(kLies[lie], middle_).inverse();
-    const double left = fit_.left(
-        fine_, [&](const ComparedPlace& at) { return at.before - after_(back(at.place)); },
-        [&](const ComparedPlace& at) { return predicted_(at.place); });
-    return {lie, true, {}, left};
+    PlaneTransform turn = about(kLies[lie], middle_of_after_);
+    turn.shift = turn.shift + middle_ - middle_of_after_;
+    const PlaneTransform back = turn.inverse();
+    RemovalValues values = thought_;
+    for (std::size_t k = 0; k < fine_.size(); ++k)
+      values.measured[static_cast<Eigen::Index>(k)] = fine_[k].before - after_(back(fine_[k].place));
+    Trial trial;
+    trial.lie = lie, trial.of_map = true, trial.from = middle_of_after_, trial.to = middle_;
+    trial.left = fit_.left(fine_, values, thought_);
+    trial.thought_left = fit_.left(fine_, thought_, values);
+    return trial;
   }
 
  private:
+  /// With the predicted removal moved: `back` leads from places on the part to those where it was predicted.
+  RemovalValues removal_values(const std::vector<ComparedPlace>& places, const PlaneTransform& back,
+                               Point shift) const {
+    const auto size = static_cast<Eigen::Index>(places.size());
+    RemovalValues values{Eigen::VectorXd(size), Eigen::VectorXd(size)};
+    for (Eigen::Index k = 0; k < size; ++k) {
+      const ComparedPlace& at = places[static_cast<std::size_t>(k)];
+      values.measured[k] = at.removed;
+      values.predicted[k] = predicted_(back(at.place - shift));
+    }
+    return values;
+  }
+
   /// Of all shifts by whole steps up to the reach each way, the one that leaves least.
   template <class Left>
   static Point best_shift(double reach, double step, const Left& left) {
@@ -186,20 +259,36 @@ class LyingMaps {
   }
 
   MapSampler predicted_, after_;
-  Point middle_;
+  Point middle_, middle_of_after_;
   RateFit fit_;
   std::vector<ComparedPlace> fine_, coarse_;
+  RemovalValues thought_;
 };
 
-std::string fault_of(const Trial& best, double as_thought) {
+/// The steps that bring a map to lie so, with its middle where it belongs.
+std::string steps_of(const Trial& trial, const Grid& after, double pixel) {
+  std::string turn = kLies[trial.lie].step;
+  if (distance(trial.from, middle_of(after)) > 0.5 * pixel) {
+    const std::string about = fmt::format(",about={:.6g}/{:.6g}", trial.from.x, trial.from.y);
+    const std::size_t second = turn.find(';');
+    turn = second == std::string::npos ? (turn == "transpose" ? "transpose:" + about.substr(1) : turn + about)
+                                       : "transpose:" + about.substr(1) + turn.substr(second) + about;
+  }
+  if (distance(trial.from, trial.to) < 0.5 * pixel) return turn;
+  return fmt::format("{}; fiducials:shift,from={:.6g}/{:.6g},to={:.6g}/{:.6g}", turn, trial.from.x, trial.from.y,
+                     trial.to.x, trial.to.y);
+}
+
+std::string fault_of(const Trial& best, const Grid& after, double pixel) {
   const Lie& lie = kLies[best.lie];
-  const std::string fits = fmt::format(
-      "it leaves {:.4g} nm RMS of the measured removal unexplained, and {:.4g} as thought", best.left, as_thought);
+  const std::string fits =
+      fmt::format("that leaves {:.4g} nm RMS of the measured removal unexplained, and {:.4g} as thought", best.left,
+                  best.thought_left);
   if (best.of_map) {
     return fmt::format(
         "the map after the run lies otherwise than the one before: taken as {}, {}; give it with --step '{}', once it "
         "is known to lie so",
-        lie.words, fits, lie.step);
+        lie.words, fits, steps_of(best, after, pixel));
   }
   return fmt::format(
       "what was removed lies {}: {}; the part, the map before the run or the machine's axes lie otherwise than the "
@@ -210,22 +299,26 @@ std::string fault_of(const Trial& best, double as_thought) {
 
 }  // namespace
 
-OrientationCheck check_orientation(const HeightMap& before, const HeightMap& after, const HeightMap& predicted,
-                                   const FormTerms& form, const OrientationReach& reach, int threads,
-                                   const Progress& progress) {
+OrientationCheck check_orientation(const HeightMap& before, const HeightMap& after, const HeightMap& removed,
+                                   const HeightMap& predicted, const FormTerms& form, const OrientationReach& reach,
+                                   int threads, const Progress& progress) {
   const Progress here = progress.of_part("orientation");
   here.step("as thought");
-  const LyingMaps maps(before, after, predicted, form, threads, here);
+  const LyingMaps maps(before, after, removed, predicted, form, threads, here);
   const Trial thought = maps.removal(0, reach.shift, reach.step);
+  OrientationCheck check{thought.shift, thought.left, thought.left, {}};
   Trial best = thought;
+  double least = kOrientationShare;
   for (std::size_t lie = 1; lie < kLies.size(); ++lie) {
     here.step(kLies[lie].words);
     for (const Trial& trial : {maps.removal(lie, reach.shift, reach.step), maps.map(lie)}) {
-      if (trial.left < best.left) best = trial;
+      check.best = std::min(check.best, trial.left);
+      // Against the maps as thought at the same places, and, shifted as they may be, against them at all.
+      const double ratio = std::max(trial.ratio(), trial.left / thought.left);
+      if (ratio < least) least = ratio, best = trial;
     }
   }
-  OrientationCheck check{thought.shift, thought.left, best.left, {}};
-  if (best.lie != 0 && best.left < kOrientationShare * thought.left) check.fault = fault_of(best, thought.left);
+  if (best.lie != 0) check.fault = fault_of(best, after.grid, std::min(before.grid.pitch_x, before.grid.pitch_y));
   return check;
 }
 

@@ -27,13 +27,15 @@ struct OrientationReach {
 };
 
 /// Whether a measured removal is better explained by a flip, a half or a quarter turn: of what was removed (the machine
-/// lies otherwise than thought) or of the map after it (the instrument does). `before`, `after` [nm]: on one grid;
-/// `predicted`: removal on a grid that reaches beyond it by the reach. Each of the eight ways is fitted by rate and
-/// form terms, turned about the middle of the part, at some 4000 pixels, and what was removed also shifted. Throws
-/// InputError if the maps have no pixel in common, Interrupted. Cost: two splines through the maps, and for each way
+/// lies otherwise than thought) or of the map after it (the instrument does). `before` [nm]; `removed`: before less
+/// after, on the same grid; `after` on its own; `predicted`: removal on a grid that reaches beyond that of the part by
+/// the reach. Each of the eight ways is fitted by rate and form terms at some 4000 pixels and set against the maps as
+/// thought at the same pixels, with values that no removal makes held to what the others span. What was removed is
+/// turned about the middle of the part and also shifted; a map is turned about its own middle, which is laid on that of
+/// the part. Throws Interrupted. Cost: two splines through the maps, and for each way
 /// 500 pixels a shift.
-OrientationCheck check_orientation(const HeightMap& before, const HeightMap& after, const HeightMap& predicted,
-                                   const FormTerms& form, const OrientationReach& reach, int threads,
-                                   const Progress& progress = {});
+OrientationCheck check_orientation(const HeightMap& before, const HeightMap& after, const HeightMap& removed,
+                                   const HeightMap& predicted, const FormTerms& form, const OrientationReach& reach,
+                                   int threads, const Progress& progress = {});
 
 }  // namespace dwell

@@ -1,8 +1,11 @@
 #include "runs/figure/removal_comparison.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/errors.h"
 #include "core/form/map_statistics.h"
 #include "core/map/map_arithmetic.h"
 #include "core/map/map_warp.h"
@@ -50,13 +53,34 @@ void split_causes(const Part& part, const ToolRemoval& removal, const Program& m
   result.split.unexplained = rms_of(result.unexplained, part);
 }
 
+/// What was removed at the pixels of both maps. Throws InputError where these are too few.
+HeightMap covered_removal(const Part& part, RemovalComparison& result) {
+  const HeightMap& before = part.map;
+  HeightMap removed = before;
+  Index common = 0;
+  for (std::size_t i = 0; i < removed.values.size(); ++i) {
+    removed.values[i] -= result.after.values[i];
+    common += std::isfinite(removed.values[i]) ? 1 : 0;
+  }
+  const Index all = before.valid_pixels();
+  result.covered = static_cast<double>(common) / static_cast<double>(all);
+  if (!(result.covered >= kLeastCover)) {
+    throw InputError(fmt::format(
+        "the map after the run has {} of the {} pixels of the part before it ({:.3g} %); required {:g} %: does "
+        "it lie where that did (--map-origin, --step fiducials:...), and is its pitch right?",
+        common, all, 100.0 * result.covered, 100.0 * kLeastCover));
+  }
+  return removed;
+}
+
 }  // namespace
 
 RemovalComparison compare_removal(const Part& part, const MeasuredRun& run, const Progress& progress) {
   RemovalComparison result;
   const bool same_grid = grid_difference(part.map.grid, run.after.grid).empty();
   result.after = same_grid ? run.after : warp_map(run.after, {}, part.map.grid, part.threads, progress);
-  result.measured = figure_of_difference(part.map, result.after, part);
+  const HeightMap removed = covered_removal(part, result);
+  result.measured = without_form(removed, part.form, part.threads);
   result.left = map_statistics(result.after, part.form, part.threads);
   const Program& motion = run.recorded ? *run.recorded : run.motion;
   const ToolRemoval removal(part, motion, progress.of_part("lattice"));
@@ -69,7 +93,8 @@ RemovalComparison compare_removal(const Part& part, const MeasuredRun& run, cons
   const OrientationReach reach = reach_of(part);
   PredictedRemoval predicted = removal.predict(motion, kRegisteredWidths, reach.shift + part.tif.fwhm, progress);
   result.orientation =
-      check_orientation(part.map, result.after, predicted.removals[1], part.form, reach, part.threads, progress);
+      check_orientation(part.map, run.after, removed, predicted.removals[1], part.form, reach, part.threads, progress);
+  if (!result.orientation.fault.empty() && !run.orientation_is_known) return result;
   const Point start = result.orientation.shift;
   const bool starts_elsewhere = start.x != 0.0 || start.y != 0.0;
   const Program begun = starts_elsewhere ? moved_program(motion, similarity({}, start, 0.0, 1.0)) : motion;
@@ -77,6 +102,7 @@ RemovalComparison compare_removal(const Part& part, const MeasuredRun& run, cons
   RemovalRegistrationOptions options;
   options.correlated_mm = part.tif.fwhm;
   options.level = part.form;
+  options.scale = true;
   result.registration = register_removal(predicted, result.measured, options, part.threads, progress);
   if (starts_elsewhere) add_start(result.registration, start);
   progress.step("causes");

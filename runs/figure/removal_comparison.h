@@ -27,6 +27,7 @@ struct RemovalComparison {
   HeightMap predicted;    // what was to be removed, likewise
   HeightMap unexplained;  // measured less what the fit makes of the predicted one, likewise
   MapStatistics left;     // of the surface after the run, form terms removed
+  double covered = 1.0;   // share of the part's pixels that the map after the run has as well
   OrientationCheck orientation;
   RemovalRegistration registration;
   RemovalSplit split;
@@ -37,13 +38,18 @@ struct MeasuredRun {
   HeightMap after;                    // the surface after it, on any grid [nm]
   Program motion;                     // as simulated: of the program as read back, as the machine executes it
   std::optional<Program> recorded{};  // as a log has it; then it is what the measured removal is compared with
+  bool orientation_is_known = false;  // what the check of the orientation says is passed over
 };
+
+/// The share of the part's pixels that the map after a run must have.
+inline constexpr double kLeastCover = 0.7;
 
 /// Compares what a run removed with what it was meant to: difference of the maps before and after (the one after is
 /// brought onto the grid of the one before by cubic B-spline where they differ), orientation, then register_removal
 /// with the part's form terms as the level. `part` is the one before the run, with the tool as it was thought.
-/// Throws InputError for maps that do not overlap and for a removal that says nothing about tool and place,
-/// Interrupted. Cost: some eight simulations, 25 passes over the map, and the fit.
+/// An error of orientation ends it: registration and split are then those of nothing. Throws InputError for a map after
+/// the run that has less than kLeastCover of the part's pixels, and for a removal that says nothing about tool and
+/// place, Interrupted. Cost: some eight simulations, 25 passes over the map, and the fit.
 RemovalComparison compare_removal(const Part& part, const MeasuredRun& run, const Progress& progress = {});
 
 }  // namespace dwell

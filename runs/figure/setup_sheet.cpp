@@ -45,10 +45,20 @@ struct Box {
   }
 };
 
-std::string frame_line(const ProgramFrame& frame) {
-  if (frame.is_of_part()) return "the part's own coordinates: origin and axes of the map";
-  return fmt::format("zero of the program at {} of the part, turned by {:.6g} degrees{}", place_text(frame.zero()),
+std::string zero_line(const ProgramFrame& frame) {
+  if (frame.is_of_part()) return "touch off at the origin of the map, axes as the map's";
+  return fmt::format("touch off at {} of the part, turned by {:.6g} degrees{}", place_text(frame.zero()),
                      frame.degrees(), frame.swapped() ? ", x and y exchanged" : "");
+}
+
+/// What the program makes up for; empty where nothing was learnt.
+std::string correction_line(const ProgramFrame& program, const ProgramFrame& as_set_up, Point middle) {
+  if (program == as_set_up) return "";
+  const Point told = as_set_up.to_part(program.to_program(middle)), way = told - middle;
+  return fmt::format(
+      "in the program already: it goes ({:+.3f}, {:+.3f}) mm and {:+.4g} degrees beside the part, since the machine "
+      "removed that much off; set up as for run 1 and do not touch off at it",
+      way.x, way.y, program.degrees() - as_set_up.degrees());
 }
 
 std::string tool_line(const PlannedJob& plan) {
@@ -56,7 +66,8 @@ std::string tool_line(const PlannedJob& plan) {
   const JobOptions& o = plan.job.options;
   std::string text = fmt::format("{}: FWHM {:.4g} mm, peak {:.4g} nm/s", o.tif, tif.fwhm, tif.peak);
   if (o.tif_rate != 1.0 || o.tif_width != 1.0)
-    text += fmt::format("; as learnt {:.4g} times the volume rate, {:.4g} times as wide", o.tif_rate, o.tif_width);
+    text += fmt::format("; {:.4g} times its volume rate, {:.4g} times as wide as the removal function says", o.tif_rate,
+                        o.tif_width);
   return text;
 }
 
@@ -68,13 +79,13 @@ std::string SetupSheet::text() const {
   return text;
 }
 
-SetupSheet setup_sheet(const PlannedJob& plan, const WrittenPlan& written, int run) {
+SetupSheet setup_sheet(const PlannedJob& plan, const WrittenPlan& written, int run, const ProgramFrame& as_set_up) {
   const Part& part = plan.part();
   const ToolPath& path = plan.laid.path;
   const ProgramFrame frame = program_frame(plan.job.options);
   SetupSheet sheet;
   sheet.title = fmt::format("Run {}: {}", run, written.program.file);
-  sheet.origin = frame.to_part({});
+  sheet.origin = as_set_up.to_part({});
   sheet.highest = highest_of(part.figure);
   const Stroke& first = plan.laid.strokes.front();
   sheet.start = first.start;
@@ -82,22 +93,27 @@ SetupSheet setup_sheet(const PlannedJob& plan, const WrittenPlan& written, int r
   for (const Index i : finite_pixels(part.map)) of_part.hold(part.map.grid.centre(i));
   for (const Stroke& stroke : plan.laid.strokes) of_tool.hold(stroke.start), of_tool.hold(stroke.finish);
   const FeedSchedule& feed = plan.program.feed;
-  sheet.lines = {{"program", fmt::format("{}, sha256 {}", written.program.file, short_hash(written.program_sha256))},
-                 {"part", fmt::format("{}; {} nm PV, {:.4g} nm RMS before", of_part.text(),
-                                      fmt::format("{:.4g}", part.before.pv), part.before.rms)},
-                 {"orientation", "+x to the right, +y up, seen from the tool; red is high and is to be removed"},
-                 {"check by", fmt::format("the highest place of the error, {} of the part, {} of the program",
-                                          place_text(sheet.highest), place_text(frame.to_program(sheet.highest)))},
-                 {"program zero", frame_line(frame)},
-                 {"first move", fmt::format("down at {} of the program, which is {} of the part",
-                                            place_text(frame.to_program(sheet.start)), place_text(sheet.start))},
-                 {"tool", tool_line(plan)},
-                 {"tool travels", fmt::format("{} of the part ({})", of_tool.text(), path.kind)},
-                 {"feeds", fmt::format("{:.4g} to {:.4g} mm/min", units::mm_per_min(feed.min_speed),
-                                       units::mm_per_min(feed.max_speed))},
-                 {"time", fmt::format("{}, of it dwell {}", duration_text(written.run_seconds),
-                                      duration_text(plan.dwell.run_dwell()))},
-                 {"leaves", fmt::format("{} by simulation of the program", in_words(written.exact.statistics))}};
+  sheet.lines = {
+      {"program", fmt::format("{}, sha256 {}", written.program.file, short_hash(written.program_sha256))},
+      {"part", fmt::format("{}; {} nm PV, {:.4g} nm RMS before", of_part.text(), fmt::format("{:.4g}", part.before.pv),
+                           part.before.rms)},
+      {"orientation", "+x to the right, +y up, seen from the tool; red is high and is to be removed"},
+      {"check by", fmt::format("the highest place of the error, {} of the part, {} of the program",
+                               place_text(sheet.highest), place_text(frame.to_program(sheet.highest)))},
+      {"zero", zero_line(as_set_up)},
+      {"first move", fmt::format("down at {} of the program, which is {} of the part",
+                                 place_text(frame.to_program(sheet.start)), place_text(sheet.start))},
+      {"tool", tool_line(plan)},
+      {"tool travels", fmt::format("{} of the part ({})", of_tool.text(), path.kind)},
+      {"feeds",
+       fmt::format("{:.4g} to {:.4g} mm/min", units::mm_per_min(feed.min_speed), units::mm_per_min(feed.max_speed))},
+      {"time",
+       fmt::format("{}, of it dwell {}", duration_text(written.run_seconds), duration_text(plan.dwell.run_dwell()))},
+      {"lift", fmt::format("{:.4g} mm above the work", plan.job.options.lift_height_mm)},
+      {"machine", plan.job.machine ? plan.job.machine->name : std::string("not given: no limits but the fastest feed")},
+      {"leaves", fmt::format("{} by simulation of the program", in_words(written.exact.statistics))}};
+  const std::string correction = correction_line(frame, as_set_up, midpoint(of_part.low, of_part.high));
+  if (!correction.empty()) sheet.lines.insert(sheet.lines.begin() + 5, {"correction", correction});
   return sheet;
 }
 
@@ -111,6 +127,10 @@ HeightMap with_room(const HeightMap& figure, const PlannedJob& plan, Point origi
   box.hold(g.centre(g.rows - 1, g.cols - 1));
   const Point low = box.low, high = box.high;
   for (const Stroke& stroke : plan.laid.strokes) box.hold(stroke.start), box.hold(stroke.finish);
+  const double radius = 0.5 * plan.part().tif.fwhm;  // the tool's circle at its first place shows whole
+  const Point start = plan.laid.strokes.front().start;
+  box.hold(start - Point{radius, radius});
+  box.hold(start + Point{radius, radius});
   const double longer = std::max(g.width(), g.height());
   const bool is_near = origin.x > low.x - longer && origin.x < high.x + longer && origin.y > low.y - longer &&
                        origin.y < high.y + longer;
@@ -131,7 +151,7 @@ HeightMap with_room(const HeightMap& figure, const PlannedJob& plan, Point origi
 
 std::vector<PanelKey> key_of(const SetupSheet& sheet) {
   std::vector<PanelKey> key{{kToolColour, "the tool's FWHM at its first place, and its first moves"},
-                            {kOriginColour, "origin of the program"},
+                            {kOriginColour, "where to touch off"},
                             {kMarkColour, "highest place of the error"}};
   constexpr double kRoom = 480.0;
   for (const auto& [what, value] : sheet.lines) {
@@ -162,8 +182,10 @@ std::string setup_picture(const SetupSheet& sheet, const PlannedJob& plan, Figur
     };
     const auto cross = [&](Point p, Colour colour) {
       const Point at = place(p);
-      page.line(at - Point{9.0, 0.0}, at + Point{9.0, 0.0}, {colour, 2.0});
-      page.line(at - Point{0.0, 9.0}, at + Point{0.0, 9.0}, {colour, 2.0});
+      for (const LineStyle& style : {LineStyle{kPaper, 4.5}, LineStyle{colour, 2.0}}) {
+        page.line(at - Point{9.0, 0.0}, at + Point{9.0, 0.0}, style);
+        page.line(at - Point{0.0, 9.0}, at + Point{0.0, 9.0}, style);
+      }
     };
     constexpr int kCorners = 48;
     std::vector<Point> ring, way;

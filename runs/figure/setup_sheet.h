@@ -22,8 +22,9 @@ struct SetupSheet {
 };
 
 /// The sheet of a plan that is written: program and its hash, part, orientation and zero, first move, tool, feeds and
-/// times, what it leaves. Cost O(pixels).
-SetupSheet setup_sheet(const PlannedJob& plan, const WrittenPlan& written, int run);
+/// times, what it leaves. `as_set_up` is the frame by which the part lies on the machine, that of the first run: what
+/// the program's own frame has learnt beyond it makes up for where the machine removed. Cost O(pixels).
+SetupSheet setup_sheet(const PlannedJob& plan, const WrittenPlan& written, int run, const ProgramFrame& as_set_up);
 
 /// The sheet as a figure: the part's error with the program's origin, the tool at its first place and the first moves,
 /// and the lines below. Throws Interrupted.

@@ -113,10 +113,12 @@ TargetPlan plan_for_target(const Job& job, const std::vector<SurfaceLimit>& limi
     constexpr double kNextToNothing = 1e-3;  // of the usual price
     TargetPlan best = plans.at(kNextToNothing * price_of(usual));
     if (!best.reaches) {
+      const bool longer = best.expected.statistics.rms_about_zero() < usual.expected.statistics.rms_about_zero();
+      const TargetPlan& better = longer ? best : usual;
       usual.sentence = fmt::format(
-          "the target is not reached with this tool and path: the best run leaves {} ({} of dwell; {}); this plan is "
-          "the one with the usual price of time",
-          in_words(best.expected.statistics), duration_text(best.plan.dwell.run_dwell()), margin_words(best));
+          "not reached with this tool, path and smoothness, whatever the time: the best run leaves {} in {} of dwell "
+          "({}); this plan is the one with the usual price of time",
+          in_words(better.expected.statistics), duration_text(better.plan.dwell.run_dwell()), margin_words(better));
       usual.plans = plans.plans();
       return usual;
     }
@@ -125,6 +127,9 @@ TargetPlan plan_for_target(const Job& job, const std::vector<SurfaceLimit>& limi
   chosen.plans = plans.plans();
   chosen.sentence = fmt::format("the shortest run that is expected to meet the target: {}; with {}",
                                 times_words(chosen, usual), margin_words(chosen));
+  const Part& part = *job.part;
+  if (all_pass(judge_surface(part.map, part.form, limits, part.threads, progress)))
+    chosen.sentence = "the surface meets the target already, and no run is needed; " + chosen.sentence;
   return chosen;
 }
 

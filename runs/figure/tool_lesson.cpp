@@ -30,11 +30,27 @@ void decide(LessonDecision& decision, double change, const LessonPolicy& policy)
   if (holds(policy.left, decision.subject)) decision.applied = false;
   if (!std::isfinite(change) || !(decision.found.error > 0.0)) decision.applied = false;
   decision.overridden = decision.applied != by_rule;
+  const bool of_place = decision.subject == LessonSubject::Shift || decision.subject == LessonSubject::Rotation;
+  if (of_place && !policy.fixed.empty() && change > decision.threshold) {
+    decision.applied = decision.overridden = false;
+    decision.why = policy.fixed;
+  }
+}
+
+/// A rate is weighed with what was known: its change is believed as far as its error allows.
+void weigh(LessonDecision& rate, double expected_change) {
+  if (!rate.applied || rate.overridden || !std::isfinite(expected_change)) return;
+  const double share =
+      expected_change * expected_change / (expected_change * expected_change + rate.found.error * rate.found.error);
+  rate.used = 1.0 + share * (rate.used - 1.0);
+  rate.weighed = share < 0.99;
 }
 
 /// A factor within bounds; 1 where it is not taken over.
 double clip(LessonDecision& decision, double least, double most) {
-  decision.used = decision.applied ? std::clamp(decision.found.value, least, most) : 1.0;
+  const bool asked_for = decision.overridden && decision.found.value > 0.0;
+  const double within = asked_for ? decision.found.value : std::clamp(decision.found.value, least, most);
+  decision.used = decision.applied ? within : 1.0;
   decision.clipped = decision.applied && decision.used != decision.found.value;
   return decision.used;
 }
@@ -52,7 +68,9 @@ std::string LessonDecision::sentence() const {
   std::string text = fmt::format("{} {:.4g} +- {:.2g} {}: ", words.name, found.value, found.error, words.unit);
   if (!(found.error > 0.0)) return text + "was not fitted";
   text += applied ? "taken" : "left";
+  if (!why.empty()) return fmt::format("{}: {}", text, why);
   if (clipped) text += fmt::format(" as {:.4g}, the most in one run", used);
+  if (weighed) text += fmt::format(" as {:.4g}, weighed with what was known before", used);
   if (overridden) return text + " because it was asked for";
   if (threshold > 0.0) text += fmt::format(", {} {:.2g}", applied ? "beyond" : "within", threshold);
   return text;
@@ -84,7 +102,19 @@ ToolLesson learn_from(const RemovalRegistration& found, double fwhm, const Lesso
         shift.found.value, shift.found.error, found.x.value, found.y.value, fwhm);
     rate.applied = width.applied = shift.applied = rotation.applied = false;
   }
-  lesson.rate = clip(rate, policy.least_rate, policy.most_rate);
+  const double certainly = std::abs(found.degrees.value) - policy.errors * found.degrees.error;
+  if (certainly > policy.most_degrees && !holds(policy.taken, LessonSubject::Rotation) &&
+      !holds(policy.left, LessonSubject::Rotation) && lesson.orientation_fault.empty()) {
+    lesson.orientation_fault = fmt::format(
+        "what was removed lies turned by {:.3g} +- {:.2g} degrees against where it was meant to, more than {:.3g}: "
+        "that "
+        "is no error of positioning to be made up for, but of how the part or the map lies",
+        found.degrees.value, found.degrees.error, policy.most_degrees);
+    rate.applied = width.applied = shift.applied = rotation.applied = false;
+  }
+  clip(rate, policy.least_rate, policy.most_rate);
+  weigh(rate, policy.expected_rate_change);
+  lesson.rate = rate.used;
   lesson.width = clip(width, policy.least_width, policy.most_width);
   if (shift.applied) lesson.shift = {found.x.value, found.y.value}, shift.used = shift.found.value;
   if (rotation.applied) lesson.degrees = found.degrees.value, rotation.used = rotation.found.value;

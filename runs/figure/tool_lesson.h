@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,7 +22,12 @@ struct LessonPolicy {
   double least_rate = 0.5, most_rate = 2.0;     // what a rate changes by at most in one run
   double least_width = 0.8, most_width = 1.25;  // likewise a width
   double orientation_share = 0.25;              // of the tool's FWHM: a shift beyond it is an error of orientation
-  std::vector<LessonSubject> taken, left;       // whatever the rule says
+  double most_degrees = 3.0;                    // a rotation beyond it is an error of orientation as well
+  /// By how much the rate is expected to change from what is known of it, as a share: a finding whose error is of this
+  /// size counts half. Infinite before the first run.
+  double expected_rate_change = std::numeric_limits<double>::infinity();
+  std::vector<LessonSubject> taken, left;  // whatever the rule says
+  std::string fixed;                       // why shift and rotation cannot be taken over; empty: they can
 };
 
 /// What became of one figure.
@@ -32,7 +38,9 @@ struct LessonDecision {
   bool applied = false;
   bool overridden = false;  // applied or left because the user said so
   bool clipped = false;
-  double used = 0.0;  // of rate and width: 1 if not applied; of shift and rotation: 0
+  double used = 0.0;     // of rate and width: 1 if not applied; of shift and rotation: 0
+  bool weighed = false;  // with what was known before
+  std::string why;       // it was left; empty: by the rule
 
   /// "rate      1.131 +- 0.004 of what was thought: taken", with threshold and unit.
   std::string sentence() const;

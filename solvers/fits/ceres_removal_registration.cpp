@@ -151,7 +151,8 @@ class RemovalResidual final : public ceres::SizedCostFunction<1, kRemovalNumbers
   bool Evaluate(const double* const* x, double* residual, double** jacobians) const override {
     RemovalNumbers q;
     std::copy_n(x[0], kRemovalNumbers, q.begin());
-    if (!(1.0 + q[kGrowth] > 0.1) || !(1.0 + q[kWidth] > 0.1)) return false;
+    // Beyond these no tool is the one that was planned with, and the parabola between the widths says nothing.
+    if (!(std::abs(q[kGrowth]) < 0.5) || !(std::abs(q[kWidth]) < 0.5) || !(q[kRate] > 0.0)) return false;
     RemovalRow slopes;
     residual[0] = pair_.residual(q, place_, height_, &slopes);
     if (jacobians && jacobians[0]) std::copy_n(slopes.data(), kRemovalNumbers, jacobians[0]);

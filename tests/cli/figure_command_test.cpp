@@ -55,7 +55,7 @@ TEST(FigureCommand, TakesAPartFromMapToMap) {
   const ProgramResult plan = inputs.run({"figure", "plan", "run"});
   EXPECT_EQ(plan.exit_code, 0) << plan.err;
   expect_has(plan.out, "Run 2: program.nc");
-  expect_has(plan.out, "as learnt 1.1 times the volume rate");
+  expect_has(plan.out, "1.1 times its volume rate");
   // The prediction of the second run is what the tool, as it is in truth, then leaves.
   EXPECT_EQ(inputs.run({"simulate", "run/04-plan-2", "--tif-rate", "1.1", "--residual", "third.npy"}).exit_code, 0);
   const auto summary = nlohmann::json::parse(read_whole_file(inputs / "run/04-plan-2/step.json"));

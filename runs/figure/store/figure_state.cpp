@@ -9,6 +9,7 @@
 #include "runs/figure/store/kept_inputs.h"
 #include "runs/figure/store/step_records.h"
 #include "runs/job/job_file.h"
+#include "runs/job/program_style.h"
 #include "runs/map_steps/map_steps.h"
 
 namespace dwell {
@@ -25,6 +26,7 @@ std::set<int> withdrawn_steps(const RunFolder& run) {
 void begin(const RunFolder& run, const RunStep& step, FigureState& state) {
   read_job_file(run.path_of(step) / "job.toml", state.options);
   state.conventions = with_map_of(JobOptions(), state.options);
+  state.as_set_up = program_frame(state.options);
   state.target = step.content.at("target");
   const std::string bands = step.content.at("bands");
   state.limits = limits_of_target(state.target, bands);

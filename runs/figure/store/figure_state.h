@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/motion/program_frame.h"
 #include "runs/acceptance/surface_limits.h"
 #include "runs/figure/run_uncertainty.h"
 #include "runs/figure/store/run_folder.h"
@@ -31,6 +32,7 @@ std::vector<SurfaceLimit> limits_of_target(const std::string& target, const std:
 struct FigureState {
   JobOptions options;      // of the next plan: with the last map, and tool and frame as learnt; files as seen from here
   JobOptions conventions;  // how the next map is read: as the last one, but for steps that were of that map alone
+  ProgramFrame as_set_up;  // how the part lies on the machine: the frame of the first run
   std::string target;      // as it was given; empty: none
   std::vector<SurfaceLimit> limits;
   std::vector<ToolLesson> lessons;  // of the runs so far

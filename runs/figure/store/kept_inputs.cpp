@@ -76,6 +76,10 @@ JobOptions keep_inputs(JobOptions options, const OutputFolder& folder, const std
                  [&](const std::string& key, const std::string& file) { return copies.keep(key, file); });
 }
 
+std::string keep_file(const fs::path& file, const std::string& key, const OutputFolder& folder) {
+  return Copies(folder).keep(key, file.string());
+}
+
 JobOptions options_seen_from(JobOptions options, const fs::path& from, const fs::path& to) {
   return renamed(std::move(options), "", [&](const std::string&, const std::string& file) {
     const fs::path place = (from / file).lexically_normal();

@@ -14,6 +14,9 @@ namespace dwell {
 /// file that is not there or cannot be copied.
 JobOptions keep_inputs(JobOptions options, const OutputFolder& folder, const std::string& only = "");
 
+/// Copies one more file into the folder, below `inputs/` by a key, and gives its name there. Throws InputError.
+std::string keep_file(const std::filesystem::path& file, const std::string& key, const OutputFolder& folder);
+
 /// The options with the names of their files as seen from another folder: relative to `to`, where they are as seen
 /// from `from`. Both may be empty: the current one. Throws InputError.
 JobOptions options_seen_from(JobOptions options, const std::filesystem::path& from, const std::filesystem::path& to);

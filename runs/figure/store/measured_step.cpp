@@ -2,13 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include "core/base/errors.h"
-#include "core/base/whole_file.h"
 #include "core/form/robust_pv.h"
 #include "core/formats/map_io.h"
+#include "core/formats/map_name.h"
 #include "core/map/aperture.h"
 #include "paths/feed/execution.h"
 #include "paths/feed/lift_rests.h"
@@ -41,17 +43,14 @@ struct PlanThatRan {
   Program program;
 };
 
-PlanThatRan plan_that_ran(const RunFolder& run, const RunStep& step, const Progress& progress) {
+PlanThatRan plan_that_ran(const RunFolder& run, const RunStep& step, int threads, const Progress& progress) {
   PlanThatRan plan;
   const fs::path place = run.path_of(step);
   read_job_file(place / "job.toml", plan.options);
+  plan.options.threads = threads;
   const Json& record = step.content.at("program");
-  const std::string name = record.at("file"), sha256 = record.at("sha256");
+  const std::string name = record.at("file");
   const fs::path file = place / name;
-  if (sha256_of_file(file) != sha256) {
-    throw InputError(fmt::format(
-        "{}: is another than when it was planned; dwell figure check says what else has changed", file.string()));
-  }
   plan.job = load_job(without_program_style(plan.options), progress);
   GcodeReading reading;
   if (plan.job.machine) reading.letters = plan.job.machine->machine.letters;
@@ -97,18 +96,20 @@ std::string triple_picture(const MeasuredStep& step, const Progress& progress) {
 }
 
 /// `kept`: the map's options with the names of the files in the step. Steps of this map alone are behind the others.
-Json record_of(const MeasuredStep& step, const FigureState& state, const JobOptions& kept, std::size_t remembered) {
+Json record_of(const MeasuredStep& step, int plan_step, const JobOptions& kept, std::size_t remembered) {
   const Json learnt{{"tif_rate", step.next.tif_rate},
                     {"tif_width", step.next.tif_width},
                     {"zero_mm", {step.next.zero_mm.x, step.next.zero_mm.y}},
                     {"rotate_deg", step.next.rotate_deg}};
-  Json record{{"plan_step", *state.plan_step},
+  Json record{{"plan_step", plan_step},
               {"map_options", option_records(kept, is_map_convention)},
               {"map_steps_remembered", remembered},
               {"before", statistics_record(step.before)},
               {"predicted", statistics_record(step.predicted)},
               {"after", statistics_record(step.after)},
               {"run_s", step.seconds},
+              {"covered", step.comparison.covered},
+              {"warnings", step.warnings},
               {"convergence", finite_or_null(step.convergence())},
               {"efficiency", finite_or_null(step.efficiency())},
               {"surface", surface_block(step.surface)},
@@ -141,6 +142,79 @@ JobOptions next_options(const FigureState& state, const JobOptions& planned, con
   return with_map_of(with_learnt(next, step.lesson, step.comparison.registration.about), map);
 }
 
+/// The plan whose program was run: the last for the present map, or one of that map that is named.
+std::optional<int> plan_of(const RunFolder& run, const FigureState& state, const Measurement& measurement) {
+  if (!measurement.plan_step) return state.plan_step;
+  const int number = *measurement.plan_step;
+  std::string accepted;
+  for (const RunStep& step : run.steps()) {
+    if (step.kind != step_kinds::kPlan || step.content.at("map_step") != state.map_step) continue;
+    if (step.number == number) return number;
+    accepted += fmt::format("{}{}", accepted.empty() ? "" : ", ", step.number);
+  }
+  throw InputError(fmt::format("{}: step {} is no plan for the map that the part has now; accepted: {}",
+                               run.folder().string(), number, accepted.empty() ? "none" : accepted));
+}
+
+/// Says so where hardly anything was removed: then nothing can be learnt, and the map is mostly the one before.
+std::string nothing_removed(const RemovalComparison& comparison, const Part& part) {
+  const double predicted = map_statistics(comparison.predicted, part.form, part.threads).rms_about_zero();
+  const double measured = comparison.registration.measured_rms;
+  constexpr double kNothing = 0.05;
+  if (!(measured < kNothing * predicted)) return "";
+  return fmt::format(
+      "next to nothing was removed: {:.3g} nm RMS where {:.4g} were to be; is this the map from before the run, or was "
+      "the program not run?",
+      measured, predicted);
+}
+
+LessonPolicy policy_of(const Measurement& measurement, const FigureState& state, const PlanThatRan& plan,
+                       const MeasuredStep& step) {
+  LessonPolicy policy = measurement.policy;
+  constexpr double kUsualChange = 0.05;  // of a tool's rate from run to run
+  if (!state.lessons.empty()) policy.expected_rate_change = kUsualChange;
+  const std::string why = why_frame_is_fixed(plan.options);
+  if (why.empty()) return policy;
+  for (const LessonSubject subject : policy.taken) {
+    if (subject == LessonSubject::Shift || subject == LessonSubject::Rotation)
+      throw InputError(fmt::format("--learn shift=take, rotation=take: {}; required leave", why));
+  }
+  const RemovalRegistration& r = step.comparison.registration;
+  policy.fixed = fmt::format("{}; move the part by ({:.3f}, {:.3f}) mm and {:.4g} degrees on the machine", why,
+                             r.x.value, r.y.value, r.degrees.value);
+  return policy;
+}
+
+std::vector<std::string> warnings_of(const MeasuredStep& step) {
+  std::vector<std::string> warnings;
+  const RemovalComparison& c = step.comparison;
+  constexpr double kWhole = 0.98, kHalf = 0.5, kScale = 3e-3;
+  if (c.covered < kWhole) {
+    warnings.push_back(fmt::format(
+        "the map has only {:.3g} % of the part's pixels before: the next plan is of these alone", 100.0 * c.covered));
+  }
+  if (c.split.unexplained > kHalf * c.registration.measured_rms) {
+    warnings.push_back(
+        fmt::format("{:.4g} of {:.4g} nm RMS that were removed are not explained by tool and place: look at "
+                    "removal.png before anything is made of it",
+                    c.split.unexplained, c.registration.measured_rms));
+  }
+  if (step.after.rms_about_zero() < kHalf * step.predicted.rms_about_zero()) {
+    warnings.push_back(
+        fmt::format("{:.4g} nm RMS are left, less than half of the {:.4g} that were predicted: is the unit of "
+                    "the map right?",
+                    step.after.rms_about_zero(), step.predicted.rms_about_zero()));
+  }
+  const Estimate& scale = c.registration.scale;
+  if (std::abs(scale.value - 1.0) > std::max(kScale, 3.0 * scale.error)) {
+    warnings.push_back(
+        fmt::format("what was removed is {:.5g} +- {:.1g} times as large as it was meant to be: the pixel "
+                    "pitch of a map or the machine's scale is off",
+                    scale.value, scale.error));
+  }
+  return warnings;
+}
+
 }  // namespace
 
 std::optional<double> MeasuredStep::efficiency() const {
@@ -151,18 +225,21 @@ std::optional<double> MeasuredStep::efficiency() const {
 
 MeasuredStep add_measurement(RunFolder& run, const FigureState& state, const Measurement& measurement,
                              const Progress& progress) {
-  if (!state.plan_step) {
+  const std::optional<int> plan_step = plan_of(run, state, measurement);
+  if (!plan_step) {
     throw InputError(fmt::format("{}: no plan waits for a measurement; dwell figure plan {} makes the next",
                                  run.folder().string(), run.folder().string()));
   }
-  const RunStep& planned = run.step(*state.plan_step);
-  const PlanThatRan plan = plan_that_ran(run, planned, progress.of_part("plan"));
+  const RunStep& planned = run.step(*plan_step);
+  for (const int step : std::set<int>{1, state.map_step, *plan_step}) run.require_unchanged(run.step(step));
+  const PlanThatRan plan = plan_that_ran(run, planned, measurement.threads, progress.of_part("plan"));
   const Part& part = *plan.job.part;
   const JobOptions own = map_options(measurement);
   std::vector<InputFile> inputs;
   HeightMap map = within(load_map(own, inputs, progress), plan.options.aperture, progress);
   MeasuredRun measured = motions_of(plan, measurement.log, progress);
   measured.after = map;
+  measured.orientation_is_known = measurement.orientation_is_known;
   MeasuredStep step;
   step.iteration = planned.iteration;
   step.comparison = compare_removal(part, measured, progress.of_part("compare"));
@@ -171,25 +248,29 @@ MeasuredStep add_measurement(RunFolder& run, const FigureState& state, const Mea
   step.after = with_robust_pv(map_statistics(map, part.form, part.threads), without_form(map, part.form, part.threads),
                               part.threads);
   step.seconds = planned.content.at("run_s");
-  LessonPolicy policy = measurement.policy;
-  if (const std::string why = why_frame_is_fixed(plan.options); !why.empty())
-    policy.left.insert(policy.left.end(), {LessonSubject::Shift, LessonSubject::Rotation});
-  step.lesson = learn_from(step.comparison.registration, part.tif.fwhm, policy);
   step.fault = measurement.orientation_is_known ? "" : step.comparison.orientation.fault;
-  if (step.fault.empty()) step.fault = step.lesson.orientation_fault;
+  if (step.fault.empty()) step.fault = nothing_removed(step.comparison, part);
   if (!step.fault.empty()) return step;
+  step.lesson = learn_from(step.comparison.registration, part.tif.fwhm, policy_of(measurement, state, plan, step));
+  step.fault = step.lesson.orientation_fault;
+  if (!step.fault.empty()) return step;
+  step.warnings = warnings_of(step);
   step.surface = surface_sheet(part.figure, without_form(step.comparison.after, part.form, part.threads), part.tif.fwhm,
                                part.threads, progress);
   step.next = next_options(state, plan.options, step, own);
   std::vector<ToolLesson> lessons = state.lessons;
   lessons.push_back(step.lesson);
+  step.next.threads = measurement.threads;
   step.next_run = look_at_next_run(step.next, state.limits, uncertainty_after(lessons), progress);
   step.folder = run.path_of_next(step_kinds::kMeasured, step.iteration).string();
   progress.step("writing");
   run.append(step_kinds::kMeasured, step.iteration, [&](const OutputFolder& folder) {
     const JobOptions kept = keep_inputs(own, folder, "map");
     write_files(step, map, part, folder, progress);
-    return record_of(step, state, kept, parse_map_steps(measurement.map.map_steps).size());
+    Json record = record_of(step, *plan_step, kept, parse_map_steps(measurement.map.map_steps).size());
+    record["log"] =
+        measurement.log ? Json(keep_file(split_map_name(measurement.log->file).file, "log", folder)) : Json(nullptr);
+    return record;
   });
   return step;
 }

@@ -20,6 +20,8 @@ struct Measurement {
   std::string steps_of_this_map;  // map steps besides the run's own: not remembered
   std::optional<LogSource> log;   // of the controller, of the run
   LessonPolicy policy;
+  std::optional<int> plan_step;       // whose program was run; nothing: the last that was planned
+  int threads = 0;                    // 0: one for every processor
   bool orientation_is_known = false;  // an error of orientation that is found is passed over
 };
 
@@ -33,6 +35,7 @@ struct MeasuredStep {
   SurfaceSheet surface;                    // before and after
   JobOptions next;                         // options of the next plan
   NextRun next_run;
+  std::vector<std::string> warnings;  // what whoever measured should look at, a sentence each
   /// Not empty: an error of orientation, and nothing was added to the run.
   std::string fault;
   std::string folder;  // of the step, as seen from here; empty with a fault
@@ -44,8 +47,9 @@ struct MeasuredStep {
 };
 
 /// Compares a measurement with the last plan and adds it to the run, unless it shows an error of orientation. The
-/// caller holds the run's lock. Throws InputError where no plan waits for a measurement, where the program is not the
-/// one that was planned, and as load_map, compare_removal and look_at_next_run; the run is then as before.
+/// caller holds the run's lock. Throws InputError where no plan waits for a measurement, where a step that it is
+/// compared with is not as it was written, and as load_map, compare_removal and look_at_next_run; the run is then as
+/// before.
 MeasuredStep add_measurement(RunFolder& run, const FigureState& state, const Measurement& measurement,
                              const Progress& progress = {});
 

@@ -17,6 +17,7 @@ std::string registration_lines(const RemovalComparison& comparison) {
   text += fmt::format(
       "place     shift {:.4g} +- {:.2g} mm in x, {:.4g} +- {:.2g} mm in y, turned {:.4g} +- {:.2g} degrees\n",
       r.x.value, r.x.error, r.y.value, r.y.error, r.degrees.value, r.degrees.error);
+  text += fmt::format("scale     x {:.6g} +- {:.2g} of the part's own\n", r.scale.value, r.scale.error);
   text += fmt::format("tool      rate x {:.4g} +- {:.2g}, width x {:.4g} +- {:.2g}\n", r.rate.value, r.rate.error,
                       r.width.value, r.width.error);
   const RemovalSplit& s = comparison.split;
@@ -41,6 +42,8 @@ std::string measured_text(const MeasuredStep& step, double fwhm) {
   text += fmt::format("before    {}\n", in_words(step.before));
   text += fmt::format("predicted {}\n", in_words(step.predicted));
   text += fmt::format("measured  {}\n", in_words(step.after));
+  if (step.comparison.registration.points == 0)
+    return text;  // an error of orientation: what it would say is of nothing
   text += registration_lines(step.comparison);
   if (!step.fault.empty()) return text;
   for (const LessonDecision& decision : step.lesson.decisions)
@@ -51,6 +54,7 @@ std::string measured_text(const MeasuredStep& step, double fwhm) {
   text += "\n" + surface_lines(step.surface);
   text += fmt::format("reach     the tool of {:.3g} mm FWHM corrects waves longer than {:.3g} mm\n", fwhm, 2.0 * fwhm);
   text += verdict_lines(step.next_run.now) + curve_lines(step.next_run);
+  for (const std::string& warning : step.warnings) text += fmt::format("warning   {}\n", warning);
   text += fmt::format("advice    {}\n", step.next_run.advice);
   return text;
 }

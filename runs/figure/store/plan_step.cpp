@@ -1,13 +1,18 @@
 #include "runs/figure/store/plan_step.h"
 
+#include <fmt/format.h>
+
 #include <utility>
 
-#include "core/base/whole_file.h"
+#include "core/base/errors.h"
 #include "runs/base/json_blocks.h"
+#include "runs/figure/learnt_frame.h"
 #include "runs/figure/setup_sheet.h"
 #include "runs/figure/store/kept_inputs.h"
 #include "runs/figure/store/step_records.h"
 #include "runs/job/job_file.h"
+#include "runs/job/place_option.h"
+#include "runs/job/program_style.h"
 #include "runs/reports/plan_output.h"
 
 namespace dwell {
@@ -42,6 +47,17 @@ Json record_of(const PlannedStep& step, const FigureState& state) {
           {"advice", step.written.advice}};
 }
 
+/// Programs of places of the part cannot make up for where the machine removed.
+void check_frame(const JobOptions& options, const FigureState& state) {
+  const std::string why = why_frame_is_fixed(options);
+  if (why.empty() || program_frame(options) == state.as_set_up) return;
+  throw InputError(fmt::format(
+      "{}, and the run has learnt that the machine removes elsewhere than it is told (zero {}, turned by {:.4g} "
+      "degrees): required another export, or --zero {} --rotate {:g} with the part moved on the machine",
+      why, to_string(options.zero_mm), options.rotate_deg, to_string(state.as_set_up.zero()),
+      state.as_set_up.degrees()));
+}
+
 }  // namespace
 
 PlannedStep add_plan(RunFolder& run, const FigureState& state, const JobOptions& options, const Progress& progress) {
@@ -49,6 +65,9 @@ PlannedStep add_plan(RunFolder& run, const FigureState& state, const JobOptions&
   const std::filesystem::path place = run.path_of_next(step_kinds::kPlan, iteration);
   JobOptions own = options;
   own.out = place.string();
+  run.require_unchanged(run.step(1));
+  run.require_unchanged(run.step(state.map_step));
+  check_frame(own, state);
   check_exports(own);
   const Job job = load_job(own, progress);
   PlannedStep step;
@@ -59,7 +78,7 @@ PlannedStep add_plan(RunFolder& run, const FigureState& state, const JobOptions&
     JobOptions kept = options_seen_from(step.target.plan.job.options, "", place);
     kept.out.clear();
     folder.write("job.toml", job_file_text(kept));
-    const SetupSheet sheet = setup_sheet(step.target.plan, step.written, iteration);
+    const SetupSheet sheet = setup_sheet(step.target.plan, step.written, iteration, state.as_set_up);
     step.setup = sheet.text();
     folder.write("setup.txt", step.setup);
     folder.write("setup.pdf", setup_picture(sheet, step.target.plan, FigureFormat::Pdf));
@@ -67,6 +86,8 @@ PlannedStep add_plan(RunFolder& run, const FigureState& state, const JobOptions&
     step.verdicts = judge_with_margin(step.written.exact.surface, step.target.expected.changes, step.target.plan.part(),
                                       state.limits, progress);
     if (!state.limits.empty()) step.target.reaches = all_pass(step.verdicts);
+    if (!step.target.reaches && !state.limits.empty())
+      step.written.limits.emplace_back("the target is not expected to be met: " + step.target.sentence);
     return record_of(step, state);
   };
   run.append(step_kinds::kPlan, iteration, write);

@@ -33,10 +33,17 @@ std::string folder_name(int number, const std::string& kind, int iteration) {
   return iteration > 0 ? fmt::format("{:02}-{}-{}", number, kind, iteration) : fmt::format("{:02}-{}", number, kind);
 }
 
-/// The number with which the name of a step's folder begins; nothing for other names.
+/// The number with which the name of a step's folder begins; nothing for names that no step has.
 std::optional<int> number_of_step(const std::string& name) {
   const std::size_t dash = name.find('-');
   if (dash == std::string::npos || dash < 2 || dash > 6) return {};
+  const std::string rest = name.substr(dash + 1), kind = rest.substr(0, rest.find('-'));
+  const bool is_word =
+      !kind.empty() && std::all_of(kind.begin(), kind.end(), [](char c) { return c >= 'a' && c <= 'z'; });
+  const std::string last = kind.size() < rest.size() ? rest.substr(kind.size() + 1) : "0";
+  const bool is_number =
+      !last.empty() && std::all_of(last.begin(), last.end(), [](char c) { return c >= '0' && c <= '9'; });
+  if (!is_word || !is_number) return {};
   int number = 0;
   for (const char c : name.substr(0, dash)) {
     if (c < '0' || c > '9') return {};
@@ -102,6 +109,8 @@ RunStep read_step(const fs::path& run, const std::string& name, int number, cons
     for (const Json& entry : json.at("files"))
       step.files.push_back({entry.at("name"), entry.at("sha256"), entry.at("bytes")});
     if (step.number != number) fail(fmt::format("step = {}; its place is {}", step.number, number));
+    if (const std::string own = folder_name(step.number, step.kind, step.iteration); own != name)
+      fail(fmt::format("its folder is called '{}'; required {}", name, own));
     if (json.at("previous") != previous)
       fail("the step before it is another than when it was made: previous and the hash of that step.json differ");
   } catch (const nlohmann::json::exception& error) {
@@ -165,6 +174,15 @@ const RunStep& RunFolder::append(const std::string& kind, int iteration, const W
 std::vector<std::string> RunFolder::faults() const {
   std::vector<std::string> faults;
   for (const RunStep& step : steps_) {
+    const std::vector<std::string> of_step = faults_of(step);
+    faults.insert(faults.end(), of_step.begin(), of_step.end());
+  }
+  return faults;
+}
+
+std::vector<std::string> RunFolder::faults_of(const RunStep& step) const {
+  std::vector<std::string> faults;
+  {
     const fs::path place = path_of(step);
     std::set<std::string> listed;
     for (const StepFile& file : step.files) {
@@ -185,6 +203,14 @@ std::vector<std::string> RunFolder::faults() const {
     }
   }
   return faults;
+}
+
+void RunFolder::require_unchanged(const RunStep& step) const {
+  const std::vector<std::string> faults = faults_of(step);
+  if (!faults.empty()) {
+    throw InputError(fmt::format("{}: {}; a run is planned and measured from what it was made of (dwell figure check)",
+                                 folder_.string(), faults.front()));
+  }
 }
 
 RunFolder make_run_folder(const fs::path& folder, const RunFolder::Write& write) {

@@ -58,6 +58,10 @@ class RunFolder {
   /// What does not agree with the hashes: a file that is changed, missing, or not listed; a sentence each, naming it.
   /// Empty if all is as it was written. Cost: reads everything.
   std::vector<std::string> faults() const;
+  /// The same of one step.
+  std::vector<std::string> faults_of(const RunStep& step) const;
+  /// Throws InputError with the first fault of a step that is to be used.
+  void require_unchanged(const RunStep& step) const;
 
  private:
   std::filesystem::path folder_;

@@ -24,7 +24,8 @@ std::string this_process() {
 std::string content_of(int file) {
   std::array<char, 512> bytes{};
   const ssize_t n = pread(file, bytes.data(), bytes.size(), 0);
-  return n > 0 ? std::string(trim(std::string_view(bytes.data(), static_cast<std::size_t>(n)))) : std::string();
+  const std::string_view text(bytes.data(), n > 0 ? static_cast<std::size_t>(n) : 0);
+  return std::string(trim(text.substr(0, text.find('\n'))));
 }
 
 }  // namespace

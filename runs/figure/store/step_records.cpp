@@ -95,6 +95,7 @@ Json comparison_record(const RemovalComparison& comparison) {
             {"x_mm", estimate_record(r.x)},
             {"y_mm", estimate_record(r.y)},
             {"rotation_deg", estimate_record(r.degrees)},
+            {"scale", estimate_record(r.scale)},
             {"measured_rms_nm", r.measured_rms},
             {"difference_rms_nm", r.before.rms},
             {"left_rms_nm", r.after.rms},

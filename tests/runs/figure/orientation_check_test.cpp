@@ -27,7 +27,7 @@ HeightMap map_on(const Grid& grid, const std::function<double(Point)>& height) {
 }
 
 HeightMap before_run() {
-  return map_on(kGrid, [](Point p) { return 1.05 * removal_at(p) + 3.0 * std::cos(0.8 * p.x - 0.3 * p.y); });
+  return map_on(kGrid, [](Point p) { return 1.05 * removal_at(p) + 3.0 * std::cos(0.8 * p.x - 0.3 * p.y + 0.7); });
 }
 
 HeightMap after_removal(const std::function<double(Point)>& removal) {
@@ -36,8 +36,16 @@ HeightMap after_removal(const std::function<double(Point)>& removal) {
   return after;
 }
 
+HeightMap removed_by(const HeightMap& before, const HeightMap& after) {
+  HeightMap removed = before;
+  for (std::size_t i = 0; i < removed.values.size(); ++i) removed.values[i] -= after.values[i];
+  return removed;
+}
+
 OrientationCheck checked(const HeightMap& after) {
-  return check_orientation(before_run(), after, map_on(kWide, removal_at), {true, true}, {4.0, 0.7}, 1);
+  const HeightMap before = before_run();
+  return check_orientation(before, after, removed_by(before, after), map_on(kWide, removal_at), {true, true},
+                           {4.0, 0.7}, 1);
 }
 
 TEST(OrientationCheck, FindsNoFaultWhereTheRateIsOffAndTheMapsTilted) {
@@ -101,12 +109,45 @@ TEST(OrientationCheck, NamesAMapThatWasMeasuredTurned) {
   EXPECT_NE(turned.fault.find("--step 'rotate:270'"), std::string::npos) << turned.fault;
 }
 
+TEST(OrientationCheck, IsNotMisledByEdgesClampsAndDust) {
+  const auto removal = [](Point p) { return 1.03 * removal_at(p); };
+  HeightMap edges = after_removal(removal), clamp = edges, dust = edges;
+  for (Index r = 0; r < kGrid.rows; ++r) {
+    for (const Index c : {Index{0}, Index{1}, kGrid.cols - 2, kGrid.cols - 1}) edges.at(r, c) += 20.0;
+  }
+  for (Index r = 3; r < 9; ++r) {
+    for (Index c = 40; c < 46; ++c) clamp.at(r, c) += 60.0;
+  }
+  for (Index k = 0; k < 25; ++k) dust.at((7 * k + 3) % kGrid.rows, (11 * k + 5) % kGrid.cols) += 50000.0;
+  EXPECT_EQ(checked(edges).fault, "");
+  EXPECT_EQ(checked(clamp).fault, "");
+  EXPECT_EQ(checked(dust).fault, "");
+}
+
+TEST(OrientationCheck, KnowsATransposedMapWhoseOriginIsItsCorner) {
+  // What an instrument gives that starts counting at the corner: the part is not square, and its middle lies elsewhere.
+  HeightMap before = before_run(), after = after_removal([](Point p) { return 0.9 * removal_at(p); });
+  HeightMap predicted = map_on(kWide, removal_at);
+  const Point corner = kGrid.origin;
+  for (HeightMap* map : {&before, &after, &predicted}) map->grid.origin = map->grid.origin - corner;
+  HeightMap turned = turn_map(after, GridTurn::Transpose);
+  turned.grid.origin = {0.0, 0.0};
+  const HeightMap on_part = warp_map(turned, {}, before.grid);
+  const OrientationCheck check =
+      check_orientation(before, turned, removed_by(before, on_part), predicted, {true, true}, {4.0, 0.7}, 1);
+  EXPECT_NE(check.fault.find("with x and y exchanged"), std::string::npos) << check.fault;
+  EXPECT_NE(check.fault.find("--step 'transpose; fiducials:shift"), std::string::npos) << check.fault;
+}
+
 TEST(OrientationCheck, SaysNothingOfARemovalThatIsAlikeUnderAFlip) {
   const auto even = [](Point p) { return 30.0 * std::cos(0.2 * p.x) * std::cos(0.25 * p.y); };
   const HeightMap before = map_on(kGrid, [&](Point p) { return 1.1 * even(p) + 2.0 * std::sin(p.x + 0.4 * p.y); });
   HeightMap after = before;
   for (Index i = 0; i < kGrid.size(); ++i) after.values[static_cast<std::size_t>(i)] -= even(kGrid.centre(i));
-  EXPECT_EQ(check_orientation(before, after, map_on(kWide, even), {true, true}, {4.0, 0.7}, 1).fault, "");
+  EXPECT_EQ(
+      check_orientation(before, after, removed_by(before, after), map_on(kWide, even), {true, true}, {4.0, 0.7}, 1)
+          .fault,
+      "");
 }
 
 }  // namespace
