@@ -12,6 +12,7 @@
 #include "core/numerics/plane_transform.h"
 #include "runs/figure/moved_program.h"
 #include "runs/figure/tool_removal.h"
+#include "solvers/fits/spike_removal.h"
 
 namespace dwell {
 namespace {
@@ -78,7 +79,10 @@ HeightMap covered_removal(const Part& part, RemovalComparison& result) {
 RemovalComparison compare_removal(const Part& part, const MeasuredRun& run, const Progress& progress) {
   RemovalComparison result;
   const bool same_grid = grid_difference(part.map.grid, run.after.grid).empty();
-  result.after = same_grid ? run.after : warp_map(run.after, {}, part.map.grid, part.threads, progress);
+  // Between its pixels a spline rings around dust: what stands alone is left out before.
+  result.after = same_grid ? run.after
+                           : warp_map(without_spikes(run.after, part.threads, progress).first, {}, part.map.grid,
+                                      part.threads, progress);
   const HeightMap removed = covered_removal(part, result);
   result.measured = without_form(removed, part.form, part.threads);
   result.left = map_statistics(result.after, part.form, part.threads);

@@ -168,6 +168,18 @@ std::string nothing_removed(const RemovalComparison& comparison, const Part& par
       measured, predicted);
 }
 
+/// Says so where what was removed has next to nothing to do with what was to be.
+std::string unrelated(const RemovalComparison& comparison) {
+  const double measured = comparison.registration.measured_rms, unexplained = comparison.split.unexplained;
+  constexpr double kUnrelated = 0.8;
+  if (!(unexplained > kUnrelated * measured)) return "";
+  return fmt::format(
+      "{:.4g} of {:.4g} nm RMS that were removed have nothing to do with what was to be removed: is this the map of "
+      "this "
+      "part, in the unit that is taken for it, and was it this program that was run (--plan N)?",
+      unexplained, measured);
+}
+
 LessonPolicy policy_of(const Measurement& measurement, const FigureState& state, const PlanThatRan& plan,
                        const MeasuredStep& step) {
   LessonPolicy policy = measurement.policy;
@@ -188,7 +200,7 @@ LessonPolicy policy_of(const Measurement& measurement, const FigureState& state,
 std::vector<std::string> warnings_of(const MeasuredStep& step) {
   std::vector<std::string> warnings;
   const RemovalComparison& c = step.comparison;
-  constexpr double kWhole = 0.98, kHalf = 0.5, kScale = 3e-3;
+  constexpr double kWhole = 0.9, kHalf = 0.5, kScale = 3e-3;
   if (c.covered < kWhole) {
     warnings.push_back(fmt::format(
         "the map has only {:.3g} % of the part's pixels before: the next plan is of these alone", 100.0 * c.covered));
@@ -250,6 +262,7 @@ MeasuredStep add_measurement(RunFolder& run, const FigureState& state, const Mea
   step.seconds = planned.content.at("run_s");
   step.fault = measurement.orientation_is_known ? "" : step.comparison.orientation.fault;
   if (step.fault.empty()) step.fault = nothing_removed(step.comparison, part);
+  if (step.fault.empty() && !measurement.orientation_is_known) step.fault = unrelated(step.comparison);
   if (!step.fault.empty()) return step;
   step.lesson = learn_from(step.comparison.registration, part.tif.fwhm, policy_of(measurement, state, plan, step));
   step.fault = step.lesson.orientation_fault;
