@@ -87,5 +87,41 @@ TEST(ToolLesson, NeverTakesWhatWasNotFitted) {
   EXPECT_EQ(learn_from(bare, 10.0).rate, 1.0);
 }
 
+TEST(ToolLesson, WeighsARateWithWhatWasKnown) {
+  LessonPolicy later;
+  later.expected_rate_change = 0.05;
+  RemovalRegistration vague = found();
+  vague.rate = {1.3, 0.15};  // what little was removed does not say more
+  const ToolLesson lesson = learn_from(vague, 10.0, later);
+  EXPECT_NEAR(lesson.rate, 1.0 + 0.3 * 0.1, 1e-12);  // 0.05^2 of 0.05^2 + 0.15^2
+  EXPECT_NE(lesson.decisions[0].sentence().find("weighed with what was known"), std::string::npos);
+  EXPECT_NEAR(learn_from(found(), 10.0, later).rate, 1.308, 1e-3);  // an error of 0.4 % hardly matters
+  LessonPolicy asked = later;
+  asked.taken = {LessonSubject::Rate};
+  EXPECT_NEAR(learn_from(vague, 10.0, asked).rate, 1.03, 1e-12);  // by the rule as well
+}
+
+TEST(ToolLesson, SaysWhyAFixedFrameLeavesTheShift) {
+  LessonPolicy fixed;
+  fixed.fixed = "tables say places of the part";
+  const ToolLesson lesson = learn_from(found(), 10.0, fixed);
+  EXPECT_EQ(lesson.shift, Point{});
+  EXPECT_EQ(lesson.degrees, 0.0);
+  EXPECT_EQ(lesson.rate, 1.31);
+  EXPECT_NE(lesson.decisions[2].sentence().find("left: tables say places of the part"), std::string::npos)
+      << lesson.decisions[2].sentence();
+}
+
+TEST(ToolLesson, TakesALargeTurnForAnErrorOfOrientation) {
+  RemovalRegistration turned = found();
+  turned.degrees = {8.0, 0.1};
+  const ToolLesson lesson = learn_from(turned, 10.0);
+  EXPECT_NE(lesson.orientation_fault.find("turned by 8"), std::string::npos) << lesson.orientation_fault;
+  EXPECT_EQ(lesson.rate, 1.0);
+  LessonPolicy known;
+  known.left = {LessonSubject::Rotation};
+  EXPECT_EQ(learn_from(turned, 10.0, known).orientation_fault, "");
+}
+
 }  // namespace
 }  // namespace dwell
