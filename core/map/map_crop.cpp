@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/base/errors.h"
 
@@ -36,6 +37,16 @@ HeightMap part_of(const HeightMap& map, Span rows, Span cols) {
 }
 
 }  // namespace
+
+Point middle_of_data(const HeightMap& map) {
+  Point low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, high = -1.0 * low;
+  for (const Index i : finite_pixels(map)) {
+    const Point p = map.grid.centre(i);
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+  return midpoint(low, high);
+}
 
 HeightMap crop(const HeightMap& map, Point low, Point high) {
   const Grid& g = map.grid;

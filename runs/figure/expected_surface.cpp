@@ -12,7 +12,7 @@ namespace dwell {
 namespace {
 
 Program motion_of(const PlannedJob& plan, const Progress& progress) {
-  const Program program = plan.program.motion ? *plan.program.motion : program_of(plan.program.table);
+  Program program = plan.program.motion ? *plan.program.motion : program_of(plan.program.table);
   if (!plan.job.machine) return program;
   return execute(program, machine_for_program(plan.job.machine->machine, plan.job.options), progress).motion;
 }

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/base/grid_limit.h"
+#include "core/map/map_crop.h"
 #include "core/map/map_sampler.h"
 #include "core/numerics/median.h"
 #include "core/numerics/plane_transform.h"
@@ -42,16 +43,6 @@ PlaneTransform about(const Lie& lie, Point middle) {
   PlaneTransform transform{lie.xx, lie.xy, lie.yx, lie.yy, {}};
   transform.shift = middle - transform(middle);
   return transform;
-}
-
-Point middle_of_part(const HeightMap& map) {
-  Point low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, high = -1.0 * low;
-  for (const Index i : finite_pixels(map)) {
-    const Point p = map.grid.centre(i);
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-  }
-  return midpoint(low, high);
 }
 
 /// A pixel at which removals are compared.
@@ -183,8 +174,8 @@ class LyingMaps {
             const FormTerms& form, int threads, const Progress& progress)
       : predicted_(predicted, progress),
         after_(without_spikes(after, threads, progress).first, progress),
-        middle_(middle_of_part(before)),
-        middle_of_after_(middle_of_part(after)),
+        middle_(middle_of_data(before)),
+        middle_of_after_(middle_of_data(after)),
         fit_(form, middle_, std::max(before.grid.width(), before.grid.height())) {
     const HeightMap clear = without_spikes(removed, threads, progress).first;
     fine_ = some_places(before, clear, 4000);

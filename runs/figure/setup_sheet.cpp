@@ -157,7 +157,7 @@ std::vector<PanelKey> key_of(const SetupSheet& sheet) {
   for (const auto& [what, value] : sheet.lines) {
     bool first = true;
     for (const std::string& line : break_into_lines(value, TextStyle{13.0}, kRoom)) {
-      key.push_back({kInk, (first ? what + ": " : std::string("      ")) + line, true});
+      key.push_back({kInk, fmt::format("{}{}", first ? what + ": " : "      ", line), true});
       first = false;
     }
   }

@@ -14,6 +14,7 @@
 
 #include "core/base/counted.h"
 #include "core/base/errors.h"
+#include "core/map/map_crop.h"
 #include "core/map/map_sampler.h"
 #include "core/numerics/dense_solve.h"
 #include "solvers/fits/robust_solve.h"
@@ -43,16 +44,6 @@ using RemovalNumbers = std::array<double, kRemovalNumbers>;
 using RemovalRow = Eigen::Matrix<double, kRemovalNumbers, 1>;
 
 constexpr double kRadians = std::numbers::pi / 180.0;
-
-Point middle_of_data(const HeightMap& map) {
-  Point low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, high = -1.0 * low;
-  for (const Index i : finite_pixels(map)) {
-    const Point p = map.grid.centre(i);
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-  }
-  return midpoint(low, high);
-}
 
 /// A form term of the level at a place [mm] counted from the middle.
 double form_at(int term, Point p) {

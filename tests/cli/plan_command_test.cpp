@@ -38,7 +38,7 @@ TEST(PlanCommand, WritesEveryFileAndPrintsWhatItDid) {
   }
   for (const char* file : {"learnt.csv", "learnt_removal.npy", "learnt_removal.npy.json"}) files.erase(file);  // --log
   for (const char* file : {"remaining.npy", "remaining.npy.json"}) files.erase(file);  // --resume
-  files.erase("program_parts.csv");  // --max-lines
+  files.erase("program_parts.csv");                                                    // --max-lines
   for (const std::string& figure : figures_without_machine()) files.insert(figure + ".png");
   EXPECT_EQ(names_in(inputs / "plan"), files);
   for (const char* name : {"summary.json", "feed.csv", "program.nc"}) EXPECT_TRUE(files.contains(name)) << name;

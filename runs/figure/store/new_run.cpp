@@ -46,13 +46,13 @@ MadeRun make_run(const std::filesystem::path& folder, const NewRun& run, const P
   path_input(run.options);  // that its file is there
   const Part& part = *job.part;
   const std::vector<SurfaceVerdict> verdicts = judge_surface(part.map, part.form, limits, part.threads, progress);
-  const nlohmann::ordered_json content{{"target", run.target},
-                                       {"bands", run.bands},
-                                       {"removed", to_string(part.form)},
-                                       {"before", statistics_record(part.before)},
-                                       {"verdicts", verdict_records(verdicts)},
-                                       {"map", grid_block(part.map.grid)},
-                                       {"tool", {{"fwhm_mm", part.tif.fwhm}, {"peak_nm_per_s", part.tif.peak}}}};
+  nlohmann::ordered_json content{{"target", run.target},
+                                 {"bands", run.bands},
+                                 {"removed", to_string(part.form)},
+                                 {"before", statistics_record(part.before)},
+                                 {"verdicts", verdict_records(verdicts)},
+                                 {"map", grid_block(part.map.grid)},
+                                 {"tool", {{"fwhm_mm", part.tif.fwhm}, {"peak_nm_per_s", part.tif.peak}}}};
   progress.step("writing");
   RunFolder made = make_run_folder(folder, [&](const OutputFolder& step) {
     JobOptions kept = keep_inputs(run.options, step);
