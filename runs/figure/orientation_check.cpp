@@ -97,10 +97,17 @@ double robust_spread(const Eigen::VectorXd& v) {
   return kSigmaPerMedianDeviation * upper_median(std::move(values));
 }
 
-/// Holds values that no removal makes (dust, clamps) to what the others span.
-void hold_outliers(Eigen::VectorXd& v) {
-  constexpr double kSpan = 4.0;  // robust standard deviations
-  const double most = kSpan * robust_spread(v);
+double standard_deviation(const Eigen::VectorXd& v) {
+  const std::vector<double> values = finite_values(v);
+  const auto finite = Eigen::Map<const Eigen::ArrayXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+  return values.empty() ? 0.0 : std::sqrt((finite - finite.mean()).square().mean());
+}
+
+/// Holds values that no removal makes (dust, clamps) to what the others span, or the predicted ones: where most of a
+/// part is left alone, what is removed is itself far from the median.
+void hold_outliers(Eigen::VectorXd& v, const Eigen::VectorXd& predicted) {
+  constexpr double kSpan = 4.0;  // standard deviations
+  const double most = kSpan * std::max(robust_spread(v), standard_deviation(predicted));
   if (!std::isfinite(most)) return;
   const double middle = upper_median(finite_values(v));
   for (double& value : v) {
@@ -135,7 +142,7 @@ class RateFit {
     const Eigen::MatrixXd q = basis.topLeftCorner(rows, terms);
     // Fitted to what a removal may be, judged by what was measured.
     Eigen::VectorXd held = d.head(rows);
-    hold_outliers(held);
+    hold_outliers(held, p.head(rows));
     const Eigen::VectorXd level = level_of(q, held), mp = p.head(rows) - level_of(q, p.head(rows));
     const double square = mp.squaredNorm();
     const double rate = square > 0.0 ? std::max(0.0, (held - level).dot(mp) / square) : 0.0;  // a tool does not add
@@ -181,7 +188,7 @@ class LyingMaps {
     fine_ = some_places(before, clear, 4000);
     coarse_ = some_places(before, clear, 500);
     thought_ = removal_values(fine_, {}, {});
-    fit_.limit_sizes(0.5 * robust_spread(thought_.measured));
+    fit_.limit_sizes(0.5 * std::max(robust_spread(thought_.measured), standard_deviation(thought_.predicted)));
   }
 
   /// How well what was removed fits, lying so and shifted as it fits best, by steps up to the reach [mm].

@@ -161,7 +161,7 @@ std::string nothing_removed(const RemovalComparison& comparison, const Part& par
   const double predicted = map_statistics(comparison.predicted, part.form, part.threads).rms_about_zero();
   const double measured = comparison.registration.measured_rms;
   constexpr double kNothing = 0.05;
-  if (!(measured < kNothing * predicted)) return "";
+  if (measured >= kNothing * predicted) return "";
   return fmt::format(
       "next to nothing was removed: {:.3g} nm RMS where {:.4g} were to be; is this the map from before the run, or was "
       "the program not run?",
@@ -172,7 +172,7 @@ std::string nothing_removed(const RemovalComparison& comparison, const Part& par
 std::string unrelated(const RemovalComparison& comparison) {
   const double measured = comparison.registration.measured_rms, unexplained = comparison.split.unexplained;
   constexpr double kUnrelated = 0.8;
-  if (!(unexplained > kUnrelated * measured)) return "";
+  if (unexplained <= kUnrelated * measured) return "";
   return fmt::format(
       "{:.4g} of {:.4g} nm RMS that were removed have nothing to do with what was to be removed: is this the map of "
       "this "
@@ -201,17 +201,17 @@ std::vector<std::string> warnings_of(const MeasuredStep& step) {
   std::vector<std::string> warnings;
   const RemovalComparison& c = step.comparison;
   constexpr double kWhole = 0.9, kHalf = 0.5, kScale = 3e-3;
-  if (c.covered < kWhole) {
+  if (!(c.covered >= kWhole)) {
     warnings.push_back(fmt::format(
         "the map has only {:.3g} % of the part's pixels before: the next plan is of these alone", 100.0 * c.covered));
   }
-  if (c.split.unexplained > kHalf * c.registration.measured_rms) {
+  if (!(c.split.unexplained <= kHalf * c.registration.measured_rms)) {
     warnings.push_back(
         fmt::format("{:.4g} of {:.4g} nm RMS that were removed are not explained by tool and place: look at "
                     "removal.png before anything is made of it",
                     c.split.unexplained, c.registration.measured_rms));
   }
-  if (step.after.rms_about_zero() < kHalf * step.predicted.rms_about_zero()) {
+  if (!(step.after.rms_about_zero() >= kHalf * step.predicted.rms_about_zero())) {
     warnings.push_back(
         fmt::format("{:.4g} nm RMS are left, less than half of the {:.4g} that were predicted: is the unit of "
                     "the map right?",

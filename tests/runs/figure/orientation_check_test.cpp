@@ -139,6 +139,25 @@ TEST(OrientationCheck, KnowsATransposedMapWhoseOriginIsItsCorner) {
   EXPECT_NE(check.fault.find("--step 'transpose; fiducials:shift"), std::string::npos) << check.fault;
 }
 
+TEST(OrientationCheck, SeesWhereASingleBumpWasRemoved) {
+  // Most of the part is left alone: the median of what was removed says nothing of the bump.
+  const auto bump = [](Point p) {  // of no symmetry of its own
+    const double x = p.x - 6.0, y = p.y + 4.0, u = x - 3.0, v = y - 2.0;
+    return 80.0 * std::exp(-0.1 * x * x - 0.5 * y * y) + 40.0 * std::exp(-0.4 * (u * u + v * v));
+  };
+  const auto noise = [](Point p) { return 0.1 * std::sin(37.0 * p.x + 91.0 * p.y * p.y); };
+  const HeightMap before = map_on(kGrid, [&](Point p) { return bump(p) + noise(p); });
+  const auto check = [&](const std::function<double(Point)>& removal) {
+    HeightMap after = before;
+    for (Index i = 0; i < kGrid.size(); ++i) after.values[static_cast<std::size_t>(i)] -= removal(kGrid.centre(i));
+    return check_orientation(before, after, removed_by(before, after), map_on(kWide, bump), {true, true}, {4.0, 0.7},
+                             1);
+  };
+  EXPECT_EQ(check([&](Point p) { return 0.9 * bump(p) + noise(p); }).fault, "");
+  const std::string fault = check([&](Point p) { return bump({-p.x, p.y}) + noise(p); }).fault;
+  EXPECT_NE(fault.find("flipped left for right"), std::string::npos) << fault;
+}
+
 TEST(OrientationCheck, SaysNothingOfARemovalThatIsAlikeUnderAFlip) {
   const auto even = [](Point p) { return 30.0 * std::cos(0.2 * p.x) * std::cos(0.25 * p.y); };
   const HeightMap before = map_on(kGrid, [&](Point p) { return 1.1 * even(p) + 2.0 * std::sin(p.x + 0.4 * p.y); });
