@@ -27,6 +27,17 @@ function(dwell_group_by_room target)
   endforeach()
 endfunction()
 
+# Eigen's products are inline functions that differ with the compiler's flags, and the linker keeps one of each: all that
+# is linked together must have the same. Where some sources have OpenMP and others do not, products are silently wrong:
+# the threads of one half run the body of the other, each over all of the matrix. So no product has threads of its own,
+# with or without OpenMP. And Eigen aligns its arrays by the instruction set. Both hold for users of the libraries too.
+function(dwell_one_eigen target)
+  target_compile_definitions(${target} PUBLIC EIGEN_DONT_PARALLELIZE)
+  if(DWELL_NATIVE)
+    target_compile_options(${target} PUBLIC -march=native)
+  endif()
+endfunction()
+
 function(dwell_library name)
   cmake_parse_arguments(ARG "" "" "PUBLIC;PRIVATE" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp)
@@ -39,11 +50,8 @@ function(dwell_library name)
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_compile_features(dwell_${name} PUBLIC cxx_std_20)
   target_compile_definitions(dwell_${name} PRIVATE DWELL_VERSION="${PROJECT_VERSION}")
+  dwell_one_eigen(dwell_${name})
   target_link_libraries(dwell_${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
-  if(DWELL_NATIVE)
-    # For users as well: Eigen aligns its arrays by the instruction set, so both sides must compile for the same one.
-    target_compile_options(dwell_${name} PUBLIC -march=native)
-  endif()
   dwell_compile_options(dwell_${name})
   dwell_group_by_room(dwell_${name} ${sources})
 endfunction()

@@ -6,6 +6,12 @@
 
 #include "core/base/grid.h"
 
+// Eigen's products are inline functions, of which the linker keeps one: compiled with threads here and without there,
+// they are silently wrong (cmake/DwellTargets.cmake). Whoever links dwell without its CMake targets learns it here.
+#ifdef EIGEN_HAS_OPENMP
+#error "dwell needs EIGEN_DONT_PARALLELIZE defined in everything that includes Eigen and is linked with it"
+#endif
+
 namespace dwell {
 
 using Vector = Eigen::VectorXd;
