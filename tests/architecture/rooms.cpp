@@ -44,6 +44,7 @@ const std::map<std::string, RoomRanks>& room_ranks() {
         {"plan", 1},
         {"map_steps", 1},
         {"profile", 1},
+        {"tools", 2},
         {"job", 2},
         {"reports", 3},
         {"example", 3},

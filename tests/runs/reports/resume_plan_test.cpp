@@ -202,6 +202,17 @@ TEST(ResumePlan, RefusesWhatIsNotWithinTheWork) {
 struct LoggedJob : StoppedJob {
   MotionLog log;
 
+  /// What a stop and a new start add at most, as a share of the largest removal: the tool settles once as it comes down
+  /// and once more where the rest begins with a straight piece, which ends with a lift (rest_of_path.h), all of it at
+  /// its peak rate. To lose and to gain speed takes a twentieth of that here.
+  double share_of_start() const {
+    const double peak = 10.0;  // nm/s, of the small job's tool
+    const HeightMap all = removal_of(read_program(file("plan/program.nc")));
+    double largest = 0.0;
+    for (const double depth : all.values) largest = std::isfinite(depth) ? std::max(largest, depth) : largest;
+    return 1.05 * 2.0 * peak * example_machine().machine.lift.settle / largest;
+  }
+
   LoggedJob() {
     options.machine = folder.file("machine.toml", machine_text(example_machine())).string();
     plan();
@@ -227,14 +238,14 @@ TEST(ResumePlan, GoesOnWhereTheLogEnds) {
   EXPECT_NEAR(block["place_mm"][0].get<double>(), place.x, 0.01);
   EXPECT_NEAR(block["place_mm"][1].get<double>(), place.y, 0.01);
   // The tool starts again from rest.
-  EXPECT_LT(job.deviation(), 0.03);
+  EXPECT_LT(job.deviation(), job.share_of_start());
   EXPECT_LT(rest.exact.statistics.rms, 0.05 * load_job(job.options).part->before.rms);
 }
 
 TEST(ResumePlan, RunsUpToALineAsTheMachineDoes) {
   LoggedJob job;
   const WrittenPlan rest = job.resume(job.line_of_step(straight_step(job.steps().program)));
-  EXPECT_LT(job.deviation(), 0.03);  // it stops and starts again
+  EXPECT_LT(job.deviation(), job.share_of_start());  // it stops and starts again
   EXPECT_EQ(nlohmann::json::parse(rest.summary)["solve"]["status"], "not run");
 }
 
