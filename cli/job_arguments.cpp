@@ -14,6 +14,7 @@
 #include "runs/job/keep_out_option.h"
 #include "runs/job/line_profile_map.h"
 #include "runs/job/pixel_weight_option.h"
+#include "runs/job/tool_option.h"
 #include "runs/machine/machine_option.h"
 #include "runs/map_steps/map_steps.h"
 #include "runs/programs/shipped_templates.h"
@@ -37,14 +38,16 @@ JobArguments::JobArguments(CLI::App& command, const std::vector<std::string>& fl
     const std::string fallback = record.get(defaults);
     const std::string help = fallback.empty() ? record.help : fmt::format("{} (default {})", record.help, fallback);
     CLI::Option* option = command.add_option("--" + record.flag, help)->type_name(record.value);
+    takes_tools_ = takes_tools_ || record.flag == "tool";
     given_.push_back({&record, record.alone.empty() ? option->expected(1) : option->expected(0, 1)});
-    if (record.takes_list) option->take_all();  // given several times, its parts follow one another
+    if (record.takes_list || record.repeats) option->take_all();  // its parts or lines follow one another
   }
 }
 
 JobOptions JobArguments::options() const {
   JobOptions options;
   if (!job_.empty()) read_job_file(job_, options);
+  if (!takes_tools_) refuse_tools(options, "this command");
   return options_over(std::move(options));
 }
 
@@ -56,7 +59,7 @@ JobOptions JobArguments::options_over(JobOptions options) const {
   }
   for (const Given& given : given_) {
     if (given.option->count() == 0) continue;
-    std::string text = fmt::format("{}", fmt::join(given.option->results(), ";"));
+    std::string text = fmt::format("{}", fmt::join(given.option->results(), given.record->repeats ? "\n" : ";"));
     const bool is_alone = text.empty() || text == "true";  // as CLI11 has it
     if (is_alone && !given.record->alone.empty()) text = given.record->alone;
     set_job_option(options, *given.record, text, "--" + given.record->flag);
@@ -97,13 +100,23 @@ std::vector<const JobOptionRecord*> JobArguments::given() const {
   return records;
 }
 
+namespace {
+
+/// The files that say what a tool is and where it goes.
+std::vector<ReadFile> files_of_tool(const JobOptions& options) {
+  std::vector<ReadFile> read{{"the removal function", options.tif},
+                             {"the machine", is_inline_machine(options.machine) ? "" : options.machine}};
+  if (const auto* path = options.path.get_if<PathFromFile>()) read.push_back({"the path", path->file.string()});
+  return read;
+}
+
+}  // namespace
+
 std::vector<ReadFile> JobArguments::files_read(const JobOptions& options) const {
   std::vector<ReadFile> read{{"the job file", job_},
                              {"the map", options.map},
                              {"the line profile", options.line_profile},
                              {"the removal", options.removal},
-                             {"the removal function", options.tif},
-                             {"the machine", is_inline_machine(options.machine) ? "" : options.machine},
                              {"the header", options.header},
                              {"the footer", options.footer},
                              {"the log", split_map_name(options.log).file.string()}};
@@ -111,7 +124,14 @@ std::vector<ReadFile> JobArguments::files_read(const JobOptions& options) const 
     read.push_back({"the log's plan", (std::filesystem::path(options.log_plan) / "summary.json").string()});
   if (!options.program_template.empty() && !is_shipped_template(options.program_template))
     read.push_back({"the template", options.program_template});
-  if (const auto* path = options.path.get_if<PathFromFile>()) read.push_back({"the path", path->file.string()});
+  for (ReadFile& file : files_of_tool(options)) read.push_back(std::move(file));
+  if (!options.tools.empty()) {
+    for (const ToolOption& tool : parse_tool_options(options.tools)) {
+      JobOptions own;
+      for (const auto& [record, value] : tool.values) record->set(own, value);
+      for (ReadFile& file : files_of_tool(own)) read.push_back(std::move(file));
+    }
+  }
   for (const std::string& file : keep_out_files(options.keep_out)) read.push_back({"the zones", file});
   for (const std::string& file : pixel_weight_files(options.weight)) read.push_back({"the weights", file});
   for (const std::string* steps : {&options.map_steps, &options.tif_steps}) {

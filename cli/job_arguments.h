@@ -41,6 +41,7 @@ class JobArguments {
   };
   std::vector<Given> given_;
   std::string job_;
+  bool takes_tools_ = false;
 };
 
 /// All flags of the table.

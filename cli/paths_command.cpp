@@ -67,6 +67,7 @@ int run_paths(const PathsArguments& arguments) {
 std::vector<std::string> flags_but_path() {
   std::vector<std::string> flags = every_flag();
   std::erase(flags, "path");
+  std::erase(flags, "tool");
   return flags;
 }
 

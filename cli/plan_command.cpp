@@ -16,6 +16,7 @@
 #include "core/base/duration_text.h"
 #include "core/base/errors.h"
 #include "core/base/units.h"
+#include "runs/campaigns/joint_plan_output.h"
 #include "runs/job/job_file.h"
 #include "runs/job/program_style.h"
 #include "runs/programs/program_block.h"
@@ -198,6 +199,20 @@ void check_resume_options(const PlanArguments& arguments) {
   }
 }
 
+/// Several tools on one surface, a plan each.
+int run_joint_plan(const PlanArguments& arguments, const JobOptions& options) {
+  JobArguments::require(options, {"map", "out"});
+  const std::vector<ReadFile> read = arguments.job->files_read(options);
+  arguments.json.check(read, options.out);
+  OutputFolder folder = arguments.folder.make(options.out, joint_plan_files(), read);
+  const JointPlan plan = plan_tools(options, folder, terminal_progress());
+  const std::string json = write_joint_plan(plan, folder);
+  folder.commit();
+  finish_progress();
+  arguments.json.deliver(json, joint_plan_text(plan) + fmt::format("written   {}\n", options.out));
+  return say_limits(plan.limits);
+}
+
 int run_plan(const PlanArguments& arguments) {
   const bool resumes = !arguments.resume.empty();
   if (resumes) check_resume_options(arguments);
@@ -206,6 +221,7 @@ int run_plan(const PlanArguments& arguments) {
     print(job_file_text(options));
     return kDone;
   }
+  if (!resumes && !options.tools.empty()) return run_joint_plan(arguments, options);
   if (resumes) {
     JobArguments::require(options, {"log-plan", "out"});
   } else {
@@ -246,6 +262,9 @@ void add_plan_command(CLI::App& program, int& exit_code) {
       "Example:\n"
       "  dwell plan --map mirror.csv --map-pixel 0.0938 --tif spot.csv --tif-pixel 0.0938 \\\n"
       "             --path raster:pitch=1 --max-feed 3000 --out plan/\n"
+      "  dwell plan --map mirror.csv --map-pixel 0.0938 --out tools/ \\\n"
+      "             --tool 'large;tif=gaussian:peak=40,fwhm=8,radius=12;path=raster:pitch=2' \\\n"
+      "             --tool 'small;tif=gaussian:peak=8,fwhm=2,radius=3;path=raster:pitch=0.5;change-over=10min'\n"
       "  dwell plan --log-plan plan/ --log run.csv --machine machine.toml --out next/\n"
       "  dwell plan --resume 1234 --log-plan plan/ --out rest/\n"
       "Exit codes: 0 done, 1 internal fault, 2 bad usage or input, 3 done but a limit was reached, 130 interrupted.");

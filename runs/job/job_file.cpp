@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
+#include <algorithm>
 #include <optional>
 #include <sstream>
 
@@ -15,6 +16,7 @@
 #include "core/tif/models/removal_models.h"
 #include "runs/job/keep_out_option.h"
 #include "runs/job/pixel_weight_option.h"
+#include "runs/job/tool_option.h"
 #include "runs/machine/machine_option.h"
 #include "runs/machine/machine_table.h"
 #include "runs/map_steps/map_steps.h"
@@ -46,7 +48,48 @@ std::optional<std::string> joined(const toml::node& node) {
   return text;
 }
 
+/// A tool of a job, [[tool]] with its name and its own options by their fields, as --tool has it.
+std::string tool_text(const toml::table& fields, const std::string& source) {
+  const auto name = fields["name"].value<std::string>();
+  if (!name) throw InputError(fmt::format("{}: a [[tool]] without `name`; required one (in quotes)", source));
+  std::string text = *name;
+  for (const auto& [key, node] : fields) {
+    const std::string field(key.str());
+    if (field == "name") continue;
+    const auto& table = job_option_table();
+    const auto record = std::find_if(table.begin(), table.end(), [&](const auto& row) { return row.key == field; });
+    std::string word = record == table.end() ? field : record->flag, value;
+    if (field == "change_over") word = "change-over";
+    if (const auto number = node.value<double>()) value = fmt::format("{}", *number);
+    if (const auto string = node.value<std::string>()) value = *string;
+    if (const auto* machine = node.as_table(); machine && field == "machine") {
+      machine_of_table(*machine, source);
+      value = inline_machine_text(*machine);
+    }
+    if (value.find(';') != std::string::npos || value.find('\n') != std::string::npos)
+      throw InputError(fmt::format("{}: {} = '{}'; required a value without semicolons and line breaks", source, field, value));
+    text += fmt::format(";{}={}", word, value);
+  }
+  return text;
+}
+
+/// Several values of an option: a list of strings, or of tables; nothing if it is neither.
+std::optional<std::string> lines_of(const toml::node& node, const std::string& source) {
+  const toml::array* list = node.as_array();
+  if (!list || list->empty()) return std::nullopt;
+  std::string text;
+  for (const toml::node& part : *list) {
+    const toml::table* fields = part.as_table();
+    if (!fields && !part.is_string()) return std::nullopt;
+    text += (text.empty() ? "" : "\n") + (fields ? tool_text(*fields, source) : part.as_string()->get());
+  }
+  return text;
+}
+
 std::string text_of(const toml::node& node, const JobOptionRecord& record, const std::string& source) {
+  if (record.repeats) {
+    if (const auto text = lines_of(node, source)) return *text;
+  }
   if (record.takes_list) {
     if (const auto text = joined(node)) return *text;
   }
@@ -68,7 +111,8 @@ std::string text_of(const toml::node& node, const JobOptionRecord& record, const
       if constexpr (toml::is_value<decltype(v)>) value << ' ' << v;
     });
   throw InputError(fmt::format("{}:{} is of type {}; required {}", source, value.str(), type.str(),
-                               record.takes_list    ? "a string, or a list of strings, (in quotes)"
+                               record.repeats       ? "tables [[tool]], or a list of strings"
+                               : record.takes_list  ? "a string, or a list of strings, (in quotes)"
                                : record.takes_words ? "a number (without quotes) or words (in quotes)"
                                : record.is_number   ? "a number (without quotes)"
                                                     : "a string (in quotes)"));
@@ -116,6 +160,7 @@ std::string renamed_option(const JobOptionRecord& record, const std::string& val
     }
   }
   if (record.key == "keep_out") return renamed_keep_out(value, name);
+  if (record.key == "tool") return renamed_tool_options(value, name);
   if (record.key == "weight") return renamed_pixel_weights(value, name);
   constexpr std::string_view kPathFile = "file:";
   if (record.key == "path" && value.starts_with(kPathFile) && value != kPathFile)
@@ -169,6 +214,12 @@ std::string job_file_text(const JobOptions& options) {
     text += fmt::format("\n# {}\n", record.help);
     if (value.empty()) {
       text += fmt::format("# {} = {}\n", record.key, record.is_number ? "" : "\"\"");
+    } else if (record.repeats) {
+      toml::array list;
+      for (const std::string_view line : split(value, '\n')) list.push_back(std::string(line));
+      std::ostringstream lines;
+      lines << list;
+      text += fmt::format("{} = {}\n", record.key, lines.str());
     } else {
       const bool in_quotes = takes_text(record, value) && !(record.key == "machine" && is_inline_machine(value));
       text += fmt::format("{} = {}\n", record.key, in_quotes ? quoted.str() : value);

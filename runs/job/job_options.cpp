@@ -22,6 +22,7 @@
 #include "runs/job/keep_out_option.h"
 #include "runs/job/place_option.h"
 #include "runs/job/scatter_option.h"
+#include "runs/job/tool_option.h"
 #include "runs/machine/machine_option.h"
 #include "runs/map_steps/map_steps.h"
 #include "runs/programs/gcode_dialect.h"
@@ -67,7 +68,6 @@ int whole(const std::string& text) {
   throw InputError(fmt::format("'{}'; required a whole number from 0 to 1024", text));
 }
 
-/// A number as the job file and the summary write it: the shortest that reads back equal.
 /// A share in per cent, with its sign so that 1 and 0.01 cannot be mistaken for each other; "off" is 0.
 double proof_share(const std::string& text) {
   constexpr ValueRange kShares{1e-4, 1000.0, "%"};
@@ -94,7 +94,6 @@ std::string solver_words() {
 }
 
 using Options = JobOptions;
-
 /// The removal models besides the two that the help shows with their keys.
 std::string other_models() {
   std::string names;
@@ -372,6 +371,7 @@ std::vector<JobOptionRecord> make_table() {
   };
   insert_after("lift-height", program_option_records());
   insert_after("map-steps", profile_option_records());
+  insert_after("path", tool_option_records());
   insert_after("aperture", fit_option_records());
   insert_after("rounds", log_option_records());
   return table;

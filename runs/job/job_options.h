@@ -65,6 +65,7 @@ struct JobOptions {
   ToolOrientation::Flip tif_flip = ToolOrientation::Flip::None;
   double tif_rate = 1.0, tif_width = 1.0;  // over those of the file or the formula
   PathSpec path;
+  std::string tools;     // several that work together (tool_option.h), one a line; empty: the one above
   std::string keep_out;  // areas that the tool does not enter while it is down: AREA;AREA;...
   Motion motion = Motion::Moving;
   FormTerms remove{true, true};
@@ -129,6 +130,8 @@ struct JobOptionRecord {
   bool takes_list = false;
   /// What an option means on the command line that stands there without a value; empty: it needs one.
   std::string alone = {};
+  /// May be given several times; the texts are lines of one then, and strings or tables of a list in a job file.
+  bool repeats = false;
 };
 
 const std::vector<JobOptionRecord>& job_option_table();

@@ -4,6 +4,7 @@
 #include "runs/programs/gcode_parts.h"
 #include "runs/programs/program_formats.h"
 #include "runs/programs/program_template.h"
+#include "runs/reports/another_surface.h"
 #include "runs/reports/resume_plan.h"
 
 namespace dwell {
@@ -13,7 +14,7 @@ ResultFiles make_plan_files() {
   ResultFiles files{"plan",
                     "summary.json",
                     {"residual.npy", "residual.npy.json", "dwell.npy", "search.csv", kLateFile, kLearntRemovalFile,
-                     kLearntRemovalSidecar, kRemainingMap, kRemainingSidecar},
+                     kLearntRemovalSidecar, kRemainingMap, kRemainingSidecar, kToolSurface, kToolSurfaceSidecar},
                     {"before", "after", "residual", "dwell", "path", "path_detail", "limits", "motion"},
                     nullptr};
   for (const ProgramFormat& format : program_formats()) {

@@ -12,7 +12,6 @@
 
 #include "core/base/errors.h"
 #include "core/base/whole_file.h"
-#include "core/formats/map_io.h"
 #include "core/formats/map_name.h"
 #include "core/removal/simulate.h"
 #include "paths/feed/execution.h"
@@ -20,7 +19,6 @@
 #include "paths/feed/lift_rests.h"
 #include "paths/feed/stroke_moves.h"
 #include "runs/job/learnt_files.h"
-#include "runs/job/line_profile_map.h"
 #include "runs/job/log_lesson.h"
 #include "runs/job/program_style.h"
 #include "runs/logs/log_alignment.h"
@@ -29,6 +27,7 @@
 #include "runs/plan/rest_of_path.h"
 #include "runs/programs/program_block.h"
 #include "runs/programs/program_reader.h"
+#include "runs/reports/another_surface.h"
 
 namespace dwell {
 namespace {
@@ -150,13 +149,17 @@ Weights weights_of_plan(const fs::path& folder) {
   return {number("smoothness"), number("time_price_nm2_per_s")};
 }
 
-/// The options of the rest: of the map that is left, with the weights as numbers, and nothing that is already done.
+/// A removal at the pixels of a map that have data, NaN at others.
+HeightMap where_measured(HeightMap removal, const HeightMap& map) {
+  for (std::size_t i = 0; i < removal.values.size(); ++i) {
+    if (!std::isfinite(map.values[i])) removal.values[i] = map.values[i];
+  }
+  return removal;
+}
+
+/// The options of the rest: with the weights as numbers, and nothing that is already done.
 JobOptions options_of_rest(JobOptions options, const Weights& weights) {
   const JobOptions none;
-  forget_line_profile(options);
-  forget_map(options);
-  options.map = (fs::path(options.out) / kRemainingMap).string();
-  options.map_steps.clear();
   options.path = parse_path_spec("file:" + (fs::path(options.out) / "feed.csv").string());
   options.smoothness = {weights.smoothness};
   options.time_price_nm2_per_s = {weights.time_price};
@@ -170,22 +173,6 @@ JobOptions options_of_rest(JobOptions options, const Weights& weights) {
   options.log_period_s.reset();
   options.log_tolerance_mm = none.log_tolerance_mm;
   return options;
-}
-
-/// The files that the rest is made from: the map that is left in the place of the measured one and of what its steps
-/// read.
-std::vector<InputFile> inputs_of_rest(const std::vector<InputFile>& inputs, const InputFile& map) {
-  std::vector<InputFile> rest;
-  bool before = true, of_map = false;
-  for (const InputFile& input : inputs) {
-    if (before && (input.role == "map" || input.role == "profile")) {
-      before = false, of_map = true;
-      rest.push_back(map);
-    }
-    if (input.role == "tif") of_map = false;
-    if (!of_map) rest.push_back(input);
-  }
-  return rest;
 }
 
 std::string uncertainty(const ResumedRun& run, bool by_log) {
@@ -224,8 +211,8 @@ PlannedJob resume_plan(const std::string& stop_text, const JobOptions& options, 
   const Part& part = *job.part;
   const Program motion = motion_of(stop, done, job, options.log_tolerance_mm, progress);
   const LatticeChoice lattice = choose_lattice(part, removing_steps(motion).strokes, progress.of_part("lattice"));
-  const HeightMap removed = simulate(motion, part.map, lattice.kernel, part.threads);
-  HeightMap left = surface_after(part.map, removed);
+  const HeightMap whole = whole_surface(part), removed = simulate(motion, whole, lattice.kernel, part.threads);
+  HeightMap left = surface_after(whole, removed);
   left.history = part.map.history;
   left.history.push_back(fmt::format("what {} had removed by {} taken off", on_disk.program.string(), stop.by));
 
@@ -243,7 +230,7 @@ PlannedJob resume_plan(const std::string& stop_text, const JobOptions& options, 
               : stop.program);
   run.way = done.removing_length();
   run.whole_way = stop.program.removing_length();
-  run.removed = map_statistics(removed, {}, part.threads);
+  run.removed = map_statistics(where_measured(removed, part.map), {}, part.threads);
   run.measured = part.before;
   if (block.removes) {
     Program one;
@@ -255,11 +242,9 @@ PlannedJob resume_plan(const std::string& stop_text, const JobOptions& options, 
   }
 
   const Weights weights = weights_of_plan(plan);
-  job.part = std::make_shared<const Part>(make_part(std::move(left), part.tif, part.form, part.threads, progress));
+  replace_surface(job, left, folder, kRemainingMap, progress);
   run.remaining = job.part->before;
-  job.options = options_of_rest(options, weights);
-  write_map(folder.path(kRemainingMap), job.part->map);
-  job.inputs = inputs_of_rest(job.inputs, {"map", job.options.map, sha256_of_file(folder.path(kRemainingMap))});
+  job.options = options_of_rest(job.options, weights);
   job.inputs.push_back({"log-program", on_disk.program.string(), on_disk.program_sha256});
   if (stop.log) job.inputs.push_back({"log", stop_text, sha256_of_file(split_map_name(stop_text).file)});
   job.notes.push_back(uncertainty(run, stop.log.has_value()));

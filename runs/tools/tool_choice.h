@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "core/base/progress.h"
+#include "runs/tools/joint_problem.h"
+#include "solvers/weights/time_worth.h"
+
+namespace dwell {
+
+/// A set of tools that was tried.
+struct TriedTools {
+  std::vector<std::size_t> tools;  // by their numbers, ascending
+  double residual_rms = 0.0;       // as the lattices have it [nm]
+  double seconds = 0.0;            // of dwell, of all of them
+  double change_over = 0.0;        // of all of them [s]
+  double cost = 0.0;               // JointDwell::cost [nm^2]
+};
+
+/// Which of several tools pay.
+struct ToolChoice {
+  double price = 0.0;              // common, of a second [nm^2/s]
+  std::optional<TimePrice> worth;  // how that was found, where it was
+  std::vector<TriedTools> tried;   // in the order of the solves: all tools first
+  std::size_t chosen = 0;          // number of the set in `tried`
+  JointDwell dwell;                // of that set
+  long applications = 0;           // of the full operators, in all solves
+  double seconds = 0.0;            // of wall clock, of all solves
+
+  const TriedTools& set() const { return tried[chosen]; }
+};
+
+/// A set of fewer tools is taken if its cost is above that of more by no more than this share: which is as well as the
+/// costs are known.
+inline constexpr double kSameCost = 1e-3;
+
+/// Finds out which tools pay: solves with all of them, then without each in turn, and goes on without the one whose
+/// loss costs least as long as the cost, in which change-over counts, does not rise. `price` is the common price of a
+/// second [nm^2/s]; nothing = by the rules. `max_seconds` bounds each solve. Throws as JointProblem. Cost: for K tools
+/// at most K (K + 1) / 2 solves; every set of two or three tools is tried that could be better.
+ToolChoice choose_tools(JointProblem& problem, std::optional<double> price, const TimeWorth& worth, double max_seconds,
+                        const Progress& progress = {});
+
+}  // namespace dwell
