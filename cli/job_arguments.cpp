@@ -126,10 +126,8 @@ std::vector<ReadFile> JobArguments::files_read(const JobOptions& options) const 
     read.push_back({"the template", options.program_template});
   for (ReadFile& file : files_of_tool(options)) read.push_back(std::move(file));
   if (!options.tools.empty()) {
-    for (const ToolOption& tool : parse_tool_options(options.tools)) {
-      JobOptions own;
-      for (const auto& [record, value] : tool.values) record->set(own, value);
-      for (ReadFile& file : files_of_tool(own)) read.push_back(std::move(file));
+    for (const ToolSpec& tool : parse_tool_specs(options.tools)) {
+      for (ReadFile& file : files_of_tool(options_of_tool({}, tool))) read.push_back(std::move(file));
     }
   }
   for (const std::string& file : keep_out_files(options.keep_out)) read.push_back({"the zones", file});

@@ -27,7 +27,7 @@ namespace {
 
 /// A tool with its files read and its path laid.
 struct LoadedTool {
-  ToolOption option;
+  ToolSpec option;
   Job job;
   LaidPath laid;
 };
@@ -43,14 +43,16 @@ void check_joint_options(const JobOptions& o) {
   if (o.certify > 0.0) refuse("`certify`", "the bound is that of one tool's plan; required off");
 }
 
-LoadedTool load_tool(const ToolOption& option, const JobOptions& common, const Progress& progress) {
+LoadedTool load_tool(const ToolSpec& option, const JobOptions& common, const Progress& progress) {
   LoadedTool tool{option, {}, {}};
   const JobOptions own = options_of_tool(common, option);
   try {
     if (own.tif.empty()) throw InputError("tif: required, its own or the job's --tif");
     if (!own.path.given()) throw InputError("path: required, its own or the job's --path");
     if (own.schedule != ScheduleKind::Constant)
-      throw InputError("schedule: what its speeds remove is not taken over by the next tool; required constant");
+      throw InputError(
+          fmt::format("`schedule` = {}: what its speeds remove is not taken over by the next tool; required constant",
+                      to_string(own.schedule)));
     check_exports(own);
     tool.job = load_job(own, progress);
     tool.laid = lay_job_path(tool.job, 0.0, progress).laid;
@@ -64,7 +66,7 @@ LoadedTool load_tool(const ToolOption& option, const JobOptions& common, const P
 /// All tools, wide ones first.
 std::vector<LoadedTool> load_tools(const JobOptions& options, const Progress& progress) {
   std::vector<LoadedTool> tools;
-  for (const ToolOption& option : parse_tool_options(options.tools))
+  for (const ToolSpec& option : parse_tool_specs(options.tools))
     tools.push_back(load_tool(option, options, progress.of_part(option.name)));
   std::stable_sort(tools.begin(), tools.end(), [](const LoadedTool& a, const LoadedTool& b) {
     return equivalent_fwhm(*a.job.part) > equivalent_fwhm(*b.job.part);
@@ -167,7 +169,7 @@ class Runs {
     run.change_over = tool.option.change_over_s;
     run.before = statistics(*tool.job.part);
     OutputFolder own(folder_.path(run.folder), plan_files());
-    Job job = job_of_run(tool, run.folder, plan_.smoothnesses[number], plan_.choice.price * tool.option.price);
+    Job job = job_of_run(tool, run.folder, plan_.smoothnesses[number], plan_.choice.set().price * tool.option.price);
     HeightMap surface = surface_for(i);
     surface.history = surface_.history;
     if (i + 1 < planned_.size())
@@ -193,14 +195,26 @@ class Runs {
   const std::vector<LoadedTool>& tools_;
   const OutputFolder& folder_;
   const Progress& progress_;
-  HeightMap surface_;                // now, all pixels with data [nm]
-  std::vector<HeightMap> planned_;   // what each tool that pays is to remove [nm]
+  HeightMap surface_;               // now, all pixels with data [nm]
+  std::vector<HeightMap> planned_;  // what each tool that pays is to remove [nm]
 };
+
+/// Says so where the machine takes longer than the total that was asked for.
+void check_total(JointPlan& plan, const WeightGoal& goal) {
+  if (goal.kind != GoalKind::TotalAtMost) return;
+  double taken = plan.change_over();
+  for (const ToolRun& run : plan.runs) taken += run.dwell;
+  constexpr double kHeld = 1e-3;
+  if (taken <= (1.0 + kHeld) * goal.value) return;
+  plan.limits.push_back(
+      fmt::format("--time-price is total<={:g} s, but dwell and change-over take {:.6g} s", goal.value, taken));
+}
 
 }  // namespace
 
 double JointPlan::change_over() const {
-  return std::accumulate(runs.begin(), runs.end(), 0.0, [](double sum, const ToolRun& r) { return sum + r.change_over; });
+  return std::accumulate(runs.begin(), runs.end(), 0.0,
+                         [](double sum, const ToolRun& r) { return sum + r.change_over; });
 }
 
 double JointPlan::seconds() const {
@@ -230,9 +244,8 @@ JointPlan plan_tools(const JobOptions& options, const OutputFolder& folder, cons
     progress.report("several tools: setting up");
     JointProblem problem(joint_tools(tools), progress);
     for (std::size_t k = 0; k < tools.size(); ++k) plan.smoothnesses.push_back(problem.smoothness(k));
-    std::optional<double> price;
-    if (options.time_price_nm2_per_s.kind == GoalKind::Fixed) price = options.time_price_nm2_per_s.value;
-    plan.choice = choose_tools(problem, price, options.time_worth, options.max_solve_s, progress);
+    plan.choice =
+        choose_tools(problem, options.time_price_nm2_per_s, options.time_worth, options.max_solve_s, progress);
   }
   if (!plan.choice.dwell.solver.converged()) {
     plan.limits.push_back(fmt::format("joint solve: {}: {}", to_string(plan.choice.dwell.solver.status),
@@ -242,6 +255,7 @@ JointPlan plan_tools(const JobOptions& options, const OutputFolder& folder, cons
   for (const ToolRun& run : plan.runs) {
     for (const std::string& limit : run.limits) plan.limits.push_back(fmt::format("{}: {}", run.folder, limit));
   }
+  check_total(plan, options.time_price_nm2_per_s);
   for (const LoadedTool& tool : tools) {
     for (const InputFile& input : tool.job.inputs) {
       const bool known = std::any_of(plan.job.inputs.begin(), plan.job.inputs.end(), [&input](const InputFile& other) {

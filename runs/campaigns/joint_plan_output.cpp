@@ -53,8 +53,18 @@ std::string verdict_line(const JointPlan& plan, std::size_t tool) {
   const std::string head = fmt::format("          {} {}", plan.names[tool], works ? "pays" : "does not pay");
   if (!other) return head + (works ? ": no other tool is left\n" : ": worse than the others in every set tried\n");
   return fmt::format("{}: {} it {:.4g} nm RMS would be left in {} of machine time, {}\n", head,
-                     works ? "without" : "with", other->residual_rms, duration_text(other->seconds + other->change_over),
+                     works ? "without" : "with", other->residual_rms,
+                     duration_text(other->seconds + other->change_over),
                      change_words(now.seconds + now.change_over, other->seconds + other->change_over));
+}
+
+bool within_total(const JointPlan& plan) { return plan.job.options.time_price_nm2_per_s.kind == GoalKind::TotalAtMost; }
+
+std::string price_words(const JointPlan& plan) {
+  if (plan.choice.worth) return ", by the rules of a plan, with all tools";
+  if (!within_total(plan)) return "";
+  return fmt::format(", the least at which dwell and change-over take no more than {:.6g} s",
+                     plan.job.options.time_price_nm2_per_s.value);
 }
 
 std::string tried_lines(const JointPlan& plan) {
@@ -70,17 +80,15 @@ std::string tried_lines(const JointPlan& plan) {
   }
   return text +
          "  Residual on the solver's lattices, before the machine's motion; cost: half the mean square that is left, "
-         "smoothness, and time at its price.\n";
+         "smoothness" +
+         (within_total(plan) ? ".\n" : ", and time at its price.\n");
 }
 
 Json set_json(const JointPlan& plan, const TriedTools& tried, bool chosen) {
   Json tools = Json::array();
   for (const std::size_t k : tried.tools) tools.push_back(plan.names[k]);
-  return {{"tools", tools},
-          {"residual_rms_nm", tried.residual_rms},
-          {"total_s", tried.seconds},
-          {"change_over_s", tried.change_over},
-          {"cost_nm2", tried.cost},
+  return {{"tools", tools},           {"time_price_nm2_per_s", tried.price}, {"residual_rms_nm", tried.residual_rms},
+          {"total_s", tried.seconds}, {"change_over_s", tried.change_over},  {"cost_nm2", tried.cost},
           {"chosen", chosen}};
 }
 
@@ -111,10 +119,10 @@ std::string joint_plan_json(const JointPlan& plan) {
   for (std::size_t k = 0; k < plan.choice.tried.size(); ++k)
     sets.push_back(set_json(plan, plan.choice.tried[k], k == plan.choice.chosen));
   for (const ToolRun& run : plan.runs) runs.push_back(run_json(plan, run));
-  Json summary = json_of_command("plan");
+  Json summary = json_of_command("plan --tool");
   summary.update({{"map", plan_map_block(plan.job)},
                   {"tools", tools},
-                  {"time_price_nm2_per_s", plan.choice.price},
+                  {"time_price_nm2_per_s", plan.choice.set().price},
                   {"sets", sets},
                   {"solve", solve_block(plan.choice.dwell.solver)},
                   {"operator_applications", plan.choice.applications},
@@ -123,9 +131,8 @@ std::string joint_plan_json(const JointPlan& plan) {
                   {"run_s", plan.seconds()},
                   {"change_over_s", plan.change_over()}});
   if (!plan.acceptance.empty()) summary["acceptance"] = acceptance_block(plan.acceptance);
-  summary.update({{"limits", plan.limits},
-                  {"options", options_json(plan.job)},
-                  {"inputs", inputs_json(plan.job.inputs)}});
+  summary.update(
+      {{"limits", plan.limits}, {"options", options_json(plan.job)}, {"inputs", inputs_json(plan.job.inputs)}});
   return json_text(std::move(summary));
 }
 
@@ -141,8 +148,7 @@ std::string joint_plan_text(const JointPlan& plan) {
                         plan.smoothnesses[k], plan.prices[k], plan.change_overs[k]);
   }
   const SolverSummary& solver = plan.choice.dwell.solver;
-  text += fmt::format("price     {:.4g} nm^2/s{}\n", plan.choice.price,
-                      plan.choice.worth ? ", by the rules of a plan, with all tools" : "");
+  text += fmt::format("price     {:.4g} nm^2/s{}\n", plan.choice.set().price, price_words(plan));
   text += fmt::format("solver    {}: {}, {}, {:.2f} s for {}\n", to_string(solver.kind), to_string(solver.status),
                       counted(plan.choice.applications, "operator application"), plan.choice.seconds,
                       counted(plan.choice.tried.size(), "set of tools", "sets of tools"));
@@ -150,12 +156,13 @@ std::string joint_plan_text(const JointPlan& plan) {
   for (std::size_t k = 0; k < plan.names.size(); ++k) text += verdict_line(plan, k);
   for (std::size_t i = 0; i < plan.runs.size(); ++i) {
     const ToolRun& run = plan.runs[i];
-    text += fmt::format("{}{}: {} -> {}, dwell {:.2f} s, program {}\n", i == 0 ? "runs      " : "          ", run.folder,
-                        rms_in_words(run.before), rms_in_words(run.left), run.dwell, duration_text(run.seconds));
+    text +=
+        fmt::format("{}{}: {} -> {}, dwell {:.2f} s, program {}\n", i == 0 ? "runs      " : "          ", run.folder,
+                    rms_in_words(run.before), rms_in_words(run.left), run.dwell, duration_text(run.seconds));
   }
   const MapStatistics& left = plan.runs.back().left;
-  text += fmt::format("program   {} after all programs, as read back and simulated one after the other\n",
-                      in_words(left));
+  text +=
+      fmt::format("program   {} after all programs, as read back and simulated one after the other\n", in_words(left));
   text += verdict_lines(plan.acceptance);
   text += fmt::format("time      {} with {} of change-over\n", duration_text(plan.seconds() + plan.change_over()),
                       duration_text(plan.change_over()));

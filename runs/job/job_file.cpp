@@ -67,7 +67,8 @@ std::string tool_text(const toml::table& fields, const std::string& source) {
       value = inline_machine_text(*machine);
     }
     if (value.find(';') != std::string::npos || value.find('\n') != std::string::npos)
-      throw InputError(fmt::format("{}: {} = '{}'; required a value without semicolons and line breaks", source, field, value));
+      throw InputError(
+          fmt::format("{}: {} = '{}'; required a value without semicolons and line breaks", source, field, value));
     text += fmt::format(";{}={}", word, value);
   }
   return text;
@@ -145,6 +146,19 @@ void note_changed_words(int schema, const std::string& source, const std::string
       source, kJobSchema));
 }
 
+/// Tools with other names for their files.
+std::string renamed_tools(const std::string& text, const FileNames& name) {
+  std::string renamed;
+  for (ToolSpec& tool : parse_tool_specs(text)) {
+    for (auto& [flag, value] : tool.values) {
+      const JobOptionRecord& record = option_of_tool(tool, flag);
+      value = renamed_option(record, value, name, fmt::format("tool '{}': {}", tool.name, flag));
+    }
+    renamed += (renamed.empty() ? "" : "\n") + to_string(tool);
+  }
+  return renamed;
+}
+
 }  // namespace
 
 std::string renamed_option(const JobOptionRecord& record, const std::string& value, const FileNames& name,
@@ -152,15 +166,14 @@ std::string renamed_option(const JobOptionRecord& record, const std::string& val
   if (value.empty()) return value;
   if (record.key == "template" && is_shipped_template(value)) return value;
   if (record.is_file && names_a_file(value)) return name(value);
-  if (record.key == "map_steps" || record.key == "tif_steps") {
+  if (record.key == "map_steps" || record.key == "tif_steps" || record.key == "tool") {
     try {
-      return renamed_map_steps(value, name);
+      return record.key == "tool" ? renamed_tools(value, name) : renamed_map_steps(value, name);
     } catch (const InputError& error) {
       throw InputError(fmt::format("{}: {}", source, error.what()));
     }
   }
   if (record.key == "keep_out") return renamed_keep_out(value, name);
-  if (record.key == "tool") return renamed_tool_options(value, name);
   if (record.key == "weight") return renamed_pixel_weights(value, name);
   constexpr std::string_view kPathFile = "file:";
   if (record.key == "path" && value.starts_with(kPathFile) && value != kPathFile)

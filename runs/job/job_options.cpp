@@ -22,7 +22,6 @@
 #include "runs/job/keep_out_option.h"
 #include "runs/job/place_option.h"
 #include "runs/job/scatter_option.h"
-#include "runs/job/tool_option.h"
 #include "runs/machine/machine_option.h"
 #include "runs/map_steps/map_steps.h"
 #include "runs/programs/gcode_dialect.h"

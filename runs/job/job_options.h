@@ -65,7 +65,7 @@ struct JobOptions {
   ToolOrientation::Flip tif_flip = ToolOrientation::Flip::None;
   double tif_rate = 1.0, tif_width = 1.0;  // over those of the file or the formula
   PathSpec path;
-  std::string tools;     // several that work together (tool_option.h), one a line; empty: the one above
+  std::string tools;     // several that work together (tool_spec.h), one a line; empty: the one above
   std::string keep_out;  // areas that the tool does not enter while it is down: AREA;AREA;...
   Motion motion = Motion::Moving;
   FormTerms remove{true, true};
@@ -149,6 +149,9 @@ std::vector<JobOptionRecord> fit_option_records();
 
 /// The part of the table about how program.nc is written.
 std::vector<JobOptionRecord> program_option_records();
+
+/// The part about several tools.
+std::vector<JobOptionRecord> tool_option_records();
 
 /// The part about a line profile in the place of a map.
 std::vector<JobOptionRecord> profile_option_records();

@@ -4,13 +4,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <string_view>
 
 #include "core/base/errors.h"
-#include "core/base/number_text.h"
-#include "core/base/value_range.h"
-#include "runs/job/job_file.h"
 
 namespace dwell {
 namespace {
@@ -34,126 +30,20 @@ std::string own_words() {
   return words + "price, change-over";
 }
 
-void check_name(const std::string& name) {
-  const bool usable = !name.empty() && name.size() <= 40 && std::all_of(name.begin(), name.end(), [](unsigned char c) {
-    return std::isalnum(c) != 0 || c == '-' || c == '_';
-  });
-  if (usable) return;
-  throw InputError(fmt::format(
-      "'{}': a tool begins with its name; required up to 40 letters, digits, '-' or '_', as in "
-      "'large;tif=spot.csv;path=raster:pitch=2'",
-      name));
-}
-
-double price_of(const std::string& text) {
-  constexpr ValueRange kPrices{1e-3, 1e3, ""};
-  const auto value = parse_number(text);
-  if (value && kPrices.holds(*value)) return *value;
-  throw InputError(fmt::format("'{}'; required {} (of a second with it, over the common price)", text, kPrices.text()));
-}
-
-double duration_of(const std::string& text) {
-  constexpr ValueRange kSeconds{0.0, 1e7, "s"};
-  constexpr std::array<std::pair<std::string_view, double>, 3> kUnits{{{"min", 60.0}, {"s", 1.0}, {"h", 3600.0}}};
-  for (const auto& [unit, factor] : kUnits) {
-    if (!text.ends_with(unit)) continue;
-    const auto value = parse_number(std::string_view(text).substr(0, text.size() - unit.size()));
-    if (value && kSeconds.holds(*value * factor)) return *value * factor;
-  }
-  throw InputError(
-      fmt::format("'{}'; required a time with its unit, {} at most: 90s, 10min or 0.5h", text, kSeconds.most));
-}
-
-void set_part(ToolOption& tool, const std::string& key, const std::string& value) {
-  if (value.empty()) throw InputError("empty; required a value");
-  if (key == "price") {
-    tool.price = price_of(value);
-  } else if (key == "change-over") {
-    tool.change_over_s = duration_of(value);
-  } else {
-    const auto& table = job_option_table();
-    const auto record = std::find_if(table.begin(), table.end(), [&](const auto& row) { return row.flag == key; });
-    if (record == table.end() || !is_own_option(*record))
-      throw InputError(fmt::format("not a tool's own; accepted: {}", own_words()));
-    JobOptions tried;
-    record->set(tried, value);
-    tool.values.emplace_back(&*record, value);
-  }
-}
-
-ToolOption parse_tool(const std::string& line) {
-  ToolOption tool;
-  std::vector<std::string> seen;
-  for (const std::string_view part : split(line, ';')) {
-    const std::string text(trim(part));
-    if (tool.name.empty()) {
-      check_name(text);
-      tool.name = text;
-      continue;
-    }
-    const std::size_t equals = text.find('=');
-    const std::string key(trim(text.substr(0, equals)));
-    const std::string value(equals == std::string::npos ? "" : trim(text.substr(equals + 1)));
-    if (std::find(seen.begin(), seen.end(), key) != seen.end())
-      throw InputError(fmt::format("tool '{}': {} is given twice", tool.name, key));
-    seen.push_back(key);
-    try {
-      set_part(tool, key, value);
-    } catch (const InputError& error) {
-      throw InputError(fmt::format("tool '{}': {}: {}", tool.name, key, error.what()));
-    }
-  }
-  return tool;
-}
-
-std::string text_of_tool(const ToolOption& tool) {
-  std::string text = tool.name;
-  for (const auto& [record, value] : tool.values) text += fmt::format(";{}={}", record->flag, value);
-  if (tool.price != 1.0) text += fmt::format(";price={}", tool.price);
-  if (tool.change_over_s != 0.0) text += fmt::format(";change-over={}s", tool.change_over_s);
-  return text;
-}
-
 }  // namespace
 
-std::vector<ToolOption> parse_tool_options(const std::string& text) {
-  std::vector<ToolOption> tools;
-  for (const std::string_view line : split(text, '\n')) {
-    ToolOption tool = parse_tool(std::string(trim(line)));
-    const bool twice =
-        std::any_of(tools.begin(), tools.end(), [&tool](const ToolOption& t) { return t.name == tool.name; });
-    if (twice) throw InputError(fmt::format("tool '{}' is given twice; required a name of its own for each", tool.name));
-    tools.push_back(std::move(tool));
+const JobOptionRecord& option_of_tool(const ToolSpec& tool, const std::string& flag) {
+  for (const JobOptionRecord& record : job_option_table()) {
+    if (record.flag == flag && is_own_option(record)) return record;
   }
-  if (tools.size() < 2 || tools.size() > kMostTools) {
-    throw InputError(fmt::format("{} given; required 2 to {} (one tool is --tif and --path)", tools.size(), kMostTools));
-  }
-  return tools;
+  throw InputError(fmt::format("tool '{}': {}: not a tool's own; accepted: {}", tool.name, flag, own_words()));
 }
 
-std::string renamed_tool_options(const std::string& text, const std::function<std::string(const std::string&)>& name) {
-  std::string renamed;
-  for (ToolOption& tool : parse_tool_options(text)) {
-    for (auto& [record, value] : tool.values) value = renamed_option(*record, value, name, "tool");
-    renamed += (renamed.empty() ? "" : "\n") + text_of_tool(tool);
-  }
-  return renamed;
-}
-
-JobOptions options_of_tool(JobOptions options, const ToolOption& tool) {
+JobOptions options_of_tool(JobOptions options, const ToolSpec& tool) {
   options.tools.clear();
-  for (const auto& [record, value] : tool.values)
-    set_job_option(options, *record, value, fmt::format("--tool {}: {}", tool.name, record->flag));
+  for (const auto& [flag, value] : tool.values)
+    set_job_option(options, option_of_tool(tool, flag), value, fmt::format("tool '{}': {}", tool.name, flag));
   return options;
-}
-
-std::vector<JobOptionRecord> tool_option_records() {
-  return {{"tool", "tool", "NAME;KEY=VALUE;...",
-           "one of several tools that work the surface together, each with a path and a program of its own (given once "
-           "for each): tif=, path=, machine=, tif-pixel=, max-feed= ... in the place of the options of these names, "
-           "price= of a second over the common one, change-over=TIME to mount it",
-           false, false, [](JobOptions& o, const std::string& t) { parse_tool_options(t), o.tools = t; },
-           [](const JobOptions& o) { return o.tools; }, false, false, {}, true}};
 }
 
 void refuse_tools(const JobOptions& options, const std::string& what) {

@@ -39,8 +39,9 @@ void check_options(const JointTool& tool) {
   };
   if (o.smoothness.kind != GoalKind::Fixed && o.smoothness.kind != GoalKind::Auto)
     refuse("`smoothness` is searched over plans, which is for one tool; required a number or auto");
-  if (o.time_price.kind != GoalKind::Fixed && o.time_price.kind != GoalKind::Auto)
-    refuse("`time price` is searched over plans, which is for one tool; required a number or auto");
+  if (o.time_price.kind != GoalKind::Fixed && o.time_price.kind != GoalKind::Auto &&
+      o.time_price.kind != GoalKind::TotalAtMost)
+    refuse("`time price` is searched over plans, which is for one tool; required a number, auto or total<=SECONDS");
   if (o.fraction != 1.0) refuse(fmt::format("`fraction` is {}; required 1", o.fraction));
   if (o.solver == SolverKind::Fourier) refuse("`solver` is fourier, which knows one tool; required another");
   if (!(tool.price > 0.0) || !std::isfinite(tool.price) || !(tool.change_over >= 0.0) ||
@@ -137,6 +138,12 @@ TimePrice JointProblem::find_price(const TimeWorth& worth, const Progress& progr
   return price;
 }
 
+double JointProblem::least_total(const std::vector<std::size_t>& tools) const {
+  double sum = 0.0;
+  for (const std::size_t k : tools) sum += pieces_[k].lower.sum() / tools_[k].price + tools_[k].change_over;
+  return sum;
+}
+
 JointDwell JointProblem::solve(const std::vector<std::size_t>& tools, double price, double max_seconds,
                                const std::string& stage, const Progress& progress) {
   progress.check();
@@ -166,11 +173,15 @@ JointDwell JointProblem::solve(const std::vector<std::size_t>& tools, double pri
   objective.residual(t, residual);
   found.residual_rms = residual.norm() / std::sqrt(pixels);
   found.cost = objective.value(residual, t) / pixels;
+  found.price = price;
   Index first = 0;
   for (const std::size_t k : tools) {
     const Index points = pieces_[k].lower.size();
     found.seconds.push_back(t.segment(first, points) / tools_[k].price);
-    found.cost += price * tools_[k].price * tools_[k].change_over;
+    const double seconds = found.seconds.back().sum(), change_over = tools_[k].change_over;
+    found.total += seconds + change_over;
+    found.time_cost += price * tools_[k].price * (seconds + change_over);
+    found.cost += price * tools_[k].price * change_over;
     first += points;
   }
   return found;

@@ -31,7 +31,10 @@ struct JointDwell {
   std::vector<std::size_t> tools;  // that take part, by their numbers, ascending
   std::vector<Vector> seconds;     // of every dwell point of each of these [s]
   double residual_rms = 0.0;       // of what the objective sees, as the lattices have it [nm]
-  double cost = 0.0;               // the objective over the pixels, change-over included [nm^2]
+  double price = 0.0;              // common, at which this is the best [nm^2/s]
+  double total = 0.0;              // of dwell and change-over [s]
+  double time_cost = 0.0;          // what these cost [nm^2]
+  double cost = 0.0;               // the objective over the pixels, with time_cost [nm^2]
   SolverSummary solver;
   Certificate certificate;
 };
@@ -41,8 +44,8 @@ struct JointDwell {
 ///   minimise  1/2 |W P (sum_k A_k t_k - z)|^2 + sum_k [ alpha_k/2 |D_k (t_k - l_k)|^2 + gamma p_k (1't_k + c_k) ]
 ///
 /// with p_k the tool's price and c_k its change-over. Solvers know one price of time: they are given the seconds times
-/// p_k, and the removal functions divided by it, which is the same problem. Each tool's alpha_k is that of a plan for it
-/// alone: the smoothness it is given, or the usual one.
+/// p_k, and the removal functions divided by it, which is the same problem. Each tool's alpha_k is that of a plan for
+/// it alone: the smoothness it is given, or the usual one.
 class JointProblem {
  public:
   /// All tools have parts of the same pixels, weights and form terms. Throws InputError for options that a joint solve
@@ -53,6 +56,8 @@ class JointProblem {
   const std::vector<JointTool>& tools() const { return tools_; }
   /// The weight of smoothness of a tool, in the place of Auto a number.
   double smoothness(std::size_t tool) const { return pieces_[tool].smoothness_weight; }
+  /// The least dwell of some tools, with their change-over [s].
+  double least_total(const std::vector<std::size_t>& tools) const;
 
   /// The common price of a second [nm^2/s], by the rules of a plan, with all tools at work. Throws and costs as
   /// find_time_price.

@@ -7,22 +7,23 @@
 #include "core/base/progress.h"
 #include "runs/tools/joint_problem.h"
 #include "solvers/weights/time_worth.h"
+#include "solvers/weights/weight_goal.h"
 
 namespace dwell {
 
 /// A set of tools that was tried.
 struct TriedTools {
   std::vector<std::size_t> tools;  // by their numbers, ascending
+  double price = 0.0;              // common, of a second [nm^2/s]
   double residual_rms = 0.0;       // as the lattices have it [nm]
   double seconds = 0.0;            // of dwell, of all of them
   double change_over = 0.0;        // of all of them [s]
-  double cost = 0.0;               // JointDwell::cost [nm^2]
+  double cost = 0.0;               // by which sets are compared [nm^2]
 };
 
 /// Which of several tools pay.
 struct ToolChoice {
-  double price = 0.0;              // common, of a second [nm^2/s]
-  std::optional<TimePrice> worth;  // how that was found, where it was
+  std::optional<TimePrice> worth;  // how the price was found, where it was
   std::vector<TriedTools> tried;   // in the order of the solves: all tools first
   std::size_t chosen = 0;          // number of the set in `tried`
   JointDwell dwell;                // of that set
@@ -36,11 +37,16 @@ struct ToolChoice {
 /// costs are known.
 inline constexpr double kSameCost = 1e-3;
 
+/// Of a total that is asked for, the dwell and change-over of a set come to this share at least, if any price does.
+inline constexpr double kUsedOfTotal = 0.98;
+
 /// Finds out which tools pay: solves with all of them, then without each in turn, and goes on without the one whose
-/// loss costs least as long as the cost, in which change-over counts, does not rise. `price` is the common price of a
-/// second [nm^2/s]; nothing = by the rules. `max_seconds` bounds each solve. Throws as JointProblem. Cost: for K tools
-/// at most K (K + 1) / 2 solves; every set of two or three tools is tried that could be better.
-ToolChoice choose_tools(JointProblem& problem, std::optional<double> price, const TimeWorth& worth, double max_seconds,
+/// loss costs least as long as the cost does not rise. `goal` says the common price of a second [nm^2/s]: a number;
+/// Auto, by the rules with all tools; or TotalAtMost, where each set has the least price at which its dwell and
+/// change-over fit into so many seconds. Cost is JointDwell::cost, in which change-over counts; within a total, what it
+/// is without time. `max_seconds` bounds each solve. Throws as JointProblem, and InputError if not even one tool fits
+/// into the total. Cost: for K tools at most K (K + 1) / 2 sets; a solve each, and with a total about eight.
+ToolChoice choose_tools(JointProblem& problem, const WeightGoal& goal, const TimeWorth& worth, double max_seconds,
                         const Progress& progress = {});
 
 }  // namespace dwell

@@ -38,6 +38,7 @@ TEST(PlanCommand, WritesEveryFileAndPrintsWhatItDid) {
   }
   for (const char* file : {"learnt.csv", "learnt_removal.npy", "learnt_removal.npy.json"}) files.erase(file);  // --log
   for (const char* file : {"remaining.npy", "remaining.npy.json"}) files.erase(file);  // --resume
+  for (const char* file : {"surface.npy", "surface.npy.json"}) files.erase(file);      // --tool
   files.erase("program_parts.csv");                                                    // --max-lines
   for (const std::string& figure : figures_without_machine()) files.insert(figure + ".png");
   EXPECT_EQ(names_in(inputs / "plan"), files);

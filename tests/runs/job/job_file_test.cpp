@@ -24,6 +24,7 @@ JobOptions unusual() {
   o.map = "/data/a map \"of\" C:\\parts.csv";
   o.map_pixel_mm = Point{0.1, 1.0 / 3.0};
   o.map_unit = "um";
+  o.tools = "a;tif=/data/spot.csv;price=2\nb;path=raster:pitch=1;change-over=90s";
   o.wavelength_nm = 632.8;
   o.wave_scale = 0.5;
   o.map_origin_mm = Point{-12.5, 1.0 / 3.0};

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/core/base/expect_error.h"
 #include "tests/runs/tools/two_tools.h"
 
 namespace dwell {
@@ -11,7 +12,7 @@ using test::two_tools;
 
 ToolChoice choose(std::vector<JointTool> tools) {
   JointProblem problem(std::move(tools));
-  return choose_tools(problem, 1e-3, {}, 100.0);
+  return choose_tools(problem, {1e-3}, {}, 100.0);
 }
 
 TEST(ToolChoice, KeepsToolsOfWhichEachPays) {
@@ -24,7 +25,7 @@ TEST(ToolChoice, KeepsToolsOfWhichEachPays) {
     EXPECT_EQ(choice.tried[alone].tools.size(), 1u);
   }
   EXPECT_FALSE(choice.worth);
-  EXPECT_EQ(choice.price, 1e-3);
+  EXPECT_EQ(choice.set().price, 1e-3);
 }
 
 TEST(ToolChoice, GoesWithoutAToolWhoseChangeOverIsDearerThanItsWork) {
@@ -50,9 +51,37 @@ TEST(ToolChoice, TakesOneOfTwoEqualTools) {
 
 TEST(ToolChoice, FindsThePriceWhereNoneIsGiven) {
   JointProblem problem(two_tools(SolverKind::Auto));
-  const ToolChoice choice = choose_tools(problem, {}, {}, 100.0);
+  const ToolChoice choice = choose_tools(problem, {0.0, GoalKind::Auto}, {}, 100.0);
   ASSERT_TRUE(choice.worth);
-  EXPECT_GT(choice.price, 0.0);
+  EXPECT_GT(choice.set().price, 0.0);
+}
+
+TEST(ToolChoice, KeepsATotalWithEachSet) {
+  JointProblem problem(two_tools(SolverKind::Auto));
+  const WeightGoal goal{60.0, GoalKind::TotalAtMost};
+  const ToolChoice choice = choose_tools(problem, goal, {}, 100.0);
+  ASSERT_EQ(choice.tried.size(), 3u);
+  for (const TriedTools& tried : choice.tried) {
+    EXPECT_LE(tried.seconds + tried.change_over, goal.value);
+    EXPECT_GE(tried.seconds + tried.change_over, kUsedOfTotal * goal.value);
+  }
+  EXPECT_EQ(choice.set().tools.size(), 2u);
+  EXPECT_LT(choice.set().residual_rms, choice.tried[1].residual_rms);
+  EXPECT_LT(choice.set().residual_rms, choice.tried[2].residual_rms);
+}
+
+TEST(ToolChoice, LeavesOutWhatDoesNotFitIntoATotal) {
+  std::vector<JointTool> tools = two_tools(SolverKind::Auto);
+  tools[1].change_over = 100.0;
+  JointProblem problem(tools);
+  const ToolChoice choice = choose_tools(problem, {60.0, GoalKind::TotalAtMost}, {}, 100.0);
+  EXPECT_EQ(choice.set().tools, (std::vector<std::size_t>{0}));
+  EXPECT_EQ(choice.tried.size(), 1u);
+  test::expect_input_error(
+      [&] {
+        choose_tools(problem, {0.01, GoalKind::TotalAtMost}, {}, 100.0);
+      },
+      {"total<=0.01 s", "no set of tools fits"});
 }
 
 }  // namespace
