@@ -1,5 +1,6 @@
 #include "cli/result_kinds.h"
 
+#include "runs/campaigns/part_files.h"
 #include "runs/campaigns/path_comparison_output.h"
 #include "runs/example/example_files.h"
 #include "runs/reports/plan_files.h"
@@ -7,7 +8,7 @@
 namespace dwell::cli {
 
 std::vector<const ResultFiles*> kinds_of_results() {
-  return {&plan_files(), &path_comparison_files(), &pareto_files(), &example_files()};
+  return {&plan_files(), &path_comparison_files(), &pareto_files(), &example_files(), &part_files()};
 }
 
 }  // namespace dwell::cli

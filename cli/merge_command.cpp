@@ -1,0 +1,84 @@
+#include <fmt/format.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cli/commands.h"
+#include "cli/json_option.h"
+#include "cli/result_folder.h"
+#include "cli/terminal.h"
+#include "core/base/errors.h"
+#include "runs/base/json_blocks.h"
+#include "runs/base/merged_parts.h"
+#include "runs/figure/campaign_part.h"
+
+namespace dwell::cli {
+namespace {
+
+struct MergeArguments {
+  std::vector<std::string> parts;
+  std::string out;
+  JsonOption json;
+  ResultFolder folder;
+};
+
+int merge_campaigns(const MergeArguments& a, const MergedParts& parts) {
+  if (!a.out.empty())
+    throw InputError(
+        fmt::format("--out '{}': dwell {} prints its result, and writes no folder; required none "
+                    "(--json=FILE.json writes it to a file)",
+                    a.out, parts.command));
+  const MergedCampaigns merged = merged_campaigns(parts);
+  a.json.deliver(json_text(campaign_json(merged.question, merged.samples)),
+                 campaign_text(merged.question, merged.samples));
+  return kDone;
+}
+
+/// A command whose parts can be put together, and what does it.
+struct MergeRow {
+  const char* command;
+  int (*merge)(const MergeArguments&, const MergedParts&);
+};
+
+constexpr MergeRow kRows[] = {{kCampaignsCommand, merge_campaigns}};
+
+int run_merge(const MergeArguments& a) {
+  std::vector<ReadFile> read;
+  std::vector<ReadSweepPart> parts;
+  for (const std::string& place : a.parts) {
+    parts.push_back(read_sweep_part(place));
+    read.push_back({"a part", (parts.back().folder / kPartFile).string()});
+  }
+  a.json.check(read, a.out);
+  const MergedParts merged = merge_parts(std::move(parts));
+  for (const MergeRow& row : kRows) {
+    if (merged.command == row.command) return row.merge(a, merged);
+  }
+  throw InputError(
+      fmt::format("'{}': a part of dwell {}, which this version cannot merge", a.parts[0], merged.command));
+}
+
+}  // namespace
+
+void add_merge_command(CLI::App& program, int& exit_code) {
+  CLI::App* command = program.add_subcommand(
+      "merge", "put the parts of a sweep together that --shard made: what the command without it prints and writes");
+  auto a = std::make_shared<MergeArguments>();
+  command->add_option("parts", a->parts, "all parts, each the folder that --out named")->type_name("PART")->required();
+  command->add_option("--out", a->out, "folder of the result, of commands that write one")->type_name("FOLDER");
+  a->folder.add_to(*command);
+  a->json.add_to(*command);
+  command->footer(
+      "Example:\n"
+      "  dwell figure simulate mirror/ --samples 100 --uncertainty tif-rate=15% --shard 1/2 --out parts/1\n"
+      "  dwell figure simulate mirror/ --samples 100 --uncertainty tif-rate=15% --shard 2/2 --out parts/2\n"
+      "  dwell merge parts/1 parts/2\n"
+      "The parts must be of one version, of the same options and inputs, and all of them: what differs or is missing "
+      "is "
+      "said.\n"
+      "Exit codes: as of the command that is sharded.");
+  command->callback([a, &exit_code] { exit_code = run_merge(*a); });
+}
+
+}  // namespace dwell::cli
