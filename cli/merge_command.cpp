@@ -2,15 +2,19 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cli/commands.h"
 #include "cli/json_option.h"
 #include "cli/result_folder.h"
+#include "cli/sweep_reports.h"
 #include "cli/terminal.h"
 #include "core/base/errors.h"
 #include "runs/base/json_blocks.h"
 #include "runs/base/merged_parts.h"
+#include "runs/campaigns/path_comparison_output.h"
+#include "runs/campaigns/path_part.h"
 #include "runs/figure/campaign_part.h"
 
 namespace dwell::cli {
@@ -21,6 +25,12 @@ struct MergeArguments {
   std::string out;
   JsonOption json;
   ResultFolder folder;
+
+  std::vector<ReadFile> read() const {
+    std::vector<ReadFile> files;
+    for (const std::string& place : parts) files.push_back({"the part", part_file(place).string()});
+    return files;
+  }
 };
 
 int merge_campaigns(const MergeArguments& a, const MergedParts& parts) {
@@ -35,28 +45,43 @@ int merge_campaigns(const MergeArguments& a, const MergedParts& parts) {
   return kDone;
 }
 
+/// The folder of a command whose result is one.
+OutputFolder result_folder(const MergeArguments& a, const MergedParts& parts, const ResultFiles& files) {
+  if (a.out.empty())
+    throw InputError(fmt::format("--out: required; the folder of what dwell {} writes", parts.command));
+  return a.folder.make(a.out, files, a.read());
+}
+
+int merge_paths(const MergeArguments& a, const MergedParts& parts) {
+  OutputFolder folder = result_folder(a, parts, path_comparison_files());
+  return report_paths(merged_paths(parts, folder, a.out), folder, a.out, a.json);
+}
+
 /// A command whose parts can be put together, and what does it.
 struct MergeRow {
   const char* command;
   int (*merge)(const MergeArguments&, const MergedParts&);
 };
 
-constexpr MergeRow kRows[] = {{kCampaignsCommand, merge_campaigns}};
+constexpr MergeRow kRows[] = {{kCampaignsCommand, merge_campaigns}, {kPathsCommand, merge_paths}};
 
-int run_merge(const MergeArguments& a) {
-  std::vector<ReadFile> read;
-  std::vector<ReadSweepPart> parts;
-  for (const std::string& place : a.parts) {
-    parts.push_back(read_sweep_part(place));
-    read.push_back({"a part", (parts.back().folder / kPartFile).string()});
-  }
-  a.json.check(read, a.out);
-  const MergedParts merged = merge_parts(std::move(parts));
+int merge_known(const MergeArguments& a, const MergedParts& merged) {
   for (const MergeRow& row : kRows) {
     if (merged.command == row.command) return row.merge(a, merged);
   }
   throw InputError(
       fmt::format("'{}': a part of dwell {}, which this version cannot merge", a.parts[0], merged.command));
+}
+
+int run_merge(const MergeArguments& a) {
+  a.json.check(a.read(), a.out);
+  std::vector<ReadSweepPart> parts;
+  for (const std::string& place : a.parts) parts.push_back(read_sweep_part(place));
+  try {
+    return merge_known(a, merge_parts(std::move(parts)));
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(fmt::format("the parts hold another result than this version makes: {}", error.what()));
+  }
 }
 
 }  // namespace
@@ -74,6 +99,7 @@ void add_merge_command(CLI::App& program, int& exit_code) {
       "  dwell figure simulate mirror/ --samples 100 --uncertainty tif-rate=15% --shard 1/2 --out parts/1\n"
       "  dwell figure simulate mirror/ --samples 100 --uncertainty tif-rate=15% --shard 2/2 --out parts/2\n"
       "  dwell merge parts/1 parts/2\n"
+      "  dwell merge parts/1 parts/2 parts/3 --out paths/\n"
       "The parts must be of one version, of the same options and inputs, and all of them: what differs or is missing "
       "is "
       "said.\n"

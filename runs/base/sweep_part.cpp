@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <limits>
 #include <utility>
 
 #include "core/base/errors.h"
@@ -78,24 +76,15 @@ SweepPart parse_sweep_part(const std::string& text, const std::string& file) {
   }
 }
 
-ReadSweepPart read_sweep_part(const std::string& place) {
+std::filesystem::path part_file(const std::string& place) {
   std::error_code unknown;
-  std::filesystem::path file(place);
-  if (std::filesystem::is_directory(file, unknown)) file /= kPartFile;
+  const std::filesystem::path file(place);
+  return std::filesystem::is_directory(file, unknown) ? file / kPartFile : file;
+}
+
+ReadSweepPart read_sweep_part(const std::string& place) {
+  const std::filesystem::path file = part_file(place);
   return {place, file.parent_path(), parse_sweep_part(read_whole_file(file), file.string())};
-}
-
-PartJson exact_json(double value) {
-  if (std::isfinite(value)) return value;
-  return std::isnan(value) ? "nan" : value > 0.0 ? "inf" : "-inf";
-}
-
-double exact_number(const PartJson& json) {
-  if (!json.is_string()) return json.get<double>();
-  const auto& word = json.get_ref<const std::string&>();
-  if (word == "nan") return std::numeric_limits<double>::quiet_NaN();
-  const double infinite = std::numeric_limits<double>::infinity();
-  return word == "inf" ? infinite : -infinite;
 }
 
 }  // namespace dwell

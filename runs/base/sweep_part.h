@@ -37,10 +37,9 @@ struct ReadSweepPart {
   std::filesystem::path folder;  // that it lies in
   SweepPart part;
 };
-ReadSweepPart read_sweep_part(const std::string& place);
 
-/// A number as JSON, also where it is not finite, which JSON has no number for; and back, to the bit.
-nlohmann::ordered_json exact_json(double value);
-double exact_number(const nlohmann::ordered_json& json);
+/// The file of the part at a place.
+std::filesystem::path part_file(const std::string& place);
+ReadSweepPart read_sweep_part(const std::string& place);
 
 }  // namespace dwell

@@ -1,6 +1,14 @@
 #include "runs/figure/campaign_part.h"
 
+#include "runs/base/exact_json.h"
+
 namespace dwell {
+
+template <class Visit>
+void each_field(CampaignSample& sample, const Visit& visit) {
+  visit("sample", sample.number), visit("rms_nm", sample.left), visit("dwell_s", sample.seconds);
+  visit("ended", sample.fault);
+}
 
 SweepPart campaign_part(const CampaignQuestion& question, const CampaignSource& source, const Shard& shard,
                         const std::vector<CampaignSample>& samples) {
@@ -14,12 +22,7 @@ SweepPart campaign_part(const CampaignQuestion& question, const CampaignSource& 
                 {"before_rms_nm", question.before},
                 {"options", source.options},
                 {"inputs", source.inputs}};
-  for (const CampaignSample& sample : samples) {
-    nlohmann::ordered_json left = nlohmann::ordered_json::array(), seconds = left;
-    for (const double value : sample.left) left.push_back(exact_json(value));
-    for (const double value : sample.seconds) seconds.push_back(exact_json(value));
-    part.results.push_back({{"rms_nm", left}, {"dwell_s", seconds}, {"ended", sample.fault}});
-  }
+  for (const CampaignSample& sample : samples) part.results.push_back(exact_json(sample));
   return part;
 }
 
@@ -28,13 +31,7 @@ MergedCampaigns merged_campaigns(const MergedParts& parts) {
   MergedCampaigns merged;
   merged.question = {asked.at("run"),  asked.at("uncertainty"), asked.at("runs"),         asked.at("samples"),
                      asked.at("seed"), asked.at("learns"),      asked.at("before_rms_nm")};
-  for (const nlohmann::ordered_json& result : parts.results) {
-    CampaignSample& sample = merged.samples.emplace_back();
-    sample.number = static_cast<int>(merged.samples.size());
-    for (const auto& value : result.at("rms_nm")) sample.left.push_back(exact_number(value));
-    for (const auto& value : result.at("dwell_s")) sample.seconds.push_back(exact_number(value));
-    sample.fault = result.at("ended");
-  }
+  for (const nlohmann::ordered_json& result : parts.results) read_exact(result, merged.samples.emplace_back());
   return merged;
 }
 

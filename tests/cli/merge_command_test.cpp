@@ -4,8 +4,13 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
 #include <string>
+#include <utility>
 
 #include "core/base/whole_file.h"
 #include "tests/cli/documented_runs.h"
@@ -33,6 +38,48 @@ Words merge_of_shards(const SmallInputs& inputs, const std::string& name, const 
   return merge;
 }
 
+/// A text with the seconds that tasks took where they ran, which no two runs have alike, masked: "wall_s" of JSON, and
+/// those of the solves that dwell pareto prints.
+std::string without_wall_seconds(std::string text) {
+  static const std::regex kOfJson(R"re("wall_s": [-+.0-9e]+)re"), kPrinted(R"(applications?, [.0-9]+ s)");
+  text = std::regex_replace(text, kOfJson, "\"wall_s\": *");
+  return std::regex_replace(text, kPrinted, "applications, * s");
+}
+
+/// All files below a folder; tables and JSON without wall seconds, all others as they are.
+std::map<std::string, std::string> files_below(const std::filesystem::path& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    if (!entry.is_regular_file()) continue;
+    std::string bytes = read_whole_file(entry.path());
+    if (entry.path().extension() == ".json") bytes = without_wall_seconds(std::move(bytes));
+    files[std::filesystem::relative(entry.path(), folder).string()] = std::move(bytes);
+  }
+  return files;
+}
+
+/// The command done at once into whole/, then in shards and merged into the same folder: everything is the same.
+void expect_merged_as_at_once(const SmallInputs& inputs, const Words& command, int shards, int exit_code,
+                              std::size_t least_files) {
+  const ProgramResult at_once = inputs.run(with(command, {"--out", "whole", "--json=at-once.json"}));
+  EXPECT_EQ(at_once.exit_code, exit_code) << at_once.err;
+  const auto files = files_below(inputs / "whole");
+  EXPECT_GE(files.size(), least_files);
+  std::filesystem::remove_all(inputs / "whole");
+  const Words merge = with(merge_of_shards(inputs, command[0], command, shards), {"--out", "whole"});
+  EXPECT_FALSE(std::filesystem::exists(inputs / "whole"));
+  const ProgramResult merged = inputs.run(with(merge, {"--json=merged.json"}));
+  EXPECT_EQ(merged.exit_code, exit_code);
+  EXPECT_EQ(without_wall_seconds(merged.out), without_wall_seconds(at_once.out));
+  const auto limits = [](const std::string& said) { return said.substr(std::min(said.find("dwell: "), said.size())); };
+  EXPECT_EQ(limits(merged.err), limits(at_once.err));
+  const auto again = files_below(inputs / "whole");
+  ASSERT_EQ(again.size(), files.size());
+  for (const auto& [name, bytes] : files) EXPECT_TRUE(again.at(name) == bytes) << name;
+  EXPECT_EQ(without_wall_seconds(read_whole_file(inputs / "merged.json")),
+            without_wall_seconds(read_whole_file(inputs / "at-once.json")));
+}
+
 struct RunToSimulate : SmallInputs {
   RunToSimulate() {
     EXPECT_EQ(run({"figure", "new", "run", "--map", "map.csv", "--map-pixel", "0.5", "--tif", "tif.csv", "--tif-pixel",
@@ -56,6 +103,47 @@ TEST(MergeCommand, PrintsWhatTheCampaignsPrintAtOnce) {
   EXPECT_EQ(merged.out, whole.out);
   EXPECT_EQ(read_whole_file(inputs / "merged.json"), read_whole_file(inputs / "whole.json"));
   EXPECT_EQ(inputs.run(with(merge, {"--json"})).out, read_whole_file(inputs / "whole.json"));
+}
+
+Words usual_paths() {
+  return {"paths", "--map",     "map.csv", "--map-pixel",  "0.5", "--tif",     "tif.csv", "--tif-pixel",
+          "0.5",   "--threads", "1",       "--time-price", "0",   "--figures", "png,svg", "--paths"};
+}
+
+TEST(MergeCommand, WritesThePathsThatAComparisonAtOnceWrites) {
+  const SmallInputs inputs;
+  expect_merged_as_at_once(inputs, with(usual_paths(), {"raster:pitch=2;nearest:critical=1e9;spiral:pitch=2"}), 2, 3,
+                           25);
+  // A plan that was merged names its inputs from where it lies now, and can be simulated there.
+  EXPECT_EQ(inputs.run({"simulate", "whole/raster"}).exit_code, 0);
+}
+
+TEST(MergeCommand, RefusesPlansThatWereChangedAndCommandsOfNoFolder) {
+  const SmallInputs inputs;
+  const Words merge = merge_of_shards(inputs, "s", with(usual_paths(), {"raster:pitch=3"}), 1);
+  const auto refused = [&](const Words& more, const std::string& part) {
+    const ProgramResult result = inputs.run(with(merge, more));
+    EXPECT_EQ(result.exit_code, 2) << result.out;
+    expect_has(result.err, part);
+    EXPECT_FALSE(std::filesystem::exists(inputs / "x"));
+  };
+  refused({}, "--out: required");
+  refused({"--out", "parts-s/1"}, "is not an earlier path comparison");
+  std::ofstream(inputs / "parts-s/1/raster/program.nc", std::ios::app) << "G1 X0\n";
+  refused({"--out", "x"}, "parts-s/1/raster/program.nc': is another than when it was written");
+  std::filesystem::remove(inputs / "parts-s/1/raster/program.nc");
+  refused({"--out", "x"}, "program.nc");
+}
+
+TEST(MergeCommand, SaysThatNoPathCouldBePlannedAsAtOnce) {
+  const SmallInputs inputs;
+  const Words command = with(usual_paths(), {"nearest:critical=1e9;nearest:critical=1e8"});
+  const ProgramResult at_once = inputs.run(with(command, {"--out", "whole"}));
+  EXPECT_EQ(at_once.exit_code, 2);
+  const ProgramResult merged = inputs.run(with(merge_of_shards(inputs, "s", command, 2), {"--out", "whole"}));
+  EXPECT_EQ(merged.exit_code, 2);
+  expect_has(at_once.err, merged.err.substr(merged.err.find("dwell: --paths: none can be planned")));
+  EXPECT_FALSE(std::filesystem::exists(inputs / "whole"));
 }
 
 TEST(MergeCommand, RefusesPartsThatDoNotMakeOneSweep) {
