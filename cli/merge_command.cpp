@@ -13,6 +13,7 @@
 #include "core/base/errors.h"
 #include "runs/base/json_blocks.h"
 #include "runs/base/merged_parts.h"
+#include "runs/campaigns/pareto_part.h"
 #include "runs/campaigns/path_comparison_output.h"
 #include "runs/campaigns/path_part.h"
 #include "runs/figure/campaign_part.h"
@@ -52,6 +53,11 @@ OutputFolder result_folder(const MergeArguments& a, const MergedParts& parts, co
   return a.folder.make(a.out, files, a.read());
 }
 
+int merge_pareto(const MergeArguments& a, const MergedParts& parts) {
+  OutputFolder folder = result_folder(a, parts, pareto_files());
+  return report_pareto(merged_pareto(parts), folder, a.out, a.json);
+}
+
 int merge_paths(const MergeArguments& a, const MergedParts& parts) {
   OutputFolder folder = result_folder(a, parts, path_comparison_files());
   return report_paths(merged_paths(parts, folder, a.out), folder, a.out, a.json);
@@ -63,7 +69,8 @@ struct MergeRow {
   int (*merge)(const MergeArguments&, const MergedParts&);
 };
 
-constexpr MergeRow kRows[] = {{kCampaignsCommand, merge_campaigns}, {kPathsCommand, merge_paths}};
+constexpr MergeRow kRows[] = {
+    {kCampaignsCommand, merge_campaigns}, {kParetoCommand, merge_pareto}, {kPathsCommand, merge_paths}};
 
 int merge_known(const MergeArguments& a, const MergedParts& merged) {
   for (const MergeRow& row : kRows) {

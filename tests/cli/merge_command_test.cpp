@@ -105,6 +105,46 @@ TEST(MergeCommand, PrintsWhatTheCampaignsPrintAtOnce) {
   EXPECT_EQ(inputs.run(with(merge, {"--json"})).out, read_whole_file(inputs / "whole.json"));
 }
 
+TEST(MergeCommand, WritesTheSweepOfWeightsThatAtOnceIsWritten) {
+  const SmallInputs inputs;
+  const Words pareto{"pareto",
+                     "--map",
+                     "map.csv",
+                     "--map-pixel",
+                     "0.5",
+                     "--tif",
+                     "tif.csv",
+                     "--tif-pixel",
+                     "0.5",
+                     "--threads",
+                     "1",
+                     "--path",
+                     "raster:pitch=1,overrun=2",
+                     "--figures",
+                     "png,svg,pdf"};
+  expect_merged_as_at_once(inputs, with(pareto, {"--smoothnesses", "0.1"}), 3, 0, 5);
+}
+
+// Each of its solves ends at its time, so that all limits of a sweep are said by the merge.
+TEST(MergeCommand, SaysTheLimitsOfASweepOfWeights) {
+  const SmallInputs inputs;
+  expect_merged_as_at_once(
+      inputs,
+      {"pareto", "--map", "map.csv", "--map-pixel", "0.5", "--tif", "tif.csv", "--tif-pixel", "0.5", "--threads", "1",
+       "--path", "raster:pitch=1", "--smoothnesses", "0.1", "--max-solve", "1e-9"},
+      2, 3, 3);
+}
+
+// A solver that takes a start gives the same answers in any order: every solve begins at the least dwell.
+TEST(MergeCommand, WritesTheSameWithASolverThatTakesAStart) {
+  const SmallInputs inputs;
+  expect_merged_as_at_once(
+      inputs,
+      {"pareto", "--map", "map.csv", "--map-pixel", "0.5", "--tif", "tif.csv", "--tif-pixel", "0.5", "--threads", "1",
+       "--path", "raster:pitch=1", "--smoothnesses", "0.1,1", "--time-prices", "0,1e-3", "--solver", "projected-cg"},
+      3, 0, 3);
+}
+
 Words usual_paths() {
   return {"paths", "--map",     "map.csv", "--map-pixel",  "0.5", "--tif",     "tif.csv", "--tif-pixel",
           "0.5",   "--threads", "1",       "--time-price", "0",   "--figures", "png,svg", "--paths"};
