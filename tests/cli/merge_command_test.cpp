@@ -9,6 +9,7 @@
 #include <fstream>
 #include <map>
 #include <regex>
+#include <sstream>
 #include <string>
 #include <utility>
 
@@ -230,6 +231,23 @@ TEST(MergeCommand, ShardsAreRefusedWhereTheyCouldNotBeMerged) {
 }
 
 TEST(MergeCommand, HasExamplesWhoseWordsAreAccepted) { test::expect_examples("merge"); }
+
+// ./dev real runs the scripts of docs/scale.md; here the words of their commands are accepted, if for no files.
+TEST(MergeCommand, IsDocumentedByCommandsWhoseWordsAreAccepted) {
+  std::istringstream document(read_whole_file(DWELL_SOURCE_DIR "/docs/scale.md"));
+  std::size_t commands = 0;
+  for (std::string line; std::getline(document, line);) {
+    const std::size_t begin = line.find("dwell ");
+    if (!line.starts_with("    dwell ") && !line.starts_with("    exec dwell ")) continue;
+    Words words = test::words_in(line.substr(begin + 6));
+    std::erase(words, "\"$@\"");
+    const ProgramResult result = SmallInputs().run(words);
+    EXPECT_EQ(result.exit_code, 2) << line;
+    expect_has(result.err, "No such file");
+    ++commands;
+  }
+  EXPECT_EQ(commands, 4U);
+}
 
 }  // namespace
 }  // namespace dwell
