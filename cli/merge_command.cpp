@@ -60,7 +60,7 @@ int merge_pareto(const MergeArguments& a, const MergedParts& parts) {
 
 int merge_paths(const MergeArguments& a, const MergedParts& parts) {
   OutputFolder folder = result_folder(a, parts, path_comparison_files());
-  return report_paths(merged_paths(parts, folder, a.out), folder, a.out, a.json);
+  return report_paths(merged_paths(parts, folder, a.out, terminal_progress()), folder, a.out, a.json);
 }
 
 /// A command whose parts can be put together, and what does it.

@@ -59,8 +59,10 @@ std::string moved_summary(const std::string& text, const fs::path& from, const f
 }
 
 /// Copies the plan of a path, checking every file.
-void copy_plan(const TaskJson& files, const fs::path& from, const OutputFolder& to, const fs::path& place) {
+void copy_plan(const TaskJson& files, const fs::path& from, const OutputFolder& to, const fs::path& place,
+               const Progress& progress) {
   for (const TaskJson& listed : files) {
+    progress.check();
     const auto name = listed.at("file").get<std::string>();
     if (!plan_files().has(name))
       throw InputError(fmt::format("'{}': names '{}', which is no file of a plan", from.string(), name));
@@ -92,7 +94,8 @@ SweepPart path_part(const PathComparison& comparison, const Shard& shard, const 
   return part;
 }
 
-PathComparison merged_paths(const MergedParts& parts, const OutputFolder& folder, const fs::path& out) {
+PathComparison merged_paths(const MergedParts& parts, const OutputFolder& folder, const fs::path& out,
+                            const Progress& progress) {
   PathComparison comparison;
   comparison.sheet = sheet_of_json(parts.asked);
   comparison.list = parts.asked.at("paths");
@@ -110,8 +113,10 @@ PathComparison merged_paths(const MergedParts& parts, const OutputFolder& folder
   for (std::size_t k = 0; k < parts.results.size(); ++k) {
     const ComparedPath& path = comparison.paths[k];
     if (!path.failure.empty()) continue;
+    progress.report(fmt::format("copying plan {} of {}, {}", k + 1, parts.results.size(), path.listed.name));
     OutputFolder plan(folder.path(path.listed.name), plan_files());
-    copy_plan(parts.results[k].at("files"), parts.folders[k] / path.listed.name, plan, out / path.listed.name);
+    copy_plan(parts.results[k].at("files"), parts.folders[k] / path.listed.name, plan, out / path.listed.name,
+              progress);
     plan.commit();
   }
   return comparison;

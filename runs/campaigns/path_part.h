@@ -18,6 +18,7 @@ SweepPart path_part(const PathComparison& comparison, const Shard& shard, const 
 /// one of its name within `folder`, which will be at `out`. The way from a plan to the names of its inputs
 /// (summary.json, "names_from") is made anew. Throws InputError for a file that is another than its part says, and as
 /// conclude.
-PathComparison merged_paths(const MergedParts& parts, const OutputFolder& folder, const std::filesystem::path& out);
+PathComparison merged_paths(const MergedParts& parts, const OutputFolder& folder, const std::filesystem::path& out,
+                            const Progress& progress = {});
 
 }  // namespace dwell
