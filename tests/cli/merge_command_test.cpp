@@ -232,6 +232,23 @@ TEST(MergeCommand, ShardsAreRefusedWhereTheyCouldNotBeMerged) {
 
 TEST(MergeCommand, HasExamplesWhoseWordsAreAccepted) { test::expect_examples("merge"); }
 
+TEST(MergeCommand, PartsHaveTheKeysThatAreDocumented) {
+  const RunToSimulate inputs;
+  const Words shard = RunToSimulate::simulate({"--shard", "1/1", "--out", "p", "--json"}, "1", "1");
+  const ProgramResult part = inputs.run(shard);
+  ASSERT_EQ(part.exit_code, 0) << part.err;
+  EXPECT_EQ(part.out, read_whole_file(inputs / "p/part.json"));
+  const std::string document = read_whole_file(DWELL_SOURCE_DIR "/docs/json.md");
+  const std::size_t begin = document.find("## Parts of a sweep");
+  const std::string section = document.substr(begin, document.find("\n## ", begin) - begin);
+  const nlohmann::json keys = nlohmann::json::parse(part.out);
+  for (const auto& [key, value] : keys.items()) {
+    if (key == "results" || key == "schema" || key == "version" || key == "command") continue;  // of the head, or below
+    expect_has(section, "| `" + key + "` |");
+  }
+  for (const auto& [key, value] : keys["results"][0].items()) expect_has(section, "| `results[]." + key + "` |");
+}
+
 // ./dev real runs the scripts of docs/scale.md; here the words of their commands are accepted, if for no files.
 TEST(MergeCommand, IsDocumentedByCommandsWhoseWordsAreAccepted) {
   std::istringstream document(read_whole_file(DWELL_SOURCE_DIR "/docs/scale.md"));
