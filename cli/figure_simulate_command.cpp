@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cli/commands.h"
@@ -49,6 +50,27 @@ CampaignQuestion question_of(const CampaignArguments& a) {
   return question;
 }
 
+/// Campaigns that were simulated, and what they were made of.
+struct DoneCampaigns {
+  CampaignQuestion question;
+  CampaignSource source;
+  std::vector<CampaignSample> samples;
+};
+
+DoneCampaigns do_campaigns(const CampaignArguments& a, CampaignQuestion question, const Shard& shard) {
+  const UncertaintySpec unsure = a.uncertainty.empty() ? UncertaintySpec{} : parse_uncertainty_spec(a.uncertainty);
+  const Progress progress = terminal_progress();
+  const RunFolder run(a.run);
+  CampaignSource source = campaign_source(figure_state(run).options, progress);
+  const CampaignStart& start = source.start;
+  question.before = map_statistics(start.surface, start.form, start.threads).rms_about_zero();
+  CampaignLearning learning;
+  learning.learns = question.learns;
+  std::vector<CampaignSample> samples = study_campaigns(
+      start, unsure, learning, a.runs, shard.tasks_of(static_cast<std::size_t>(a.samples)), a.seed, progress);
+  return {std::move(question), std::move(source), std::move(samples)};
+}
+
 int run_campaigns(const CampaignArguments& a) {
   check_counts(a);
   const std::optional<Shard> shard = a.shard.shard();
@@ -57,25 +79,15 @@ int run_campaigns(const CampaignArguments& a) {
   a.json.check({}, a.run);
   a.json.check({}, a.out);
   CampaignQuestion question = question_of(a);
-  const UncertaintySpec unsure = a.uncertainty.empty() ? UncertaintySpec{} : parse_uncertainty_spec(a.uncertainty);
-  std::unique_ptr<OutputFolder> part;
   if (shard) {
     if (lies_in(a.out, a.run)) throw InputError(fmt::format("--out '{}': lies in the run; required another", a.out));
-    part = make_part_folder(a.folder, a.out, *shard, {});
+    OutputFolder part = make_part_folder(a.folder, a.out, *shard, {});
+    const DoneCampaigns done = do_campaigns(a, std::move(question), *shard);
+    return deliver_part(campaign_part(done.question, done.source, *shard, done.samples), part, a.out, a.json);
   }
-  const Progress progress = terminal_progress();
-  const RunFolder run(a.run);
-  const CampaignSource source = campaign_source(figure_state(run).options, progress);
-  const CampaignStart& start = source.start;
-  question.before = map_statistics(start.surface, start.form, start.threads).rms_about_zero();
-  CampaignLearning learning;
-  learning.learns = question.learns;
-  const std::vector<CampaignSample> samples =
-      study_campaigns(start, unsure, learning, a.runs,
-                      shard.value_or(Shard{}).tasks_of(static_cast<std::size_t>(a.samples)), a.seed, progress);
-  if (shard) return deliver_part(campaign_part(question, source, *shard, samples), *part, a.out, a.json);
+  const DoneCampaigns done = do_campaigns(a, std::move(question), {});
   finish_progress();
-  a.json.deliver(json_text(campaign_json(question, samples)), campaign_text(question, samples));
+  a.json.deliver(json_text(campaign_json(done.question, done.samples)), campaign_text(done.question, done.samples));
   return kDone;
 }
 

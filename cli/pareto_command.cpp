@@ -39,9 +39,9 @@ int run_pareto(const ParetoArguments& arguments) {
   const std::vector<ReadFile> read = arguments.job->files_read(options);
   arguments.json.check(read, options.out);
   if (const auto shard = arguments.shard.shard()) {
-    const auto part = make_part_folder(arguments.folder, options.out, *shard, read);
+    OutputFolder part = make_part_folder(arguments.folder, options.out, *shard, read);
     const ParetoSweep mine = solve_pairs(options, ranges, *shard, terminal_progress());
-    return deliver_part(pareto_part(mine, *shard), *part, options.out, arguments.json);
+    return deliver_part(pareto_part(mine, *shard), part, options.out, arguments.json);
   }
   OutputFolder folder = arguments.folder.make(options.out, pareto_files(), read);
   return report_pareto(sweep_weights(options, ranges, terminal_progress()), folder, options.out, arguments.json);

@@ -56,10 +56,9 @@ int run_paths(const PathsArguments& arguments) {
   }
   arguments.json.check(read, options.out);
   if (const auto shard = arguments.shard.shard()) {
-    const auto part = make_part_folder(arguments.folder, options.out, *shard, read);
-    const PathComparison mine =
-        plan_paths(options, arguments.list, arguments.pitch, *shard, *part, terminal_progress());
-    return deliver_part(path_part(mine, *shard, *part), *part, options.out, arguments.json);
+    OutputFolder part = make_part_folder(arguments.folder, options.out, *shard, read);
+    const PathComparison mine = plan_paths(options, arguments.list, arguments.pitch, *shard, part, terminal_progress());
+    return deliver_part(path_part(mine, *shard, part), part, options.out, arguments.json);
   }
   OutputFolder folder = arguments.folder.make(options.out, path_comparison_files(), read);
   return report_paths(compare_paths(options, arguments.list, arguments.pitch, folder, terminal_progress()), folder,

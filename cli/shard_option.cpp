@@ -38,10 +38,10 @@ std::optional<Shard> ShardOption::shard() const {
   return option_->count() == 0 ? std::nullopt : std::optional<Shard>(parse_shard(text_));
 }
 
-std::unique_ptr<OutputFolder> make_part_folder(const ResultFolder& folder, const std::string& out, const Shard& shard,
-                                               const std::vector<ReadFile>& read) {
+OutputFolder make_part_folder(const ResultFolder& folder, const std::string& out, const Shard& shard,
+                              const std::vector<ReadFile>& read) {
   refuse_part_of_another_shard(out, shard);
-  return std::unique_ptr<OutputFolder>(new OutputFolder(folder.make(out, part_files(), read)));  // it stays in place
+  return folder.make(out, part_files(), read);
 }
 
 int deliver_part(const SweepPart& part, OutputFolder& folder, const std::string& out, const JsonOption& json) {

@@ -2,7 +2,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -34,8 +33,8 @@ class ShardOption {
 };
 
 /// The folder for a part of a sweep: as ResultFolder::make, and refused where it holds the part of another shard.
-std::unique_ptr<OutputFolder> make_part_folder(const ResultFolder& folder, const std::string& out, const Shard& shard,
-                                               const std::vector<ReadFile>& read);
+OutputFolder make_part_folder(const ResultFolder& folder, const std::string& out, const Shard& shard,
+                              const std::vector<ReadFile>& read);
 
 /// Writes part.json, puts the folder `out` in place, and prints what was done, or the part. Gives back the exit code.
 int deliver_part(const SweepPart& part, OutputFolder& folder, const std::string& out, const JsonOption& json);

@@ -30,12 +30,12 @@ std::optional<Difference> first_difference(const AskedJson& a, const AskedJson& 
   if (a == b) return {};
   if (a.is_object() && b.is_object()) {
     for (const auto& [key, value] : a.items()) {
-      const std::string inner = field.empty() ? key : field + "." + key;
+      const std::string inner = field.empty() ? key : fmt::format("{}.{}", field, key);
       if (!b.contains(key)) return Difference{inner, short_text(value), "not given"};
       if (auto found = first_difference(value, b[key], inner)) return found;
     }
     for (const auto& [key, value] : b.items()) {
-      const std::string inner = field.empty() ? key : field + "." + key;
+      const std::string inner = field.empty() ? key : fmt::format("{}.{}", field, key);
       if (!a.contains(key)) return Difference{inner, "not given", short_text(value)};
     }
   } else if (a.is_array() && b.is_array() && a.size() == b.size()) {
