@@ -101,12 +101,25 @@ TEST(SweepPart, RefusesWhatIsNotAsItWasWritten) {
   EXPECT_THAT(said_of(replaced("\"sha256\"", "\"sha\"")), testing::HasSubstr("f.json"));
   for (const std::string& none : {std::string(), std::string("{}"), std::string("[1]"), text.substr(0, 200)})
     EXPECT_THAT(said_of(none), testing::HasSubstr("is no part of a sweep"));
-  // A part with a hash that is right, and tasks that are not those of its shard.
-  SweepJson wrong = SweepJson::parse(text);
-  wrong["results"].erase(0);
-  wrong.erase("sha256");
-  wrong["sha256"] = sha256_of(wrong.dump(2) + "\n");
-  EXPECT_THAT(said_of(wrong.dump(2)), testing::HasSubstr("does not hold the tasks of shard 2/3 of 7"));
+  // Parts with a hash that is right, and tasks that are not those of their shard, or no shard at all.
+  const auto said_of_forged = [&](const auto& change) {
+    SweepJson forged = SweepJson::parse(text);
+    forged.erase("sha256");
+    change(forged);
+    forged["sha256"] = sha256_of(forged.dump(2) + "\n");
+    return said_of(forged.dump(2));
+  };
+  EXPECT_EQ(said_of_forged([](SweepJson&) {}), "");
+  EXPECT_THAT(said_of_forged([](SweepJson& part) { part["results"].erase(0); }),
+              testing::HasSubstr("does not hold the tasks of shard 2/3 of 7"));
+  EXPECT_THAT(said_of_forged([](SweepJson& part) { part["results"].erase(1); }),
+              testing::HasSubstr("does not hold the tasks of shard 2/3 of 7"));
+  EXPECT_THAT(said_of_forged([](SweepJson& part) { part["tasks"] = 1'000'000'000'000'000'000; }),
+              testing::HasSubstr("does not hold the tasks"));
+  for (const auto& shards : {SweepJson(0), SweepJson(1), SweepJson(-3), SweepJson(1e300), SweepJson("3")})
+    EXPECT_NE(said_of_forged([&shards](SweepJson& part) { part["shards"] = shards; }), "") << shards;
+  EXPECT_THAT(said_of_forged([](SweepJson& part) { part.erase("asked"); }),
+              testing::HasSubstr("is no part of a sweep"));
 }
 
 TEST(SweepPart, IsReadByTheNameOfItsFolderOrOfItsFile) {
