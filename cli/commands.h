@@ -20,6 +20,7 @@ void add_figure_command(CLI::App& program, int& exit_code);
 void add_figure_record_commands(CLI::App& figure, int& exit_code);
 /// Its subcommand `simulate`.
 void add_figure_simulate_command(CLI::App& figure, int& exit_code);
+void add_merge_command(CLI::App& program, int& exit_code);
 void add_example_command(CLI::App& program, int& exit_code);
 
 }  // namespace dwell::cli

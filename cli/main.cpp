@@ -55,6 +55,7 @@ int run(int argc, char** argv) {
   add_pareto_command(program, exit_code);
   add_simulate_command(program, exit_code);
   add_figure_command(program, exit_code);
+  add_merge_command(program, exit_code);
   add_map_command(program, exit_code);
   add_profile_command(program, exit_code);
   add_tif_command(program, exit_code);

@@ -6,17 +6,12 @@
 #include "cli/commands.h"
 #include "cli/job_arguments.h"
 #include "cli/json_option.h"
-#include "cli/progress_line.h"
 #include "cli/result_folder.h"
+#include "cli/shard_option.h"
+#include "cli/sweep_reports.h"
 #include "cli/terminal.h"
-#include "core/base/counted.h"
-#include "core/base/duration_text.h"
 #include "core/base/errors.h"
-#include "runs/campaigns/pareto_output.h"
-#include "runs/reports/aim.h"
-#include "runs/reports/map_line.h"
-#include "runs/reports/tool_sheet.h"
-#include "runs/reports/travel_words.h"
+#include "runs/campaigns/pareto_part.h"
 
 namespace dwell::cli {
 namespace {
@@ -24,34 +19,10 @@ namespace {
 struct ParetoArguments {
   std::unique_ptr<JobArguments> job;
   std::string smoothnesses, time_prices;
+  ShardOption shard;
   JsonOption json;
   ResultFolder folder;
 };
-
-/// The text for people: the front of the sweep.
-std::string front_text(const ParetoSweep& sweep) {
-  const Part& part = *sweep.job.part;
-  std::string text = map_line(part.map.grid, part.before.valid_pixels) + aim_line(correction_aim(sweep.job)) +
-                     tool_lines(tool_sheet(part.tif));
-  const auto on_front =
-      std::count_if(sweep.points.begin(), sweep.points.end(), [](const auto& p) { return p.on_front; });
-  long applications = 0;
-  for (const ParetoPoint& p : sweep.points) applications += p.solver.operator_applications;
-  text += fmt::format("solves    {}, {}, {:.2f} s; {} on the Pareto front:\n", sweep.points.size(),
-                      counted(applications, "operator application"), sweep.seconds, on_front);
-  text += fmt::format("          residual: exact, about zero; run: dwell and {:.2f} s of moves ({})\n",
-                      sweep.travel.total(), travel_words(sweep.travel));
-  text += fmt::format("{:>12} {:>20} {:>18} {:>10} {:>10} {:>13} {:>12}\n", "smoothness", "time price [nm^2/s]",
-                      "residual RMS [nm]", "dwell [s]", "run [s]", "h:min:s", "step RMS [s]");
-  for (const ParetoPoint& p : sweep.points) {
-    if (!p.on_front) continue;
-    const double run = p.trade_off.total + sweep.travel.total();
-    text +=
-        fmt::format("{:>12.4g} {:>20.4g} {:>18.4g} {:>10.2f} {:>10.2f} {:>13} {:>12.4g}\n", p.weights.smoothness,
-                    p.weights.time_price, p.exact_rms, p.trade_off.total, run, clock_text(run), p.trade_off.step_rms);
-  }
-  return text;
-}
 
 int run_pareto(const ParetoArguments& arguments) {
   const JobOptions options = arguments.job->options();
@@ -67,13 +38,13 @@ int run_pareto(const ParetoArguments& arguments) {
   JobArguments::require(options, {"map", "tif", "path", "out"});
   const std::vector<ReadFile> read = arguments.job->files_read(options);
   arguments.json.check(read, options.out);
+  if (const auto shard = arguments.shard.shard()) {
+    OutputFolder part = make_part_folder(arguments.folder, options.out, *shard, read);
+    const ParetoSweep mine = solve_pairs(options, ranges, *shard, terminal_progress());
+    return deliver_part(pareto_part(mine, *shard), part, options.out, arguments.json);
+  }
   OutputFolder folder = arguments.folder.make(options.out, pareto_files(), read);
-  const ParetoSweep sweep = sweep_weights(options, ranges, terminal_progress());
-  const std::string json = write_pareto(sweep, folder);
-  folder.commit();
-  finish_progress();
-  arguments.json.deliver(json, front_text(sweep) + fmt::format("written   {}\n", options.out));
-  return say_limits(sweep.limits);
+  return report_pareto(sweep_weights(options, ranges, terminal_progress()), folder, options.out, arguments.json);
 }
 
 /// The options of a plan but for the weights, which are swept, and the program, which is not written.
@@ -107,6 +78,7 @@ void add_pareto_command(CLI::App& program, int& exit_code) {
           "prices of machine time in nm^2/s, likewise (default 0 and four up to a hundredth of the highest that "
           "has any effect)")
       ->type_name("PRICES");
+  arguments->shard.add_to(*command, "solves");
   arguments->folder.add_to(*command);
   arguments->json.add_to(*command);
   command->footer(

@@ -8,15 +8,16 @@
 #include "cli/job_arguments.h"
 #include "cli/json_option.h"
 #include "cli/number_option.h"
-#include "cli/progress_line.h"
 #include "cli/result_folder.h"
+#include "cli/shard_option.h"
 #include "cli/standard_streams.h"
+#include "cli/sweep_reports.h"
 #include "cli/terminal.h"
 #include "core/base/errors.h"
 #include "paths/path_catalogue.h"
 #include "runs/campaigns/path_comparison_output.h"
+#include "runs/campaigns/path_part.h"
 #include "runs/job/path_list.h"
-#include "runs/reports/tool_sheet.h"
 
 namespace dwell::cli {
 namespace {
@@ -27,6 +28,7 @@ struct PathsArguments {
   std::unique_ptr<JobArguments> job;
   std::string list;
   std::optional<double> pitch;
+  ShardOption shard;
   JsonOption json;
   ResultFolder folder;
   bool kinds = false;
@@ -53,15 +55,14 @@ int run_paths(const PathsArguments& arguments) {
     if (const auto* file = spec.get_if<PathFromFile>()) read.push_back({"the path", file->file.string()});
   }
   arguments.json.check(read, options.out);
+  if (const auto shard = arguments.shard.shard()) {
+    OutputFolder part = make_part_folder(arguments.folder, options.out, *shard, read);
+    const PathComparison mine = plan_paths(options, arguments.list, arguments.pitch, *shard, part, terminal_progress());
+    return deliver_part(path_part(mine, *shard, part), part, options.out, arguments.json);
+  }
   OutputFolder folder = arguments.folder.make(options.out, path_comparison_files(), read);
-  const PathComparison comparison =
-      compare_paths(options, arguments.list, arguments.pitch, folder, terminal_progress());
-  const std::string json = write_path_comparison(comparison, folder);
-  folder.commit();
-  finish_progress();
-  arguments.json.deliver(json, tool_lines(tool_sheet(comparison.job.part->tif)) + path_comparison_text(comparison) +
-                                   fmt::format("written   {}, a plan a folder\n", options.out));
-  return say_limits(comparison.limits);
+  return report_paths(compare_paths(options, arguments.list, arguments.pitch, folder, terminal_progress()), folder,
+                      options.out, arguments.json);
 }
 
 std::vector<std::string> flags_but_path() {
@@ -86,6 +87,7 @@ void add_paths_command(CLI::App& program, int& exit_code) {
   add_number(*command, "--pitch", arguments->pitch, ranges::kPitch,
              "pitch in mm of the paths that say none (default a quarter of the removal function's FWHM)")
       ->type_name("MM");
+  arguments->shard.add_to(*command, "paths");
   arguments->folder.add_to(*command);
   arguments->json.add_to(*command);
   command->add_flag("--kinds", arguments->kinds, "list the kinds of path with their options, and stop");

@@ -18,6 +18,7 @@
 #include "runs/plan/lattice_choice.h"
 #include "runs/plan/plan_problem.h"
 #include "runs/plan/program_prediction.h"
+#include "runs/reports/plan_blocks.h"
 
 namespace dwell {
 namespace {
@@ -79,46 +80,48 @@ void report_unconverged(ParetoSweep& sweep) {
       first->weights.smoothness, first->weights.time_price, to_string(first->solver.status), first->solver.message));
 }
 
-/// The exact residual of a dwell; whether the lattice is too coarse for it.
-bool state_exact_residual(ParetoPoint& point, const Vector& dwell, const ParetoSweep& sweep, const PlanProblem& problem,
-                          double max_feed, const Progress& progress) {
-  const Part& part = *sweep.job.part;
-  const ExactResidual exact = predict_dwell(part, sweep.laid, dwell, problem.left_by(dwell), max_feed,
-                                            ExactCheck::Figure, progress.of_part("exact residual"));
-  point.exact_rms = exact.statistics.rms_about_zero();
-  point.standard_error = exact.standard_error;
-  return lattice_too_coarse(exact, part.before);
+void report_coarse_lattices(ParetoSweep& sweep) {
+  const auto too_coarse = std::count_if(sweep.points.begin(), sweep.points.end(),
+                                        [](const ParetoPoint& p) { return p.lattice_too_coarse; });
+  if (too_coarse == 0) return;
+  sweep.limits.push_back(fmt::format(
+      "{} of {} solves leave so little that the error of the lattice that they were solved on is more than {:.0f} % "
+      "of it: dwell plan with their weights refines the lattice and leaves less",
+      too_coarse, sweep.points.size(), 100.0 * kWorstLatticeError));
 }
 
-/// Solves at every pair of weights, to and fro.
-void sweep_grid(ParetoSweep& sweep, PlanProblem& problem, const DwellOptions& options, const Progress& progress) {
-  const std::size_t rows = sweep.ranges.smoothnesses.size(), columns = sweep.ranges.time_prices.size();
-  sweep.points.resize(rows * columns);
-  std::size_t too_coarse = 0;
-  Vector dwell;  // of the neighbour before
-  for (std::size_t k = 0; k < rows * columns; ++k) {
-    const std::size_t row = rows - 1 - k / columns, turn = k / columns % 2;
-    const std::size_t column = turn == 0 ? columns - 1 - k % columns : k % columns;
-    const Weights weights{sweep.ranges.smoothnesses[row], sweep.ranges.time_prices[column]};
-    const std::string stage = fmt::format("solve {} of {}: smoothness {:.4g}, time price {:.4g} nm^2/s", k + 1,
-                                          rows * columns, weights.smoothness, weights.time_price);
-    WeightedDwell found = problem.solve(weights, std::move(dwell), options.max_seconds, stage, progress);
-    dwell = std::move(found.dwell);
-    sweep.seconds += found.solver.seconds;
-    ++found.solver.operator_applications;
-    ParetoPoint& point = sweep.points[row * columns + column];
-    point = {weights, found.trade_off, 0.0, 0.0, found.solver.objective, std::move(found.solver), false};
-    too_coarse += state_exact_residual(point, dwell, sweep, problem, options.machine.feed_limits().max_feed,
-                                       progress.of_part(stage));
+/// The solves of a job's dwell problem.
+struct PairSolver {
+  const Part& part;
+  const LaidPath& laid;
+  PlanProblem& problem;
+  const DwellOptions& options;
+
+  /// Solves at the weights of the point and fills the rest.
+  void solve(ParetoPoint& point, const std::string& stage, const Progress& progress) const {
+    WeightedDwell found = problem.solve(point.weights, {}, options.max_seconds, stage, progress);
+    const ExactResidual exact =
+        predict_dwell(part, laid, found.dwell, problem.left_by(found.dwell), options.machine.feed_limits().max_feed,
+                      ExactCheck::Figure, progress.of_part(stage).of_part("exact residual"));
+    point.trade_off = found.trade_off;
+    point.exact_rms = exact.statistics.rms_about_zero();
+    point.standard_error = exact.standard_error;
+    point.objective = found.solver.objective;
+    point.solver = std::move(found.solver);
+    ++point.solver.operator_applications;
+    point.lattice_too_coarse = lattice_too_coarse(exact, part.before);
     progress.report(fmt::format("{}: residual {:.4g} nm RMS, dwell {:.5g} s, step {:.4g} s RMS", stage, point.exact_rms,
                                 point.trade_off.total, point.trade_off.step_rms));
   }
-  if (too_coarse > 0) {
-    sweep.limits.push_back(fmt::format(
-        "{} of {} solves leave so little that the error of the lattice that they were solved on is more than {:.0f} % "
-        "of it: dwell plan with their weights refines the lattice and leaves less",
-        too_coarse, sweep.points.size(), 100.0 * kWorstLatticeError));
+};
+
+/// The points of all pairs, not solved.
+std::vector<ParetoPoint> pairs_of(const ParetoRanges& ranges) {
+  std::vector<ParetoPoint> points;
+  for (const double smoothness : ranges.smoothnesses) {
+    for (const double price : ranges.time_prices) points.emplace_back().weights = {smoothness, price};
   }
+  return points;
 }
 
 }  // namespace
@@ -152,24 +155,52 @@ void mark_front(std::vector<ParetoPoint>& points) {
   }
 }
 
-ParetoSweep sweep_weights(const JobOptions& options, const ParetoRanges& ranges, const Progress& progress) {
-  ParetoSweep sweep;
+double ParetoSweep::seconds() const {
+  double sum = 0.0;
+  for (const ParetoPoint& p : points) sum += p.solver.seconds;
+  return sum;
+}
+
+ParetoSweep solve_pairs(const JobOptions& options, const ParetoRanges& ranges, const Shard& shard,
+                        const Progress& progress) {
   const DwellOptions how = dwell_options(options);
   const TimeLimit limit = time_limit(options.max_solve_s);
-  sweep.job =
+  Job job =
       limit.run(progress, [&](const Progress& limited) { return load_job(without_program_style(options), limited); });
-  sweep.laid = lay_job_path(sweep.job, limit.used(), progress).laid;
-  sweep.travel = travel_times(sweep.laid, options.lift_height_mm, how.machine);
-  if (auto file = path_input(options)) sweep.job.inputs.push_back(std::move(*file));
-  const auto set_up = limit.run(progress, [&](const Progress& limited) {
+  const LaidPath laid = lay_job_path(job, limit.used(), progress).laid;
+  if (auto file = path_input(options)) job.inputs.push_back(std::move(*file));
+  ParetoSweep sweep;
+  sweep.sheet = sweep_sheet(
+      job, {"smoothness", "time_price_nm2_per_s", "time_worth", "certify", "accept", "gcode", "machine", "schedule",
+            "rounds", "export", "template", "log", "log_plan", "log_columns", "log_period_s", "log_tolerance_mm"});
+  sweep.path = plan_path_block(laid);
+  sweep.travel = travel_times(laid, options.lift_height_mm, how.machine);
+  const auto problem = limit.run(progress, [&](const Progress& limited) {
     limited.step("setting up the removal operator");
-    const LatticeChoice lattice = choose_lattice(*sweep.job.part, sweep.laid.strokes, limited.of_part("lattice"));
-    return std::make_unique<PlanProblem>(*sweep.job.part, sweep.laid, lattice.kernel, how, limited);
+    const LatticeChoice lattice = choose_lattice(*job.part, laid.strokes, limited.of_part("lattice"));
+    return std::make_unique<PlanProblem>(*job.part, laid, lattice.kernel, how, limited);
   });
-  sweep.ranges = complete_ranges(ranges, set_up->highest_price());
-  sweep_grid(sweep, *set_up, how, progress);
+  sweep.ranges = complete_ranges(ranges, problem->highest_price());
+  sweep.points = pairs_of(sweep.ranges);
+  const PairSolver solver{*job.part, laid, *problem, how};
+  for (const std::size_t task : shard.tasks_of(sweep.points.size())) {
+    ParetoPoint& point = sweep.points[task - 1];
+    const std::string stage = fmt::format("solve {} of {}: smoothness {:.4g}, time price {:.4g} nm^2/s", task,
+                                          sweep.points.size(), point.weights.smoothness, point.weights.time_price);
+    solver.solve(point, stage, progress);
+  }
+  return sweep;
+}
+
+void conclude(ParetoSweep& sweep) {
   mark_front(sweep.points);
+  report_coarse_lattices(sweep);
   report_unconverged(sweep);
+}
+
+ParetoSweep sweep_weights(const JobOptions& options, const ParetoRanges& ranges, const Progress& progress) {
+  ParetoSweep sweep = solve_pairs(options, ranges, {}, progress);
+  conclude(sweep);
   return sweep;
 }
 

@@ -5,13 +5,8 @@
 
 #include <utility>
 
-#include "runs/base/inputs_json.h"
 #include "runs/campaigns/pareto_picture.h"
-#include "runs/reports/aim.h"
 #include "runs/reports/figure_output.h"
-#include "runs/reports/options_json.h"
-#include "runs/reports/plan_blocks.h"
-#include "runs/reports/tool_sheet.h"
 
 namespace dwell {
 
@@ -40,30 +35,26 @@ std::string pareto_json_text(const ParetoSweep& sweep) {
     point["run_s"] = p.trade_off.total + sweep.travel.total();
     points.push_back(std::move(point));
   }
-  Json options = options_json(sweep.job);
-  for (const char* unused :
-       {"smoothness", "time_price_nm2_per_s", "time_worth", "certify", "accept", "gcode", "machine", "schedule",
-        "rounds", "export", "template", "log", "log_plan", "log_columns", "log_period_s", "log_tolerance_mm"})
-    options.erase(unused);
+  const SweepSheet& sheet = sweep.sheet;
   Json summary = json_of_command("pareto");
-  summary.update({{"map", plan_map_block(sweep.job)},
-                  {"aim", aim_block(correction_aim(sweep.job))},
-                  {"tif", plan_tif_block(sweep.job)},
-                  {"tool", tool_block(tool_sheet(sweep.job.part->tif))},
-                  {"path", plan_path_block(sweep.laid)},
+  summary.update({{"map", sheet.map},
+                  {"aim", sheet.aim},
+                  {"tif", sheet.tif},
+                  {"tool", sheet.tool},
+                  {"path", sweep.path},
                   {"points", points},
-                  {"wall_s", sweep.seconds},
+                  {"wall_s", sweep.seconds()},
                   {"smoothnesses", sweep.ranges.smoothnesses},
                   {"time_prices_nm2_per_s", sweep.ranges.time_prices},
                   {"limits", sweep.limits},
-                  {"options", options},
-                  {"inputs", inputs_json(sweep.job.inputs)}});
+                  {"options", sheet.options},
+                  {"inputs", sheet.inputs}});
   return json_text(std::move(summary));
 }
 
 std::string write_pareto(const ParetoSweep& sweep, const OutputFolder& folder) {
   folder.write("pareto.csv", pareto_table_text(sweep));
-  write_figure(folder, sweep.job.options.figures, "pareto",
+  write_figure(folder, sweep.sheet.figures, "pareto",
                [&](FigureFormat format) { return pareto_picture(sweep, format); });
   std::string json = pareto_json_text(sweep);
   folder.write("pareto.json", json);

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <numbers>
@@ -127,48 +126,57 @@ void mark_front(std::vector<ComparedPath>& paths) {
   }
 }
 
-PathComparison compare_paths(const JobOptions& options, const std::string& list, std::optional<double> pitch,
-                             const OutputFolder& folder, const Progress& progress) {
-  const auto started = std::chrono::steady_clock::now();
+PathComparison plan_paths(const JobOptions& options, const std::string& list, std::optional<double> pitch,
+                          const Shard& shard, const OutputFolder& folder, const Progress& progress) {
   if (pitch && !ranges::kPitch.holds(*pitch)) {
     throw InputError(fmt::format("--pitch: {}; required {}", *pitch, ranges::kPitch.text()));
   }
   check_weights(dwell_options(options));
   check_exports(options);
   parse_path_list(list, pitch.value_or(1.0));  // refuses a wrong list before any work is done
-  PathComparison comparison;
-  comparison.job = time_limit(options.max_solve_s).run(progress, [&](const Progress& limited) {
+  const Job job = time_limit(options.max_solve_s).run(progress, [&](const Progress& limited) {
     return load_job(options, limited);
   });
+  PathComparison comparison;
+  comparison.sheet = sweep_sheet(job, {"path"});
+  comparison.list = list;
   comparison.pitch_given = pitch.has_value();
-  comparison.pitch = pitch.value_or(default_pitch(comparison.job.part->tif));
-  comparison.before = radial_spectrum(comparison.job.part->figure, comparison.job.part->threads);
+  comparison.pitch = pitch.value_or(default_pitch(job.part->tif));
+  comparison.before = radial_spectrum(job.part->figure, job.part->threads);
   for (ListedPath& listed : parse_path_list(list, comparison.pitch)) {
     comparison.paths.emplace_back().listed = std::move(listed);
   }
-  std::optional<TimeLimitReached> out_of_time;
-  for (std::size_t k = 0; k < comparison.paths.size(); ++k) {
-    ComparedPath& path = comparison.paths[k];
-    const std::string stage = fmt::format("path {} of {}, {}", k + 1, comparison.paths.size(), path.listed.text);
+  for (const std::size_t task : shard.tasks_of(comparison.paths.size())) {
+    ComparedPath& path = comparison.paths[task - 1];
+    const std::string stage = fmt::format("path {} of {}, {}", task, comparison.paths.size(), path.listed.text);
     progress.report(stage);
     try {
-      plan_one(comparison.job, comparison.pitch, path, folder, progress.of_part(stage));
+      plan_one(job, comparison.pitch, path, folder, progress.of_part(stage));
     } catch (const InputError& error) {
       path.failure = with_flags(error).what();
-      progress.report(stage + ": " + path.failure);
     } catch (const TimeLimitReached& error) {
       path.failure = with_option_names(error.what(), flag_of);
-      progress.report(stage + ": " + path.failure);
-      if (!out_of_time) out_of_time = error;
+      path.out_of_time = true;
     }
+    if (!path.failure.empty()) progress.report(stage + ": " + path.failure);
   }
-  const bool none = std::none_of(comparison.paths.begin(), comparison.paths.end(),
-                                 [](const ComparedPath& p) { return p.failure.empty(); });
-  if (none && out_of_time) throw TimeLimitReached(*out_of_time);
-  if (none) throw InputError("--paths: none can be planned; the first: " + comparison.paths.front().failure);
+  return comparison;
+}
+
+void conclude(PathComparison& comparison) {
+  const std::vector<ComparedPath>& paths = comparison.paths;
+  const bool none = std::none_of(paths.begin(), paths.end(), [](const ComparedPath& p) { return p.failure.empty(); });
+  const auto late = std::find_if(paths.begin(), paths.end(), [](const ComparedPath& p) { return p.out_of_time; });
+  if (none && late != paths.end()) throw TimeLimitReached(late->failure);
+  if (none) throw InputError("--paths: none can be planned; the first: " + paths.front().failure);
   mark_front(comparison.paths);
   collect_limits(comparison);
-  comparison.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+}
+
+PathComparison compare_paths(const JobOptions& options, const std::string& list, std::optional<double> pitch,
+                             const OutputFolder& folder, const Progress& progress) {
+  PathComparison comparison = plan_paths(options, list, pitch, {}, folder, progress);
+  conclude(comparison);
   return comparison;
 }
 

@@ -10,6 +10,8 @@
 #include "paths/metrics/ripple_spectrum.h"
 #include "runs/base/json_blocks.h"
 #include "runs/base/output_folder.h"
+#include "runs/base/shard.h"
+#include "runs/campaigns/sweep_sheet.h"
 #include "runs/job/path_list.h"
 #include "runs/job/planned_job.h"
 
@@ -18,7 +20,8 @@ namespace dwell {
 /// The result of one path of a comparison.
 struct ComparedPath {
   ListedPath listed;
-  std::string failure;  // why there is no plan; empty if there is one, and only then is the rest filled
+  std::string failure;       // why there is no plan; empty if there is one, and only then is the rest filled
+  bool out_of_time = false;  // that is why
 
   std::string kind;  // of the path, as its planner names it
   PathMetrics metrics;
@@ -54,12 +57,12 @@ struct ComparedPath {
 };
 
 struct PathComparison {
-  Job job;             // its own path is not used
+  SweepSheet sheet;    // of the job, whose own path is not used
+  std::string list;    // of the paths, as it was given
   double pitch = 0.0;  // of the paths that gave none [mm]
   bool pitch_given = false;
-  std::vector<ComparedPath> paths;  // in the order of the list
   PsdCurve before;                  // spectrum of the map, form terms removed
-  double seconds = 0.0;             // of it all
+  std::vector<ComparedPath> paths;  // in the order of the list
   std::vector<std::string> limits;  // not empty = exit code 3
 };
 
@@ -71,10 +74,18 @@ double default_pitch(const RemovalFunction& tif);
 /// converge are neither on the front nor do they keep others off it. Cost O(n^2).
 void mark_front(std::vector<ComparedPath>& paths);
 
-/// Plans every path of `list` for the job, each completely (path, dwell, program, simulation of the program as read
-/// back) and into a folder of its own name within `folder`. `pitch` [mm] is for the paths that give none; default_pitch
-/// if not given. A path that cannot be planned is reported as such and the others go on. Throws InputError if none can,
-/// Interrupted, or as load_job does for the inputs. Cost: that of the plans.
+/// Plans the paths of `list` that are a shard's for the job, each completely (path, dwell, program, simulation of the
+/// program as read back) and into a folder of its own name within `folder`; of the others there is the name alone.
+/// `pitch` [mm] is for the paths that give none; default_pitch if not given. A path that cannot be planned is reported
+/// as such and the others go on. Throws Interrupted, or as load_job does for the inputs. Cost: that of the plans.
+PathComparison plan_paths(const JobOptions& options, const std::string& list, std::optional<double> pitch,
+                          const Shard& shard, const OutputFolder& folder, const Progress& progress);
+
+/// What only all paths together show: marks the front and collects the limits. Throws InputError, or TimeLimitReached
+/// where that was why, if none could be planned.
+void conclude(PathComparison& comparison);
+
+/// plan_paths of all and conclude.
 PathComparison compare_paths(const JobOptions& options, const std::string& list, std::optional<double> pitch,
                              const OutputFolder& folder, const Progress& progress);
 

@@ -8,15 +8,9 @@
 
 #include "core/base/duration_text.h"
 #include "core/base/utf8_text.h"
-#include "runs/base/inputs_json.h"
 #include "runs/drawing/line_chart.h"
-#include "runs/reports/aim.h"
 #include "runs/reports/figure_output.h"
-#include "runs/reports/map_line.h"
-#include "runs/reports/options_json.h"
-#include "runs/reports/plan_blocks.h"
 #include "runs/reports/plan_files.h"
-#include "runs/reports/tool_sheet.h"
 
 namespace dwell {
 namespace {
@@ -216,30 +210,29 @@ std::string path_table_text(const PathComparison& comparison) {
 std::string path_comparison_json(const PathComparison& comparison) {
   Json paths = Json::array();
   for (const ComparedPath& p : comparison.paths) paths.push_back(json_of(p));
-  Json options = options_json(comparison.job);
-  options.erase("path");
+  const SweepSheet& sheet = comparison.sheet;
   Json summary = json_of_command("paths");
-  summary.update({{"map", plan_map_block(comparison.job)},
-                  {"aim", aim_block(correction_aim(comparison.job))},
-                  {"tif", plan_tif_block(comparison.job)},
-                  {"tool", tool_block(tool_sheet(comparison.job.part->tif))},
+  summary.update({{"map", sheet.map},
+                  {"aim", sheet.aim},
+                  {"tif", sheet.tif},
+                  {"tool", sheet.tool},
                   {"pitch_mm", comparison.pitch},
                   {"pitch_given", comparison.pitch_given},
                   {"paths", paths},
                   {"limits", comparison.limits},
-                  {"options", options},
-                  {"inputs", inputs_json(comparison.job.inputs)}});
+                  {"options", sheet.options},
+                  {"inputs", sheet.inputs}});
   return json_text(std::move(summary));
 }
 
 std::string path_comparison_text(const PathComparison& comparison) {
   std::size_t widest = 4;
   for (const ComparedPath& p : comparison.paths) widest = std::max(widest, p.listed.name.size());
-  const Part& part = *comparison.job.part;
+  const SweepSheet& sheet = comparison.sheet;
   std::string text =
-      map_line(part.map.grid, part.before.valid_pixels) + aim_line(correction_aim(comparison.job)) +
-      fmt::format("before    {}; pitch {:.6g} mm where a path says none ({})\n", in_words(part.before),
-                  comparison.pitch, comparison.pitch_given ? "given" : "a quarter of the removal function's FWHM");
+      sheet.tool_lines + sheet.map_lines +
+      fmt::format("before    {}; pitch {:.6g} mm where a path says none ({})\n", sheet.before, comparison.pitch,
+                  comparison.pitch_given ? "given" : "a quarter of the removal function's FWHM");
   text += fmt::format("  {:<{}} {:>12} {:>11} {:>9} {:>13} {:>8} {:>11} {:>8} {:>10} {:>6} {:>9} {:>10}\n", "path",
                       widest, "residual[nm]", "mid RMS[nm]", "total[s]", "h:min:s", "lift[s]", "step RMS[s]", "points",
                       "length[mm]", "lifts", "ripple[%]", "anisotropy");
@@ -267,13 +260,13 @@ std::string path_comparison_text(const PathComparison& comparison) {
       "may be above the residual's RMS over all pixels.\n"
       "  Ripple: peak to valley over the mean removal, at constant feed. Anisotropy of the path's directions: 1 = all "
       "parallel.\n",
-      *about_zero_in_words(part.before) != '\0' ? " (RMS about the mean)" : "", band_text(comparison));
+      sheet.has_mean ? " (RMS about the mean)" : "", band_text(comparison));
   return text + below;
 }
 
 std::string write_path_comparison(const PathComparison& comparison, const OutputFolder& folder) {
   folder.write("paths.csv", path_table_text(comparison));
-  const std::vector<FigureFormat>& figures = comparison.job.options.figures;
+  const std::vector<FigureFormat>& figures = comparison.sheet.figures;
   write_figure(folder, figures, "paths", [&](FigureFormat format) { return comparison_picture(comparison, format); });
   write_figure(folder, figures, "psd", [&](FigureFormat format) { return spectra_picture(comparison, format); });
   std::string json = path_comparison_json(comparison);

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "core/base/random_numbers.h"
 
@@ -36,32 +35,34 @@ CampaignTruth draw_truth(const UncertaintySpec& unsure, unsigned seed, int sampl
   return truth;
 }
 
-CampaignStudy study_campaigns(const CampaignStart& start, const UncertaintySpec& unsure,
-                              const CampaignLearning& learning, int runs, int first, int end, unsigned seed,
-                              const Progress& progress) {
-  CampaignStudy study;
-  study.first = first;
-  for (int sample = first; sample < end; ++sample) {
-    const Progress here = progress.of_part(fmt::format("campaign {} of {} to {}", sample, first, end - 1));
+std::vector<CampaignSample> study_campaigns(const CampaignStart& start, const UncertaintySpec& unsure,
+                                            const CampaignLearning& learning, int runs,
+                                            const std::vector<std::size_t>& numbers, unsigned seed,
+                                            const Progress& progress) {
+  std::vector<CampaignSample> samples;
+  for (const std::size_t number : numbers) {
+    const auto sample = static_cast<int>(number);
+    const Progress here =
+        progress.of_part(fmt::format("campaign {}, {} of {}", number, samples.size() + 1, numbers.size()));
     const Campaign campaign = simulate_campaign(start, draw_truth(unsure, seed, sample), learning, runs,
                                                 seed_of(seed, sample) ^ 0x5bd1e995U, here);
-    std::vector<double> left, seconds;
-    for (const CampaignRun& run : campaign.runs) left.push_back(run.after), seconds.push_back(run.seconds);
-    study.left.push_back(std::move(left));
-    study.seconds.push_back(std::move(seconds));
-    if (!campaign.fault.empty()) study.faults.push_back(fmt::format("campaign {}: {}", sample, campaign.fault));
+    samples.push_back({sample, {}, {}, campaign.fault});
+    for (const CampaignRun& run : campaign.runs) {
+      samples.back().left.push_back(run.after);
+      samples.back().seconds.push_back(run.seconds);
+    }
   }
-  return study;
+  return samples;
 }
 
-std::vector<CampaignSpread> spreads_of(const CampaignStudy& study, int runs) {
+std::vector<CampaignSpread> spreads_of(const std::vector<CampaignSample>& samples, int runs) {
   std::vector<CampaignSpread> spreads;
   for (std::size_t run = 0; run < static_cast<std::size_t>(runs); ++run) {
     std::vector<double> left, seconds;
-    for (std::size_t k = 0; k < study.left.size(); ++k) {
-      if (study.left[k].size() <= run) continue;
-      left.push_back(study.left[k][run]);
-      seconds.push_back(study.seconds[k][run]);
+    for (const CampaignSample& sample : samples) {
+      if (sample.left.size() <= run) continue;
+      left.push_back(sample.left[run]);
+      seconds.push_back(sample.seconds[run]);
     }
     CampaignSpread spread;
     spread.samples = static_cast<int>(left.size());

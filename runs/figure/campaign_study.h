@@ -16,24 +16,26 @@ struct CampaignSpread {
   int samples = 0;                                                                // that came so far
 };
 
-/// Many simulated campaigns of one shop.
-struct CampaignStudy {
-  std::vector<std::vector<double>> left;     // RMS after every run [nm], a campaign each
-  std::vector<std::vector<double>> seconds;  // of dwell of every run
-  std::vector<std::string> faults;           // errors of orientation that ended a campaign
-  int first = 1;                             // number of the first campaign
+/// One simulated campaign of many.
+struct CampaignSample {
+  int number = 1;
+  std::vector<double> left;     // RMS after every run [nm]
+  std::vector<double> seconds;  // of dwell of every run
+  std::string fault;            // the error of orientation that ended it; else empty
 };
 
 /// A truth as an uncertainty says it may be, the `sample`-th (1, 2, ...) of a seed. Every sample is drawn on its own,
 /// so that any of them can be made anywhere.
 CampaignTruth draw_truth(const UncertaintySpec& unsure, unsigned seed, int sample);
 
-/// Simulates campaigns first, first + 1, ... below `end` (1-based). Throws as simulate_campaign, which costs most.
-CampaignStudy study_campaigns(const CampaignStart& start, const UncertaintySpec& unsure,
-                              const CampaignLearning& learning, int runs, int first, int end, unsigned seed,
-                              const Progress& progress = {});
+/// Simulates the campaigns of these numbers (1, 2, ...), each on its own. Throws as simulate_campaign, which costs
+/// most.
+std::vector<CampaignSample> study_campaigns(const CampaignStart& start, const UncertaintySpec& unsure,
+                                            const CampaignLearning& learning, int runs,
+                                            const std::vector<std::size_t>& numbers, unsigned seed,
+                                            const Progress& progress = {});
 
 /// The spread after each run, by the campaigns that came so far.
-std::vector<CampaignSpread> spreads_of(const CampaignStudy& study, int runs);
+std::vector<CampaignSpread> spreads_of(const std::vector<CampaignSample>& samples, int runs);
 
 }  // namespace dwell

@@ -25,13 +25,10 @@ TEST(CampaignStudy, DrawsTruthsOfTheirSizeEachOnItsOwn) {
 }
 
 TEST(CampaignStudy, StatesTheSpreadOfTheCampaignsThatCameSoFar) {
-  CampaignStudy study;
-  for (int k = 0; k <= 100; ++k) {
-    study.left.push_back({100.0 - k, 1.0});
-    study.seconds.push_back({10.0 + k, 2.0});
-  }
-  study.left[3].pop_back(), study.seconds[3].pop_back();  // ended after its first run
-  const std::vector<CampaignSpread> spreads = spreads_of(study, 3);
+  std::vector<CampaignSample> samples;
+  for (int k = 0; k <= 100; ++k) samples.push_back({k + 1, {100.0 - k, 1.0}, {10.0 + k, 2.0}, ""});
+  samples[3].left.pop_back(), samples[3].seconds.pop_back();  // ended after its first run
+  const std::vector<CampaignSpread> spreads = spreads_of(samples, 3);
   ASSERT_EQ(spreads.size(), 3U);
   EXPECT_DOUBLE_EQ(spreads[0].median, 50.0);
   EXPECT_DOUBLE_EQ(spreads[0].fifth, 5.0);
