@@ -80,6 +80,15 @@ std::vector<JobOptionRecord> fit_option_records() {
        "and 1 (docs/math.md)",
        false, false, [](Options& o, const std::string& t) { o.objective = parse_fit_objective(t); },
        [](const Options& o) { return to_string(o.objective); }},
+      {"uncertainty", "uncertainty", "WHAT=SIZE,...",
+       "standard deviations of what may be otherwise than it is thought, each with its unit: "
+       "tif-rate=5%,tif-width=2%,position=20um,offset=0.3mm,rotation=0.2deg,metrology=0.2nm, and samples=200,seed=1: "
+       "the program is simulated in so many drawn truths (docs/uncertainty.md); or none",
+       false, false,
+       [](Options& o, const std::string& t) {
+         o.uncertainty = t == "none" ? std::nullopt : std::optional(parse_sampled_uncertainty(t));
+       },
+       [](const Options& o) { return o.uncertainty ? to_string(*o.uncertainty) : std::string(); }},
   };
 }
 

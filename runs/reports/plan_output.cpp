@@ -289,6 +289,11 @@ WrittenPlan write_plan(const PlannedJob& plan, const OutputFolder& folder, const
   written.exact = predict_program(part_to_predict_on(plan, changed), run, plan.dwell.lattice.kernel, progress);
   if (!plan.part().beside.values.empty())
     written.beside = shown_surface(plan.part(), written.exact.surface, run, plan.dwell.lattice.kernel);
+  if (plan.job.options.uncertainty) {
+    written.uncertainty =
+        uncertainty_of_motion(part_to_predict_on(plan, changed), run, plan.dwell.lattice.kernel, written.exact,
+                              *plan.job.options.uncertainty, progress.of_part("uncertainty"));
+  }
   write_learnt(plan, folder, program, written);
   if (plan.job.machine) {
     const Machine machine = machine_for_program(plan.job.machine->machine, plan.job.options);

@@ -220,7 +220,8 @@ TEST(WritePlan, TheSameJobGivesTheSameBytesButForTheWallTime) {
   const auto exports = std::count_if(formats.begin(), formats.end(),
                                      [](const auto& format) { return !format.word.empty() && !format.file.empty(); });
   EXPECT_EQ(one.size() + static_cast<std::size_t>(exports),
-            plan_files().others.size() - 6 + plan_files().figures.size() - 2 + 1);  // no parts, log, rest or machine
+            plan_files().others.size() - 6 + plan_files().figures.size() - 3 +
+                1);  // no parts, log, rest, machine or uncertainty
   for (const auto& [name, bytes] : one) {
     const std::string file(name);
     EXPECT_TRUE(plan_files().has(file)) << file;
