@@ -84,7 +84,7 @@ std::vector<std::string> swept_flags() {
   std::erase_if(flags, [](const std::string& f) {
     return f == "smoothness" || f == "time-price" || f == "time-worth" || f == "certify" || f == "accept" ||
            f == "blemishes" || f == "gcode" || f == "machine" || f == "schedule" || f == "rounds" || f == "export" ||
-           f == "template" || f == "uncertainty";
+           f == "template" || f == "uncertainty" || f == "robust-plan";
   });
   return flags;
 }

@@ -43,7 +43,7 @@ std::string pareto_json_text(const ParetoSweep& sweep) {
   Json options = options_json(sweep.job);
   for (const char* unused : {"smoothness", "time_price_nm2_per_s", "time_worth", "certify", "accept", "gcode",
                              "machine", "schedule", "rounds", "export", "template", "log", "log_plan", "log_columns",
-                             "log_period_s", "log_tolerance_mm", "uncertainty"})
+                             "log_period_s", "log_tolerance_mm", "uncertainty", "robust_plan"})
     options.erase(unused);
   Json summary = json_of_command("pareto");
   summary.update({{"map", plan_map_block(sweep.job)},

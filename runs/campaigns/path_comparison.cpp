@@ -133,7 +133,7 @@ PathComparison compare_paths(const JobOptions& options, const std::string& list,
   if (pitch && !ranges::kPitch.holds(*pitch)) {
     throw InputError(fmt::format("--pitch: {}; required {}", *pitch, ranges::kPitch.text()));
   }
-  check_weights(dwell_options(options));
+  check_weights(options);
   check_exports(options);
   parse_path_list(list, pitch.value_or(1.0));  // refuses a wrong list before any work is done
   PathComparison comparison;

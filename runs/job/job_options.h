@@ -77,6 +77,7 @@ struct JobOptions {
   std::string weight;       // of pixels: TERM;TERM;...; empty: all the same
   FitObjective objective;
   std::optional<SampledUncertainty> uncertainty;  // of the plan; nothing: not asked for
+  bool robust_plan = false;                       // the residual that is expected under it is made small
   double min_dwell_s = 0.0;
   double max_feed_mm_per_min = 3000.0;
   WeightGoal smoothness{0.0, GoalKind::Auto};

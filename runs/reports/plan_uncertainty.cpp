@@ -54,6 +54,16 @@ PlanUncertainty uncertainty_of_motion(const Part& part, const Program& motion, c
 SampledRange range_of_rms(const std::vector<ProgramSample>& samples) { return range_of(samples, &ProgramSample::rms); }
 SampledRange range_of_pv(const std::vector<ProgramSample>& samples) { return range_of(samples, &ProgramSample::pv); }
 
+double expected_rms(double nominal_rms, const std::array<double, kUncertainCauses>& alone) {
+  return std::sqrt(std::max(0.0, nominal_rms * nominal_rms + sum_of(alone)));
+}
+
+double sampled_rms(const std::vector<ProgramSample>& samples) {
+  double squares = 0.0;
+  for (const ProgramSample& sample : samples) squares += sample.rms * sample.rms;
+  return std::sqrt(squares / static_cast<double>(samples.size()));
+}
+
 std::string dominant_sentence(const std::array<double, kUncertainCauses>& alone) {
   const UncertainCause largest = largest_of(alone);
   const double square = alone[static_cast<std::size_t>(largest)], all = sum_of(alone);
@@ -81,7 +91,22 @@ std::string uncertainty_lines(const PlanUncertainty& u) {
     each += fmt::format("{}{} {:.3g} nm", each.empty() ? "" : ", ", name_of(cause), added_rms(u.alone[k]));
   }
   text += fmt::format("          each alone adds, in squares: {}\n", each);
-  return text + fmt::format("          {}\n", dominant_sentence(u.alone));
+  text += fmt::format("          {}\n", dominant_sentence(u.alone));
+  if (!u.plain) return text;
+  const PlainUncertainty& plain = *u.plain;
+  text += fmt::format(
+      "robust    expected {:.5g} nm RMS, {:.4g} nm in the samples, {:.4g} nm if all is as it is thought; dwell {:.6g} "
+      "s\n",
+      expected_rms(u.nominal_rms, u.alone), sampled_rms(u.drawn.samples), u.nominal_rms, u.dwell_s);
+  text += fmt::format("          the plan without --robust-plan: {:.5g} nm, {:.4g} nm, {:.4g} nm; {:.6g} s\n",
+                      expected_rms(plain.nominal_rms, plain.alone), sampled_rms(plain.samples), plain.nominal_rms,
+                      plain.dwell_s);
+  if (plain.weight_share < 1.0) {
+    text += fmt::format(
+        "          with {:.3g} times its smoothness and time price: with all of them no less was expected\n",
+        plain.weight_share);
+  }
+  return text;
 }
 
 nlohmann::ordered_json uncertainty_block(const PlanUncertainty& u) {
@@ -98,14 +123,24 @@ nlohmann::ordered_json uncertainty_block(const PlanUncertainty& u) {
   Json samples = Json::array();
   for (const ProgramSample& s : u.drawn.samples)
     samples.push_back({{"sample", s.number}, {"rms_nm", s.rms}, {"pv_nm", s.pv}});
-  return {{"of", to_string(u.of.unsure)},
-          {"seed", u.of.seed},
-          {"rms_nm", range(range_of_rms(u.drawn.samples), u.nominal_rms)},
-          {"pv_nm", range(range_of_pv(u.drawn.samples), u.nominal_pv)},
-          {"causes", std::move(causes)},
-          {"all_add_nm2", sum_of(u.alone)},
-          {"dominant", sum_of(u.alone) > 0.0 ? name_of(largest_of(u.alone)) : "none"},
-          {"samples", std::move(samples)}};
+  Json block{{"of", to_string(u.of.unsure)},
+             {"seed", u.of.seed},
+             {"rms_nm", range(range_of_rms(u.drawn.samples), u.nominal_rms)},
+             {"pv_nm", range(range_of_pv(u.drawn.samples), u.nominal_pv)},
+             {"causes", std::move(causes)},
+             {"all_add_nm2", sum_of(u.alone)},
+             {"dominant", sum_of(u.alone) > 0.0 ? name_of(largest_of(u.alone)) : "none"},
+             {"expected_rms_nm", expected_rms(u.nominal_rms, u.alone)},
+             {"sampled_rms_nm", sampled_rms(u.drawn.samples)},
+             {"samples", std::move(samples)}};
+  if (u.plain) {
+    block["without_robust_plan"] = {{"nominal_rms_nm", u.plain->nominal_rms},
+                                    {"expected_rms_nm", expected_rms(u.plain->nominal_rms, u.plain->alone)},
+                                    {"sampled_rms_nm", sampled_rms(u.plain->samples)},
+                                    {"dwell_s", u.plain->dwell_s},
+                                    {"weight_share", u.plain->weight_share}};
+  }
+  return block;
 }
 
 }  // namespace dwell
