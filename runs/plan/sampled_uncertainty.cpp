@@ -25,6 +25,16 @@ double count_of(const CountRow& row, std::string_view part) {
       fmt::format("'{}': required a whole number from {:.0f} to {:.0f}, without a unit", part, row.least, row.most));
 }
 
+UncertaintySpec sizes_of(const std::string& text) {
+  try {
+    return parse_uncertainty_spec(text);
+  } catch (const InputError& error) {
+    const std::string message = error.what();
+    const bool lists_keys = message.find("accepted: ") != std::string::npos;
+    throw InputError(message + (lists_keys ? ", of several runs only; samples=N, seed=N" : ""));
+  }
+}
+
 }  // namespace
 
 SampledUncertainty parse_sampled_uncertainty(std::string_view text) {
@@ -42,7 +52,7 @@ SampledUncertainty parse_sampled_uncertainty(std::string_view text) {
     if (!is_count) sizes += (sizes.empty() ? "" : ",") + std::string(part);
   }
   SampledUncertainty uncertainty;
-  if (!sizes.empty()) uncertainty.unsure = parse_uncertainty_spec(sizes);
+  if (!sizes.empty()) uncertainty.unsure = sizes_of(sizes);
   if (uncertainty.unsure.drift > 0.0) {
     throw InputError(
         fmt::format("'{}': drift is from run to run, and a plan is one run; required without it (tif-rate says how "

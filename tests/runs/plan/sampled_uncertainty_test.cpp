@@ -23,6 +23,8 @@ TEST(SampledUncertainty, RefusesWhatItCannotHonour) {
   test::expect_input_error([] { parse_sampled_uncertainty("tif-rate=5%,drift=2%"); }, {"drift=2%", "from run to run"});
   test::expect_input_error([] { parse_sampled_uncertainty("samples=20"); }, {"nothing in it is uncertain"});
   test::expect_input_error([] { parse_sampled_uncertainty("tif-rate=0%"); }, {"nothing in it is uncertain"});
+  test::expect_input_error([] { parse_sampled_uncertainty("size=3mm"); },
+                           {"'size=3mm'", "accepted: tif-rate=NUMBER%", "of several runs only; samples=N, seed=N"});
   for (const char* text :
        {"tif-rate=5%,samples=1", "tif-rate=5%,samples=2.5", "tif-rate=5%,samples=nan", "tif-rate=5%,seed=-1",
         "tif-rate=5%,samples=20,samples=30", "tif-rate=5%,samples", "tif-rate=5", "samples=20,", ""}) {
