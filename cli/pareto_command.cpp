@@ -53,9 +53,9 @@ std::vector<std::string> swept_flags() {
   for (const JobOptionRecord& record : program_option_records()) std::erase(flags, record.flag);
   for (const JobOptionRecord& record : log_option_records()) std::erase(flags, record.flag);
   std::erase_if(flags, [](const std::string& f) {
-    return f == "tool" || f == "smoothness" || f == "time-price" || f == "time-worth" || f == "certify" || f == "accept" ||
-           f == "blemishes" || f == "gcode" || f == "machine" || f == "schedule" || f == "rounds" || f == "export" ||
-           f == "template";
+    return f == "tool" || f == "smoothness" || f == "time-price" || f == "time-worth" || f == "certify" ||
+           f == "accept" || f == "blemishes" || f == "gcode" || f == "machine" || f == "schedule" || f == "rounds" ||
+           f == "export" || f == "template" || f == "uncertainty" || f == "robust-plan";
   });
   return flags;
 }

@@ -157,6 +157,7 @@ std::string plan_text(const PlannedJob& plan, const WrittenPlan& written) {
   text += fmt::format("program   {} by simulating {} as read back{}\n", in_words(written.exact.statistics),
                       written.program.file, plan.dwell.motion ? ", executed on the machine" : "");
   text += export_lines(written) + exact_lines(written.exact);
+  if (written.uncertainty) text += uncertainty_lines(*written.uncertainty);
   text += anatomy_lines(written.anatomy, written.exact.statistics) + left_out_line(plan.dwell) + cost_line(plan);
   text += fmt::format("help      {}\n", written.advice) + surface_lines(written.surface) +
           verdict_lines(written.acceptance);

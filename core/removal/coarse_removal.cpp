@@ -1,5 +1,6 @@
 #include "core/removal/coarse_removal.h"
 
+#include <cmath>
 #include <numeric>
 #include <utility>
 
@@ -26,6 +27,14 @@ RemovalKernel coarse_kernel(const RemovalKernel& kernel) {
     const std::vector<double>& c = k.surface.coefficients();
     return std::accumulate(c.begin(), c.end(), 0.0);
   };
+  // The kernel of a change of the tool takes nothing in all: its sum is rounding.
+  constexpr double kNoVolume = 1e-3;
+  const auto size = [](const RemovalKernel& k) {
+    double total = 0.0;
+    for (const double c : k.surface.coefficients()) total += std::abs(c);
+    return total;
+  };
+  if (!(std::abs(sum(kernel)) > kNoVolume * size(kernel))) return coarse;
   const double cells = static_cast<double>(kernel.coarse.x * kernel.coarse.y);
   const double scale = sum(kernel) / (cells * sum(coarse));
   std::vector<double> scaled = coarse.surface.coefficients();

@@ -40,6 +40,9 @@ void check_joint_options(const JobOptions& o) {
   if (o.blemishes == BlemishHandling::LeaveOut)
     refuse("`blemishes` = leave-out", "pixels are left out by one plan; accepted: report or keep");
   if (!o.log.empty() || !o.log_plan.empty()) refuse("`log`", "a log is of one program; required a plan for one tool");
+  if (o.uncertainty || o.robust_plan)
+    refuse(o.robust_plan ? "`robust plan`" : "`uncertainty`",
+           "truths are drawn for the program of one tool; required none");
   if (o.certify > 0.0) refuse("`certify`", "the bound is that of one tool's plan; required off");
 }
 

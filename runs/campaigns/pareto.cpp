@@ -170,9 +170,9 @@ ParetoSweep solve_pairs(const JobOptions& options, const ParetoRanges& ranges, c
   const LaidPath laid = lay_job_path(job, limit.used(), progress).laid;
   if (auto file = path_input(options)) job.inputs.push_back(std::move(*file));
   ParetoSweep sweep;
-  sweep.sheet = sweep_sheet(
-      job, {"smoothness", "time_price_nm2_per_s", "time_worth", "certify", "accept", "gcode", "machine", "schedule",
-            "rounds", "export", "template", "log", "log_plan", "log_columns", "log_period_s", "log_tolerance_mm"});
+  sweep.sheet = sweep_sheet(job, {"smoothness", "time_price_nm2_per_s", "time_worth", "certify", "accept", "gcode",
+                                  "machine", "schedule", "rounds", "export", "template", "log", "log_plan",
+                                  "log_columns", "log_period_s", "log_tolerance_mm", "uncertainty", "robust_plan"});
   sweep.path = plan_path_block(laid);
   sweep.travel = travel_times(laid, options.lift_height_mm, how.machine);
   const auto problem = limit.run(progress, [&](const Progress& limited) {

@@ -131,7 +131,7 @@ PathComparison plan_paths(const JobOptions& options, const std::string& list, st
   if (pitch && !ranges::kPitch.holds(*pitch)) {
     throw InputError(fmt::format("--pitch: {}; required {}", *pitch, ranges::kPitch.text()));
   }
-  check_weights(dwell_options(options));
+  check_weights(options);
   check_exports(options);
   parse_path_list(list, pitch.value_or(1.0));  // refuses a wrong list before any work is done
   const Job job = time_limit(options.max_solve_s).run(progress, [&](const Progress& limited) {

@@ -13,11 +13,11 @@
 #include "core/tif/removal_kernel.h"
 #include "core/tif/scaled_removal.h"
 #include "paths/feed/execution.h"
-#include "runs/figure/moved_program.h"
 #include "runs/figure/tool_removal.h"
 #include "runs/plan/dwell_plan.h"
 #include "runs/plan/laid_path.h"
 #include "runs/plan/machine_program.h"
+#include "runs/plan/moved_program.h"
 #include "runs/plan/part.h"
 
 namespace dwell {
@@ -47,28 +47,11 @@ class CampaignShop {
     const double rate = truth_.rate * (1.0 + truth_.drift * random_.normal());
     const RemovalFunction tool = scaled_removal(start_.tif, rate, truth_.width);
     const RemovalKernel kernel = pixel_kernel(tool, surface_.grid.pitch_x, surface_.grid.pitch_y);
-    const Program as_run = moved_program(jittered(motion), misplaced_);
+    const Program as_run = moved_program(jittered_program(motion, truth_.position, random_), misplaced_);
     surface_ = surface_after(surface_, simulate(as_run, surface_, kernel, start_.threads));
   }
 
-  /// The program with every end of a move a little beside its place.
-  Program jittered(Program program) {
-    if (!(truth_.position > 0.0)) return program;
-    Point last;
-    for (std::size_t k = 0; k < program.steps.size(); ++k) {
-      ProgramStep& step = program.steps[k];
-      const bool halts = step.start == step.finish;
-      if (k == 0) last = step.start + beside();
-      step.start = last;
-      if (!halts) last = step.finish + beside();
-      step.finish = last;
-    }
-    return program;
-  }
-
  private:
-  Point beside() { return {truth_.position * random_.normal(), truth_.position * random_.normal()}; }
-
   const CampaignStart& start_;
   const CampaignTruth& truth_;
   RandomNumbers random_;

@@ -6,20 +6,13 @@
 #include <cmath>
 
 #include "core/base/random_numbers.h"
+#include "core/numerics/quantile.h"
 
 namespace dwell {
 namespace {
 
 /// The seed of a sample: far from those of its neighbours and of other seeds.
 unsigned seed_of(unsigned seed, int sample) { return seed * 2654435761U + static_cast<unsigned>(sample) * 40503U + 1U; }
-
-/// The value below which a share of the sorted ones lies, between two by proportion.
-double quantile(const std::vector<double>& sorted, double share) {
-  const double place = share * static_cast<double>(sorted.size() - 1);
-  const auto below = static_cast<std::size_t>(std::floor(place));
-  const std::size_t above = std::min(below + 1, sorted.size() - 1);
-  return std::lerp(sorted[below], sorted[above], place - static_cast<double>(below));
-}
 
 }  // namespace
 

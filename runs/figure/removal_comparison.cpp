@@ -10,8 +10,8 @@
 #include "core/map/map_arithmetic.h"
 #include "core/map/map_warp.h"
 #include "core/numerics/plane_transform.h"
-#include "runs/figure/moved_program.h"
 #include "runs/figure/tool_removal.h"
+#include "runs/plan/moved_program.h"
 #include "solvers/fits/spike_removal.h"
 
 namespace dwell {

@@ -8,8 +8,8 @@
 #include "core/base/grid_limit.h"
 #include "core/form/map_statistics.h"
 #include "core/map/map_arithmetic.h"
-#include "runs/figure/moved_program.h"
 #include "runs/figure/tool_removal.h"
+#include "runs/plan/moved_program.h"
 
 namespace dwell {
 namespace {

@@ -97,6 +97,19 @@ DwellOptions dwell_options(const JobOptions& o) {
   return options;
 }
 
+void check_weights(const JobOptions& options) {
+  DwellOptions checked = dwell_options(options);
+  if (options.robust_plan) {
+    if (!options.uncertainty) {
+      throw InputError(
+          "`robust plan` without `uncertainty`: it is that which it is robust against; required "
+          "`uncertainty`, as tif-rate=5%,position=20um");
+    }
+    checked.robust = options.uncertainty->unsure;
+  }
+  check_weights(checked);
+}
+
 DwellOptions dwell_options(const Job& job) {
   DwellOptions options = dwell_options(job.options);
   if (job.machine) options.machine.machine = machine_for_program(job.machine->machine, job.options);

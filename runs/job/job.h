@@ -55,4 +55,7 @@ DwellOptions dwell_options(const JobOptions& options);
 /// The same with the machine of the job.
 DwellOptions dwell_options(const Job& job);
 
+/// check_weights of a job, and of its robust plan. Throws InputError for one without an uncertainty as well.
+void check_weights(const JobOptions& options);
+
 }  // namespace dwell

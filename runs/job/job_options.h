@@ -20,6 +20,7 @@
 #include "runs/drawing/figure_format.h"
 #include "runs/plan/blemish_handling.h"
 #include "runs/plan/fit_objective.h"
+#include "runs/plan/sampled_uncertainty.h"
 #include "runs/programs/gcode_dialect.h"
 #include "runs/programs/path_mode_option.h"
 #include "solvers/problem/dwell_solver.h"
@@ -76,6 +77,8 @@ struct JobOptions {
   Aperture clear_aperture;  // of the map within the aperture
   std::string weight;       // of pixels: TERM;TERM;...; empty: all the same
   FitObjective objective;
+  std::optional<SampledUncertainty> uncertainty;  // of the plan; nothing: not asked for
+  bool robust_plan = false;                       // the residual that is expected under it is made small
   double min_dwell_s = 0.0;
   double max_feed_mm_per_min = 3000.0;
   WeightGoal smoothness{0.0, GoalKind::Auto};

@@ -5,6 +5,7 @@
 #include "core/base/value_range.h"
 #include "runs/job/job_options.h"
 #include "runs/job/pixel_weight_option.h"
+#include "runs/job/yes_or_no.h"
 
 namespace dwell {
 namespace {
@@ -49,7 +50,7 @@ FormTerms form_terms(const JobOptions& o) {
 
 std::vector<JobOptionRecord> fit_option_records() {
   using Options = JobOptions;
-  return {
+  std::vector<JobOptionRecord> records{
       {"removal", "removal", "FILE",
        "depth to remove, in place of --map and read with its options: a file in any map format; all of it counts "
        "unless "
@@ -80,7 +81,25 @@ std::vector<JobOptionRecord> fit_option_records() {
        "and 1 (docs/math.md)",
        false, false, [](Options& o, const std::string& t) { o.objective = parse_fit_objective(t); },
        [](const Options& o) { return to_string(o.objective); }},
+      {"uncertainty", "uncertainty", "WHAT=SIZE,...",
+       "standard deviations of what may be otherwise than it is thought, each with its unit: "
+       "tif-rate=5%,tif-width=2%,position=20um,offset=0.3mm,rotation=0.2deg,metrology=0.2nm, and samples=200,seed=1: "
+       "the program is simulated in so many drawn truths (docs/uncertainty.md); or none",
+       false, false,
+       [](Options& o, const std::string& t) {
+         o.uncertainty = t == "none" ? std::nullopt : std::optional(parse_sampled_uncertainty(t));
+       },
+       [](const Options& o) { return o.uncertainty ? to_string(*o.uncertainty) : std::string(); }},
+      {"robust-plan", "robust_plan", "yes|no",
+       "makes the residual that is expected under --uncertainty small, in place of that which is left if all is as it "
+       "is thought; its weights are those of the plan without it, or less (docs/uncertainty.md)",
+       false, false, [](Options& o, const std::string& t) { o.robust_plan = yes_or_no(t); },
+       [](const Options& o) { return std::string(o.robust_plan ? "yes" : "no"); }},
   };
+  for (JobOptionRecord& record : records) {
+    if (record.flag == "robust-plan") record.alone = "yes";
+  }
+  return records;
 }
 
 }  // namespace dwell

@@ -7,6 +7,7 @@
 #include "core/base/value_range.h"
 #include "runs/job/job_options.h"
 #include "runs/job/place_option.h"
+#include "runs/job/yes_or_no.h"
 
 namespace dwell {
 namespace {
@@ -16,12 +17,6 @@ double degrees_of_turn(const std::string& text) {
   if (!value || !ranges::kAngle.holds(*value))
     throw InputError(fmt::format("'{}'; required {}", text, ranges::kAngle.text()));
   return *value;
-}
-
-bool yes_or_no(const std::string& text) {
-  if (text == "yes" || text == "true") return true;
-  if (text == "no" || text == "false") return false;
-  throw InputError(fmt::format("'{}'; accepted: yes, no", text));
 }
 
 bool is_inch(const std::string& text) {

@@ -134,8 +134,27 @@ void make_program(PlannedJob& planned, const DwellOptions& options, const Progre
   }
 }
 
+/// Puts the plan of the expected residual in the place of the plan of the residual, with its weights. With blemishes
+/// left out it is of the same pixels.
+void make_robust(PlannedJob& planned, DwellOptions options, const Progress& progress) {
+  planned.plain = std::move(planned.dwell);
+  const DwellPlan& plain = *planned.plain;
+  options.smoothness = {plain.weights.smoothness};
+  options.time_price = {plain.weights.time_price};
+  options.robust = planned.job.options.uncertainty->unsure;
+  const bool of_rest = plain.left_out && !plain.left_out->pixels.empty();
+  planned.dwell = of_rest
+                      ? find_without(planned.part(), planned.laid, *plain.left_out, plain.seconds, options, progress)
+                      : find_dwell(planned.part(), planned.laid, options, progress, ExactCheck::Lattice, plain.seconds);
+  if (plain.left_out && !of_rest) planned.dwell.left_out = plain.left_out;
+  planned.dwell.worth = plain.worth;
+  planned.dwell.worth_smoothness = plain.worth_smoothness;
+  planned.dwell.search = plain.search;
+}
+
 /// `used` went of the time limit before [s].
 PlannedJob plan_loaded(Job job, JobPath path, double used, const Progress& progress) {
+  check_weights(job.options);
   PlannedJob planned;
   planned.job = std::move(job);
   if (auto file = path_input(planned.job.options)) planned.job.inputs.push_back(std::move(*file));
@@ -157,6 +176,10 @@ PlannedJob plan_loaded(Job job, JobPath path, double used, const Progress& progr
     options.used_seconds += planned.dwell.solver.seconds;
     planned.dwell = leave_out_blemishes(planned.part(), planned.laid, std::move(planned.dwell), options, progress);
   }
+  if (planned.job.options.robust_plan) {
+    options.used_seconds += planned.dwell.solver.seconds;
+    make_robust(planned, options, progress.of_part("robust plan"));
+  }
   if (planned.blocks) planned.blocks->bounded = strokes_bounded_by_blocks(planned.laid, planned.dwell, options.machine);
   make_program(planned, options, progress);
   return planned;
@@ -165,7 +188,7 @@ PlannedJob plan_loaded(Job job, JobPath path, double used, const Progress& progr
 }  // namespace
 
 PlannedJob plan_job(const JobOptions& options, const Progress& progress) {
-  check_weights(dwell_options(options));
+  check_weights(options);
   check_exports(options);
   check_log_options(options);
   const TimeLimit limit = time_limit(options.max_solve_s);

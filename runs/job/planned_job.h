@@ -19,6 +19,7 @@ struct PlannedJob {
   LaidPath laid;
   DwellPlan dwell;
   MachineProgram program;
+  std::optional<DwellPlan> plain{};      // with a robust plan: the one without that, whose weights it has
   std::optional<BlockMerging> blocks{};  // for a controller with a block rate
   std::optional<ResumedRun> resumed{};   // what the program had done of which this is the rest
 

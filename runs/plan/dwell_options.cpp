@@ -40,11 +40,36 @@ void check_slopes(const DwellOptions& options) {
                                to_string(options.objective)));
 }
 
+void check_robust(const DwellOptions& options) {
+  const auto refuse = [](const std::string& what, const std::string& accepted) {
+    throw InputError(fmt::format("`robust plan` with {}; required {}", what, accepted));
+  };
+  for (const auto& [name, goal] :
+       {std::pair("smoothness", &options.smoothness), std::pair("time price", &options.time_price)}) {
+    if (is_target(*goal)) {
+      refuse(fmt::format("`{}` '{}', a target that would hold for the plan without it alone", name, to_string(*goal)),
+             "a number, auto or corner");
+    }
+  }
+  if (options.objective.has_slopes())
+    refuse(fmt::format("`objective` {}, whose slopes are not expected", to_string(options.objective)), "height");
+  if (options.solver == SolverKind::Fourier)
+    refuse("`solver` fourier, which divides by the spectrum of one removal function", "another solver");
+  constexpr double kNothing = 0.0;
+  UncertaintySpec of_dwell = *options.robust;
+  of_dwell.metrology = of_dwell.drift = kNothing;
+  if (of_dwell == UncertaintySpec{}) {
+    refuse("an `uncertainty` of metrology alone, which no dwell changes",
+           "a size of tif-rate, tif-width, position, offset or rotation");
+  }
+}
+
 }  // namespace
 
 void check_weights(const DwellOptions& options) {
   weights_are_searched(options);
   if (options.objective.has_slopes()) check_slopes(options);
+  if (options.robust) check_robust(options);
   if (options.time_price.kind == GoalKind::Auto || options.time_worth == TimeWorth{}) return;
   throw InputError("time worth", to_string(options.time_worth), "`time price` auto",
                    fmt::format("`time worth` {} rules the price where that is auto; `time price` is {}: leave one of "

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <optional>
+
 #include "core/base/time_limit.h"
 #include "paths/feed/schedule_kind.h"
 #include "runs/plan/fit_objective.h"
 #include "runs/plan/machine_limits.h"
+#include "runs/plan/uncertainty_spec.h"
 #include "solvers/problem/dwell_solver.h"
 #include "solvers/weights/time_worth.h"
 #include "solvers/weights/weight_search.h"
@@ -25,6 +28,7 @@ struct DwellOptions {
   int rounds = 20;                                 // of correction for the motion of the machine, at most; >= 0
   double fraction = 1.0;                           // of the error, form terms aside, that is to be removed; > 0, <= 1
   FitObjective objective{};                        // heights, slopes or both
+  std::optional<UncertaintySpec> robust{};         // the expected residual under it is made small, not the residual
 };
 
 /// The clock of max_seconds, of which `used` went before [s]. The phases before a solve have a second even where

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/base/time_limit.h"
+#include "runs/plan/expected_solve.h"
 #include "runs/plan/plan_problem.h"
 #include "runs/plan/program_prediction.h"
 #include "runs/plan/usual_smoothness.h"
@@ -84,9 +85,11 @@ DwellPlan find_dwell_on(const LatticeChoice& lattice, const Part& part, const La
   PlanProblem& problem = *set_up;
   plan.seconds_before_solve = limit.used();
   const double most = std::min(options.max_seconds, std::max(limit.left(), kLeastSolve));
+  const Weights weights{options.smoothness.value, options.time_price.value};
   WeightedDwell found = plan.search ? choose_weights(problem, options, most, progress, *plan.search)
-                                    : problem.solve({options.smoothness.value, options.time_price.value},
-                                                    std::move(start), most, "solve", progress);
+                        : options.robust && start.size() > 0
+                            ? solve_expected(problem, weights, start, most, plan.limits, progress)
+                            : problem.solve(weights, std::move(start), most, "solve", progress);
   plan.weights = found.weights;
   progress.step("solve: certificate");
   plan.certificate = certify(problem.with(plan.weights), found.dwell);

@@ -39,23 +39,28 @@ DwellPlan leave_out_blemishes(const Part& part, const LaidPath& laid, DwellPlan 
   }
   left_out.rms_before_without =
       map_statistics(without_blemishes(plan.exact.surface, blemishes), part.form, part.threads).rms_about_zero();
-  const Part rest = without_pixels(part, left_out.pixels);
-  const Progress again = progress.of_part("blemishes left out");
   DwellPlan found;
   try {
-    found = find_dwell(rest, laid, options, again, ExactCheck::Lattice, plan.seconds);
+    found = find_without(part, laid, left_out, plan.seconds, options, progress.of_part("blemishes left out"));
   } catch (const TimeLimitReached&) {
     plan.limits.push_back(
         fmt::format("the blemishes are not left out of the fit: `max solve` is {} s", options.max_seconds));
     return plan;
   }
+  found.solver.seconds += plan.solver.seconds;
+  return found;
+}
+
+DwellPlan find_without(const Part& part, const LaidPath& laid, LeftOut left_out, const Vector& start,
+                       const DwellOptions& options, const Progress& progress) {
+  const Part rest = without_pixels(part, left_out.pixels);
+  DwellPlan found = find_dwell(rest, laid, options, progress, ExactCheck::Lattice, start);
   left_out.fit_rms = found.residual.rms_about_zero();
   const double max_feed = options.machine.feed_limits().max_feed;
   const HeightMap left = left_on_lattice(part, laid, found, max_feed);
-  again.check();
+  progress.check();
   found.residual = map_statistics(left, part.form, part.threads);
-  found.exact = predict_dwell(part, laid, found.seconds, left, max_feed, ExactCheck::Lattice, again);
-  found.solver.seconds += plan.solver.seconds;
+  found.exact = predict_dwell(part, laid, found.seconds, left, max_feed, ExactCheck::Lattice, progress);
   found.left_out = std::move(left_out);
   return found;
 }

@@ -17,4 +17,9 @@ namespace dwell {
 DwellPlan leave_out_blemishes(const Part& part, const LaidPath& laid, DwellPlan plan, const DwellOptions& options,
                               const Progress& progress = {});
 
+/// The plan whose fit leaves out these pixels; what it states is of all. Throws as find_dwell does. Cost: a solve and
+/// one prediction.
+DwellPlan find_without(const Part& part, const LaidPath& laid, LeftOut left_out, const Vector& start,
+                       const DwellOptions& options, const Progress& progress = {});
+
 }  // namespace dwell

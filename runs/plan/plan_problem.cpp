@@ -23,6 +23,9 @@
 namespace dwell {
 namespace {
 
+// An expected residual is found to within its tolerance times no less than this.
+constexpr double kLeastShare = 0.01;
+
 /// What any solver holds at least: of auto, 14 vectors of the dwell points, of others four; and three of the pixels.
 void require_memory_to_solve(const Part& part, const LaidPath& laid, SolverKind solver) {
   const double points = static_cast<double>(laid.strokes.size()), pixels = static_cast<double>(part.map.valid_pixels());
@@ -94,6 +97,14 @@ PlanProblem::PlanProblem(const Part& part, const LaidPath& laid, const RemovalKe
   progress.step("setting up the smoothness along the path");
   problem_.parts = {{geometry_, path_smoothness(laid.path, laid.strokes, part.threads)}};
   problem_.lower = least_dwell_of(laid, options.machine);
+  if (options.robust) {
+    progress.step("setting up the rows of what is uncertain");
+    expected_ = std::make_unique<ExpectedRows>(part, geometry_, *problem_.removal, *options.robust);
+    problem_.removal = &expected_->removal();
+    problem_.parts.front().changes = expected_->changes();
+    problem_.beta = expected_->beta();
+    set_target(target_);
+  }
 }
 
 void PlanProblem::set_objective(const Part& part, const FitObjective& objective) {
@@ -117,6 +128,13 @@ void PlanProblem::set_objective(const Part& part, const FitObjective& objective)
     problem_.form = form_basis(grid_, pixels_, part.form, roots, part.threads);
   }
   set_target(target_);
+}
+
+/// Only the first block of rows has a target.
+void PlanProblem::set_target(const Vector& heights) {
+  const Vector rows = rows_of(heights);
+  problem_.target.setZero(rows.size() * problem_.blocks());
+  problem_.target.head(rows.size()) = rows;
 }
 
 Vector PlanProblem::rows_of(const Vector& heights) const {
@@ -145,19 +163,47 @@ SolverOptions PlanProblem::solver_options(double max_seconds, const std::string&
 TradeOff PlanProblem::trade_off_of(const Vector& dwell) {
   Vector residual;
   DwellObjective(problem_).residual(dwell, residual);
+  residual.conservativeResize(residual.size() / problem_.blocks());  // as all is thought to be
   if (spared_residual_.size() > 0) residual -= spared_residual_;
   return {residual.norm() / std::sqrt(static_cast<double>(problem_.pixels())), dwell.sum(), step_rms(problem_, dwell)};
+}
+
+double PlanProblem::share_without_changes(const Vector& dwell, double& objective) const {
+  DwellObjective expected(problem_);
+  Vector residual;
+  expected.residual(dwell, residual);
+  objective = expected.value(residual, dwell);
+  const Index rows = residual.size() / problem_.blocks();
+  const double of_changes =
+      0.5 * residual.tail(residual.size() - rows).squaredNorm() + 0.5 * problem_.beta * dwell.squaredNorm();
+  return objective > 0.0 ? std::clamp(1.0 - of_changes / objective, kLeastShare, 1.0) : 1.0;
 }
 
 WeightedDwell PlanProblem::solve(const Weights& weights, Vector start, double max_seconds, const std::string& stage,
                                  const Progress& progress) {
   progress.check();
   with(weights);
+  SolverOptions options = solver_options(max_seconds, stage, progress);
+  Vector known;  // of an expected residual: the dwell that it is to be better than
+  double of_known = 0.0;
+  if (expected_ && start.size() > 0) {
+    options.objective_tolerance *= share_without_changes(start, of_known);
+    known = start;
+  }
   if (kind_ == SolverKind::Auto) start.resize(0);  // see solve() in the header
   WeightedDwell found{weights, std::move(start), {}, {}};
-  SolverOptions options = solver_options(max_seconds, stage, progress);
   found.solver = make_solver(options)->solve(problem_, found.dwell);
   progress.check();
+  if (known.size() > 0 && of_known < found.solver.objective) {
+    options.max_seconds = std::max(1e-9, max_seconds - found.solver.seconds);
+    SolverSummary again = make_solver(options)->solve(problem_, known);
+    progress.check();
+    again.iterations += found.solver.iterations;
+    again.operator_applications += found.solver.operator_applications;
+    again.coarse_pairs += found.solver.coarse_pairs;
+    again.seconds += found.solver.seconds;
+    found.dwell = std::move(known), found.solver = std::move(again);
+  }
   options.max_seconds = std::max(1e-9, max_seconds - found.solver.seconds);
   doubt_settled(problem_, std::move(options), found.dwell, found.solver);
   progress.check();
@@ -205,6 +251,12 @@ void PlanProblem::spare_target(const HeightMap& removal) {
   for (std::size_t i = 0; i < pixels_.size() && !removal.values.empty(); ++i)
     heights[static_cast<Index>(i)] -= removal.values[static_cast<std::size_t>(pixels_[i])];
   set_target(heights);
+}
+
+double PlanProblem::expected_square(const Vector& dwell) const {
+  Vector residual;
+  DwellObjective(problem_).residual(dwell, residual);
+  return residual.squaredNorm() + problem_.beta * dwell.squaredNorm();
 }
 
 HeightMap PlanProblem::left_by(const Vector& dwell) const {

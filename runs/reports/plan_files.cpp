@@ -15,7 +15,7 @@ ResultFiles make_plan_files() {
                     "summary.json",
                     {"residual.npy", "residual.npy.json", "dwell.npy", "search.csv", kLateFile, kLearntRemovalFile,
                      kLearntRemovalSidecar, kRemainingMap, kRemainingSidecar, kToolSurface, kToolSurfaceSidecar},
-                    {"before", "after", "residual", "dwell", "path", "path_detail", "limits", "motion"},
+                    {"before", "after", "residual", "dwell", "path", "path_detail", "limits", "motion", "uncertainty"},
                     nullptr};
   for (const ProgramFormat& format : program_formats()) {
     if (!format.file.empty()) files.others.emplace_back(format.file);

@@ -265,6 +265,37 @@ void check_written_exports(const PlannedJob& plan, const OutputFolder& folder,
   }
 }
 
+/// The share of the weights of the plan without it that a robust plan has.
+double share_of_weights(const PlannedJob& plan) {
+  const Weights &with = plan.dwell.weights, &without = plan.plain->weights;
+  return without.smoothness > 0.0   ? with.smoothness / without.smoothness
+         : without.time_price > 0.0 ? with.time_price / without.time_price
+                                    : 1.0;
+}
+
+/// Of the run of the program as read back; and of that of the plan without `robust plan`, which is in no file.
+PlanUncertainty uncertainty_of_plan(const PlannedJob& plan, const Program& run, const Part& part,
+                                    const ExactResidual& exact, const Progress& progress) {
+  const SampledUncertainty& of = *plan.job.options.uncertainty;
+  PlanUncertainty uncertainty =
+      uncertainty_of_motion(part, run, plan.dwell.lattice.kernel, exact, of, progress.of_part("uncertainty"));
+  uncertainty.dwell_s = plan.dwell.run_dwell();
+  if (!plan.plain) return uncertainty;
+  const DwellPlan& plain = *plan.plain;
+  const Progress without = progress.of_part("uncertainty without the robust plan");
+  const bool speeds = plain.motion && plain.motion->program;
+  const MachineLimits machine = dwell_options(plan.job).machine;
+  const Program program =
+      speeds ? *plain.motion->program : program_of(make_machine_program(plan.laid, plain, machine, without).table);
+  const Program plain_run = run_of(plan, program, without);
+  const ExactResidual left = predict_program(part, plain_run, plain.lattice.kernel, without);
+  const ProgramSampler sampler(part, plain_run, plain.lattice.kernel, left.surface, of.unsure, of.seed);
+  uncertainty.plain =
+      PlainUncertainty{std::sqrt(sampler.nominal_square()), sampler.alone(without),
+                       sampler.sample(1, of.samples + 1, without).samples, plain.run_dwell(), share_of_weights(plan)};
+  return uncertainty;
+}
+
 /// The time that every point gets: with a machine what its motion takes, else what the feed table says.
 std::vector<double> dwell_to_write(const PlannedJob& plan) {
   if (!plan.dwell.motion) return plan.program.table.dwell_s;
@@ -289,6 +320,8 @@ WrittenPlan write_plan(const PlannedJob& plan, const OutputFolder& folder, const
   written.exact = predict_program(part_to_predict_on(plan, changed), run, plan.dwell.lattice.kernel, progress);
   if (!plan.part().beside.values.empty())
     written.beside = shown_surface(plan.part(), written.exact.surface, run, plan.dwell.lattice.kernel);
+  if (plan.job.options.uncertainty)
+    written.uncertainty = uncertainty_of_plan(plan, run, part_to_predict_on(plan, changed), written.exact, progress);
   write_learnt(plan, folder, program, written);
   if (plan.job.machine) {
     const Machine machine = machine_for_program(plan.job.machine->machine, plan.job.options);

@@ -41,6 +41,17 @@ std::vector<PlanPicture> motion_pictures(const PlannedJob& plan, const WrittenPl
            }}};
 }
 
+/// Where what the program leaves is uncertain; none where that is not asked for. The plan must outlive the result.
+std::vector<PlanPicture> uncertainty_pictures(const WrittenPlan& written) {
+  if (!written.uncertainty) return {};
+  return {{"uncertainty", [&written](FigureFormat format, const Progress& progress) {
+             const PlanUncertainty& u = *written.uncertainty;
+             const std::string title = fmt::format("How far off what is left may be: RMS over {} samples ({})",
+                                                   u.of.samples, to_string(u.of.unsure));
+             return map_picture(u.drawn.deviation, {title, "nm", false, {}, {}}, format, progress);
+           }}};
+}
+
 /// Both must outlive the result.
 std::vector<PlanPicture> plan_pictures(const PlannedJob& plan, const WrittenPlan& written) {
   const Part& part = plan.part();
@@ -91,6 +102,7 @@ void write_plan_pictures(const PlannedJob& plan, const WrittenPlan& written, con
                          const Progress& progress) {
   std::vector<PlanPicture> pictures = plan_pictures(plan, written);
   for (PlanPicture& picture : motion_pictures(plan, written)) pictures.push_back(std::move(picture));
+  for (PlanPicture& picture : uncertainty_pictures(written)) pictures.push_back(std::move(picture));
   run_side_by_side(plan.part().threads, progress, pictures.size(), [&](std::size_t k, const Progress& shared) {
     write_figure(folder, plan.job.options.figures, pictures[k].name,
                  [&](FigureFormat format) { return pictures[k].draw(format, shared); });

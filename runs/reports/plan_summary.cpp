@@ -186,6 +186,7 @@ std::string plan_summary_text(const PlannedJob& plan, const WrittenPlan& written
   if (const auto counted = counted_figures(plan.job, written.exact.surface))
     summary["counted"] = counted_block(*counted);
   if (plan.job.options.objective.has_slopes()) summary["objective"] = objective_block(plan);
+  if (written.uncertainty) summary["uncertainty"] = uncertainty_block(*written.uncertainty);
   if (!written.exports.empty()) summary["exports"] = exports_json(written);
   if (plan.dwell.motion) {
     summary["machine"] = machine_block(*plan.job.machine);

@@ -13,6 +13,7 @@
 #include "runs/acceptance/surface_limits.h"
 #include "runs/base/json_blocks.h"
 #include "runs/plan/machine_program.h"
+#include "runs/reports/plan_uncertainty.h"
 #include "runs/reports/surface_sheet.h"
 
 namespace dwell {
@@ -45,6 +46,7 @@ struct WrittenPlan {
   /// plan has no feed table.
   std::optional<bool> table_has_same_steps{};
   std::vector<WrittenExport> exports;
+  std::optional<PlanUncertainty> uncertainty{};  // what it may leave, where that is asked for
   std::vector<MotionNode> nodes;      // of the machine's motion, where there is one, without what logs have taught
   std::vector<BindingLimit> binding;  // of every stretch between two of them
   std::string late_sha256, learnt_removal_sha256;  // of kLateFile and kLearntRemovalFile, where there are any

@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
+
+#include "core/tif/kernel_change.h"
+#include "solvers/matched/model_pixels.h"
 
 namespace dwell {
 namespace {
@@ -28,18 +32,37 @@ MatchedRemoval::MatchedRemoval(const DwellProblem& problem, const std::vector<Gr
     pixels_.spread(g.pixels, heights_of_weighted(column), spread);
     form_.col(k) = spread;
   }
-  double coarse = 0.0, fine = 0.0;
-  tools_.reserve(problem.parts.size());
-  for (std::size_t k = 0; k < problem.parts.size(); ++k) {
-    const RemovalGeometry& of_part = *problem.parts[k].geometry;
-    const RemovalKernel kernel = matched_kernel(of_part.kernel, factor);
-    add_tool(kernel, dwell[k]);
-    coarse += transform_cost(lattice, kernel);
-    fine += operator_cost(of_part.lattice, of_part.kernel);
-  }
+  double coarse = 0.0;
+  for (Index block = 0; block < problem.blocks(); ++block)
+    add_block(static_cast<std::size_t>(block), dwell, factor, coarse);
   surface_.resize(lattice.size());
-  if (tools_.size() > 1) of_tool_.resize(lattice.size());
-  relative_cost_ = coarse / fine;
+  if (problem.parts.size() > 1) of_tool_.resize(lattice.size());
+  relative_cost_ = coarse / pair_cost(problem);
+}
+
+/// Adds the cost of its transforms to `coarse`.
+void MatchedRemoval::add_block(std::size_t block, const std::vector<Grid>& dwell, CoarseFactor factor, double& coarse) {
+  const auto is_rate = [block](const DwellPart& part) {
+    return block > 0 && part.changes[block - 1].geometry == part.geometry;
+  };
+  const double of_first =
+      problem_.parts.front().changes.empty() || block == 0 ? 1.0 : problem_.parts.front().changes[block - 1].factor;
+  const bool scales = std::all_of(problem_.parts.begin(), problem_.parts.end(), [&](const DwellPart& part) {
+    return is_rate(part) && part.changes[block - 1].factor == of_first;
+  });
+  Block& added = blocks_.emplace_back();
+  if (scales) {
+    added.factor = of_first;
+    return;
+  }
+  for (std::size_t k = 0; k < problem_.parts.size(); ++k) {
+    const DwellPart& part = problem_.parts[k];
+    const RemovalGeometry& g = block == 0 ? *part.geometry : *part.changes[block - 1].geometry;
+    RemovalKernel kernel = matched_kernel(g.kernel, factor);
+    if (block > 0) kernel = times(std::move(kernel), part.changes[block - 1].factor);
+    added.tools.push_back(make_tool(kernel, dwell[k]));
+    coarse += transform_cost(pixels_.lattice(), kernel);
+  }
 }
 
 /// S'R'W^2 R S.
@@ -84,7 +107,7 @@ void MatchedRemoval::add_slopes(Index first, Index count, SplineGram::Take take)
   pixels_.add(pixels, weights, take, 1.0);
 }
 
-/// R'W r.
+/// R'W r, of the rows of one block.
 const Vector& MatchedRemoval::heights_of_weighted(const Vector& r) {
   const bool weighs = problem_.weights.size() != 0;
   if (weighs) weighted_ = r.cwiseProduct(problem_.weights);
@@ -94,7 +117,7 @@ const Vector& MatchedRemoval::heights_of_weighted(const Vector& r) {
   return heights_;
 }
 
-void MatchedRemoval::add_tool(const RemovalKernel& kernel, const Grid& dwell) {
+MatchedRemoval::Tool MatchedRemoval::make_tool(const RemovalKernel& kernel, const Grid& dwell) const {
   const Grid& lattice = pixels_.lattice();
   // A coarse transform is too short to share between threads.
   Tool tool{{lattice, all_nodes(lattice), kernel.surface.coefficients(), kernel.half_rows, kernel.half_cols, 1}, {}};
@@ -103,7 +126,7 @@ void MatchedRemoval::add_tool(const RemovalKernel& kernel, const Grid& dwell) {
   tool.field_node.reserve(static_cast<std::size_t>(dwell.size()));
   for (Index i = 0; i < dwell.size(); ++i)
     tool.field_node.push_back(tool.convolution.node(row0 + i / dwell.cols, col0 + i % dwell.cols));
-  tools_.push_back(std::move(tool));
+  return tool;
 }
 
 void MatchedRemoval::put(const Vector& c, Tool& tool) {
@@ -114,36 +137,58 @@ void MatchedRemoval::put(const Vector& c, Tool& tool) {
   }
 }
 
-void MatchedRemoval::normal(const std::vector<Vector>& c, std::vector<Vector>& out) {
-  for (std::size_t k = 0; k < tools_.size(); ++k) {
-    put(c[k], tools_[k]);
-    tools_[k].convolution.convolve(k == 0 ? surface_.data() : of_tool_.data());
+/// What the dwell of all parts makes of the surface.
+void MatchedRemoval::remove(const std::vector<Vector>& c, std::vector<Tool>& tools) {
+  for (std::size_t k = 0; k < tools.size(); ++k) {
+    put(c[k], tools[k]);
+    tools[k].convolution.convolve(k == 0 ? surface_.data() : of_tool_.data());
     if (k > 0) surface_ += of_tool_;
   }
-  pixels_.apply(surface_, weighed_);
-  if (form_.cols() != 0) {
-    const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxFormTerms, 1> q = form_.transpose() * surface_;
-    weighed_.noalias() -= form_ * q;
+}
+
+void MatchedRemoval::normal(const std::vector<Vector>& c, std::vector<Vector>& out) {
+  double of_first = 1.0;
+  for (const Block& block : blocks_) of_first += block.tools.empty() ? block.factor * block.factor : 0.0;
+  for (Block& block : blocks_) {
+    if (block.tools.empty()) continue;
+    const bool first = &block == blocks_.data();
+    remove(c, block.tools);
+    pixels_.apply(surface_, weighed_);
+    if (form_.cols() != 0) {
+      const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxFormTerms, 1> q = form_.transpose() * surface_;
+      weighed_.noalias() -= form_ * q;
+    }
+    if (first && of_first != 1.0) weighed_ *= of_first;
+    correlate(weighed_, block.tools, first, out);
   }
-  correlate(weighed_, out);
 }
 
 void MatchedRemoval::adjoint(const Vector& r, std::vector<Vector>& out) {
   const std::vector<Index>& pixels = problem_.parts.front().geometry->pixels;
-  pixels_.spread(pixels, heights_of_weighted(r), surface_);
-  correlate(surface_, out);
+  const Index rows = r.size() / problem_.blocks();
+  for (std::size_t k = 0; k < blocks_.size(); ++k) {
+    if (blocks_[k].tools.empty()) continue;
+    if (blocks_.size() > 1) of_block_ = r.segment(static_cast<Index>(k) * rows, rows);
+    for (std::size_t scaled = 1; k == 0 && scaled < blocks_.size(); ++scaled) {
+      if (blocks_[scaled].tools.empty())
+        of_block_ += blocks_[scaled].factor * r.segment(static_cast<Index>(scaled) * rows, rows);
+    }
+    pixels_.spread(pixels, heights_of_weighted(blocks_.size() > 1 ? of_block_ : r), surface_);
+    correlate(surface_, blocks_[k].tools, k == 0, out);
+  }
 }
 
-void MatchedRemoval::correlate(const Vector& surface, std::vector<Vector>& out) {
-  out.resize(tools_.size());
-  for (std::size_t k = 0; k < tools_.size(); ++k) {
-    Tool& tool = tools_[k];
+/// Puts what the nodes of each part say into `out`, or, but for the first, adds it.
+void MatchedRemoval::correlate(const Vector& surface, std::vector<Tool>& tools, bool first, std::vector<Vector>& out) {
+  out.resize(tools.size());
+  for (std::size_t k = 0; k < tools.size(); ++k) {
+    Tool& tool = tools[k];
     tool.convolution.correlate(surface.data());
     const auto field = tool.convolution.field();
-    out[k].resize(static_cast<Index>(tool.field_node.size()));
-    for (std::size_t i = 0; i < tool.field_node.size(); ++i)
-      out[k][static_cast<Index>(i)] =
-          tool.field_node[i] >= 0 ? field[static_cast<std::size_t>(tool.field_node[i])] : 0.0;
+    if (first) out[k].setZero(static_cast<Index>(tool.field_node.size()));
+    for (std::size_t i = 0; i < tool.field_node.size(); ++i) {
+      if (tool.field_node[i] >= 0) out[k][static_cast<Index>(i)] += field[static_cast<std::size_t>(tool.field_node[i])];
+    }
   }
 }
 

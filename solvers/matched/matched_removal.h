@@ -21,32 +21,40 @@ class MatchedRemoval {
   /// dwell: for each part nodes on the map's lines at every factor-th pixel, anywhere.
   MatchedRemoval(const DwellProblem& problem, const std::vector<Grid>& dwell, CoarseFactor factor);
 
-  /// out = K'S'R'W (I - Q Q') W R S K c; one vector a part, both ways.
+  /// out = sum_k K_k'S'R'W (I - Q Q') W R S K_k c over the blocks of the problem's rows; one vector a part, both ways.
   void normal(const std::vector<Vector>& c, std::vector<Vector>& out);
-  /// out = K'S'R'W r for a residual r of the problem: this model's own gradient, consistent with normal().
+  /// out = sum_k K_k'S'R'W r_k for a residual r of the problem: this model's own gradient, consistent with normal().
   void adjoint(const Vector& r, std::vector<Vector>& out);
   /// Cost of normal() in operator pairs of the full problem, by transform_cost.
   double relative_cost() const { return relative_cost_; }
 
  private:
-  /// The coarse convolution of one part.
+  /// A coarse convolution of one part.
   struct Tool {
     PaddedConvolution convolution;
     std::vector<Index> field_node;  // of every node of the dwell lattice, -1 = out of reach
+  };
+  /// The rows of one block: the convolutions of all parts, or, where it is a change of the rate of every part, those of
+  /// the first block times a factor.
+  struct Block {
+    std::vector<Tool> tools;
+    double factor = 1.0;
   };
 
   void add_pixels();
   void add_slopes(Index first, Index count, SplineGram::Take take);
   const Vector& heights_of_weighted(const Vector& r);
-  void add_tool(const RemovalKernel& kernel, const Grid& dwell);
+  void add_block(std::size_t block, const std::vector<Grid>& dwell, CoarseFactor factor, double& coarse);
+  Tool make_tool(const RemovalKernel& kernel, const Grid& dwell) const;
+  void remove(const std::vector<Vector>& c, std::vector<Tool>& tools);
   static void put(const Vector& c, Tool& tool);
-  void correlate(const Vector& surface, std::vector<Vector>& out);
+  static void correlate(const Vector& surface, std::vector<Tool>& tools, bool first, std::vector<Vector>& out);
 
   const DwellProblem& problem_;
   SplineGram pixels_;
   Eigen::MatrixXd form_;  // S'R'W Q
-  std::vector<Tool> tools_;
-  Vector surface_, of_tool_, weighed_, weighted_, heights_;
+  std::vector<Block> blocks_;
+  Vector surface_, of_tool_, weighed_, weighted_, heights_, of_block_;
   double relative_cost_ = 1.0;
 };
 

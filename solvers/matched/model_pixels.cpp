@@ -51,7 +51,12 @@ double narrowest_sigma(const DwellProblem& problem) {
 
 double pair_cost(const DwellProblem& problem) {
   double sum = 0.0;
-  for (const DwellPart& part : problem.parts) sum += operator_cost(part.geometry->lattice, part.geometry->kernel);
+  for (const DwellPart& part : problem.parts) {
+    sum += operator_cost(part.geometry->lattice, part.geometry->kernel);
+    for (const RemovalChange& change : part.changes) {
+      if (change.geometry != part.geometry) sum += operator_cost(change.geometry->lattice, change.geometry->kernel);
+    }
+  }
   return sum;
 }
 

@@ -106,9 +106,13 @@ class Model {
   Model(const DwellProblem& problem, const Vector& start) : p_(problem), t_(start) {
     const Matrix a = read_off(*p_.removal);
     if (p_.form.cols() != 0) {
-      Vector fit = a * t_ - p_.target;
-      if (p_.weights.size() != 0) fit.array() *= p_.weights.array();
-      form_ = p_.form.transpose() * fit;
+      const Vector left = a * t_ - p_.target;
+      const Index rows = left.size() / p_.blocks();
+      for (Index block = 0; block < p_.blocks(); ++block) {
+        Vector fit = left.segment(block * rows, rows);
+        if (p_.weights.size() != 0) fit.array() *= p_.weights.array();
+        forms_.emplace_back(p_.form.transpose() * fit);
+      }
     }
     for (Index j = 0; j < t_.size(); ++j) {
       ceres_.AddParameterBlock(&t_[j], 1);
@@ -144,8 +148,9 @@ class Model {
 
  private:
   void add_pixels(const Matrix& a) {
+    const Index rows = a.rows() / p_.blocks();
     for (Index i = 0; i < a.rows(); ++i) {
-      const double w = p_.weights.size() == 0 ? 1.0 : p_.weights[i];
+      const double w = p_.weights.size() == 0 ? 1.0 : p_.weights[i % rows];
       std::vector<double> coefficients;
       std::vector<double*> blocks;
       for (Matrix::InnerIterator entry(a, i); entry; ++entry) {
@@ -153,9 +158,9 @@ class Model {
         blocks.push_back(&t_[entry.col()]);
       }
       Eigen::VectorXd form;
-      if (form_.size() != 0) {
-        form = -p_.form.row(i).transpose();
-        blocks.push_back(form_.data());
+      if (!forms_.empty()) {
+        form = -p_.form.row(i % rows).transpose();
+        blocks.push_back(forms_[static_cast<std::size_t>(i / rows)].data());
       }
       if (blocks.empty()) continue;  // a pixel that nothing reaches adds a constant
       ceres_.AddResidualBlock(new LinearResidual(std::move(coefficients), std::move(form), w * p_.target[i]), nullptr,
@@ -194,7 +199,7 @@ class Model {
 
   const DwellProblem& p_;
   Vector t_;
-  Eigen::VectorXd form_;
+  std::vector<Eigen::VectorXd> forms_;  // of each block of rows
   ceres::Problem ceres_;
 };
 

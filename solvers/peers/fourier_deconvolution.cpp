@@ -146,6 +146,11 @@ void FourierDeconvolution::do_solve(const DwellProblem& problem, Vector& t, Solv
                     "of one removal function",
                     problem.parts.size()));
   }
+  if (problem.blocks() > 1) {
+    throw InputError(
+        "solver = 'fourier' with an expected residual; accepted: a residual, as it divides by the spectrum of one "
+        "removal function");
+  }
   if (problem.rows) {
     throw InputError(
         "solver = 'fourier' with an objective in slopes; accepted: one in heights, as it divides spectra of "

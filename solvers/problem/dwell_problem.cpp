@@ -50,6 +50,17 @@ bool same_pixels(const RemovalGeometry& a, const RemovalGeometry& b) {
   return a.lattice == b.lattice && a.pixels == b.pixels;
 }
 
+void validate_changes(const DwellProblem& p, const DwellPart& part, Index points, const std::string& name) {
+  check_size(name.c_str(), static_cast<Index>(part.changes.size()), p.blocks() - 1);
+  for (const RemovalChange& change : part.changes) {
+    check_weight(name.c_str(), change.factor);
+    if (!change.geometry || !part.geometry) reject(name + " without the geometry of part or change");
+    if (change.geometry != part.geometry && !same_pixels(*change.geometry, *part.geometry))
+      reject(name + " on another map or other pixels than the part");
+    check_size((name + " strokes").c_str(), static_cast<Index>(change.geometry->strokes.size()), points);
+  }
+}
+
 void validate_parts(const DwellProblem& p) {
   if (p.parts.empty()) return;
   Index points = 0;
@@ -66,6 +77,7 @@ void validate_parts(const DwellProblem& p) {
     }
     if (!part.smoothness.empty()) check_size(name("smoothness").c_str(), part.smoothness.size(), count);
     if (part.alpha) check_weight(name("alpha").c_str(), *part.alpha);
+    validate_changes(p, part, count, name("changes"));
     points = first + count;
   });
   check_size("parts together", points, p.removal->cols());
@@ -76,14 +88,16 @@ void validate_parts(const DwellProblem& p) {
 void validate(const DwellProblem& p) {
   if (!p.removal) reject("removal is not set");
   check_size("target", p.target.size(), p.removal->rows());
-  if (p.rows) check_size("rows", p.rows->rows(), p.removal->rows());
+  const Index rows = p.target.size() / p.blocks();
+  check_size("target blocks", rows * p.blocks(), p.target.size());
+  if (p.rows) check_size("rows", p.rows->rows(), rows);
   check_size("lower", p.lower.size(), p.removal->cols());
   if (p.upper.size() != 0) check_size("upper", p.upper.size(), p.removal->cols());
   if (p.reference.size() != 0) check_size("reference", p.reference.size(), p.removal->cols());
-  if (p.weights.size() != 0) check_size("weights", p.weights.size(), p.removal->rows());
+  if (p.weights.size() != 0) check_size("weights", p.weights.size(), rows);
   if (p.form.cols() > kMaxFormTerms)
     reject(fmt::format("form has {}; at most {} accepted", counted(p.form.cols(), "column"), kMaxFormTerms));
-  if (p.form.cols() != 0) check_size("form rows", p.form.rows(), p.removal->rows());
+  if (p.form.cols() != 0) check_size("form rows", p.form.rows(), rows);
   validate_parts(p);
   check_finite("target", p.target);
   check_finite("lower", p.lower);
@@ -171,11 +185,20 @@ void clip_to_bounds(const DwellProblem& p, Vector& t) {
   if (p.upper.size() != 0) t = t.cwiseMin(p.upper);
 }
 
-DwellObjective::DwellObjective(const DwellProblem& problem) : problem_(problem), weighted_(problem.weights.size()) {}
+DwellObjective::DwellObjective(const DwellProblem& problem)
+    : problem_(problem), weighted_(problem.weights.size() == 0 ? 0 : problem.residuals()) {}
 
 void DwellObjective::weigh_and_project(Vector& v) const {
-  if (problem_.weights.size() != 0) v.array() *= problem_.weights.array();
-  if (problem_.form.cols() == 0) return;
+  const Index blocks = problem_.blocks(), rows = v.size() / blocks;
+  for (Index block = 0; block < blocks; ++block) {
+    auto of_block = v.segment(block * rows, rows);
+    if (problem_.weights.size() != 0) of_block.array() *= problem_.weights.array();
+    if (problem_.form.cols() != 0) project(of_block);
+  }
+}
+
+/// The form terms are taken out of the weighted rows of one block.
+void DwellObjective::project(Eigen::Ref<Vector> v) const {
   // Q is several times as large as v: in blocks of rows, by all threads; the blocks are summed in order.
   constexpr Index kBlocks = 64, kSmall = 1 << 16;
   const Index m = v.size(), terms = problem_.form.cols(), block = (m + kBlocks - 1) / kBlocks;
@@ -232,7 +255,10 @@ void DwellObjective::adjoint_of_weighted(const Vector& r, Vector& g) {
   if (problem_.weights.size() == 0) {
     problem_.removal->apply_adjoint(r, g);
   } else {
-    weighted_ = r.cwiseProduct(problem_.weights);
+    const Index blocks = problem_.blocks(), rows = r.size() / blocks;
+    weighted_.resize(r.size());
+    for (Index block = 0; block < blocks; ++block)
+      weighted_.segment(block * rows, rows) = r.segment(block * rows, rows).cwiseProduct(problem_.weights);
     problem_.removal->apply_adjoint(weighted_, g);
   }
 }

@@ -16,6 +16,13 @@ namespace dwell {
 /// Form terms that a specification may leave out: piston, tilt in x and y, power.
 inline constexpr Index kMaxFormTerms = 6;
 
+/// A random change of a part's removal, small and of mean zero: of the removal of this geometry, times e with standard
+/// deviation `factor`. The part's own geometry stands for a change of the rate.
+struct RemovalChange {
+  std::shared_ptr<const RemovalGeometry> geometry;
+  double factor = 0.0;
+};
+
 /// One tool, or one pass of it: a stretch of the dwell vector with a path of its own.
 struct DwellPart {
   /// The removal function and strokes of which its removal is made, if it is: with them solvers can work on coarser
@@ -23,6 +30,8 @@ struct DwellPart {
   std::shared_ptr<const RemovalGeometry> geometry{};
   PathSmoothness smoothness{};    // its D; empty = none
   std::optional<double> alpha{};  // in place of the problem's, >= 0 [nm^2/s^2]
+  /// Of its removal, in the order of the blocks of the problem's rows; with geometry only.
+  std::vector<RemovalChange> changes{};
 
   /// Its dwell points, as geometry or smoothness know them; 0 if neither does.
   Index points() const { return geometry ? static_cast<Index>(geometry->strokes.size()) : smoothness.size(); }
@@ -43,6 +52,10 @@ struct DwellPart {
 /// W are of the rows. Mean squares are over the pixels in any case, so that weights carry the units: those of slopes
 /// are lengths [mm].
 ///
+/// An expected residual has blocks of rows (ExpectedRemoval): the first is the removal less the target, each other what
+/// a random change of the removal makes of it, without a target; W, P and R are of each block alike, and parts say what
+/// the changes are. All changes of one block are one error, that of every part.
+///
 /// Several tools or passes are one problem: A = [A_1 A_2 ...] (StackedRemoval), the dwell vectors one after the other,
 /// and for each a part that says its own smoothness and geometry; alpha |D (t - l)|^2 is then the sum over the parts.
 struct DwellProblem {
@@ -59,9 +72,11 @@ struct DwellProblem {
   Vector lower;                             // l, n, finite [s]
   Vector upper;                             // u, n, > = l, may be infinite [s]; empty = infinite
 
+  /// Of rows, each of residuals() / blocks().
+  Index blocks() const { return parts.empty() ? 1 : 1 + static_cast<Index>(parts.front().changes.size()); }
   /// What a mean square is over.
-  Index pixels() const { return rows ? rows->pixels() : target.size(); }
-  /// Entries of a residual: as many as pixels, but with rows theirs.
+  Index pixels() const { return rows ? rows->pixels() : target.size() / blocks(); }
+  /// Entries of a residual: as many as pixels, but with rows theirs, for each of the blocks.
   Index residuals() const { return target.size(); }
   Index points() const { return lower.size(); }
   double upper_at(Index j) const;
@@ -138,6 +153,7 @@ class DwellObjective {
 
  private:
   void weigh_and_project(Vector& v) const;
+  void project(Eigen::Ref<Vector> v) const;
   void adjoint_of_weighted(const Vector& r, Vector& g);
   double squared_norm(const Vector& v) const;
   int threads() const;

@@ -92,6 +92,7 @@ std::map<std::string, std::vector<Words>> runs_of_commands() {
         {"plan", "--resume", "200", "--log-plan", "plan", "--out", "a"},
         SmallInputs::plan(
             {"--out", "a", "--objective", "mixed:0.5", "--clear-aperture", "rect:1,1,9,8", "--weight", "centre=2"}),
+        SmallInputs::plan({"--out", "a", "--uncertainty", "tif-rate=5%,position=20um,samples=3", "--robust-plan"}),
         {"plan", "--log", "run.csv", "--log-plan", "plan", "--machine", "machine.toml", "--out", "a"}}},
       {"paths",
        {{"paths", "--map", "wide.csv", "--tif", "gaussian:peak=10,fwhm=3,radius=4", "--threads", "1", "--paths",

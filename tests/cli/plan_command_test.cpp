@@ -23,6 +23,7 @@ std::set<std::string> figures_without_machine() {
   std::set<std::string> figures(plan_files().figures.begin(), plan_files().figures.end());
   figures.erase("limits");
   figures.erase("motion");
+  figures.erase("uncertainty");
   return figures;
 }
 
@@ -50,6 +51,28 @@ TEST(PlanCommand, WritesEveryFileAndPrintsWhatItDid) {
   }
   for (const char* unit : {" nm", " mm", " s", " nm/s", " mm/min"}) expect_has(result.out, unit);
   EXPECT_EQ(read_whole_file(inputs / "plan/before.png").substr(1, 3), "PNG");
+}
+
+TEST(PlanCommand, SaysWhatItsProgramMayLeave) {
+  const SmallInputs inputs;
+  const test::Words unsure{"--uncertainty", "tif-rate=5%,position=50um,metrology=0.1nm,samples=20,seed=4"};
+  const ProgramResult result = inputs.run(SmallInputs::plan(unsure));
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  expect_has(result.out, "uncertain tif-rate=5%,position=0.05mm,metrology=0.1nm, 20 samples, seed 4\n");
+  expect_has(result.out, "each alone adds, in squares: tif-rate ");
+  EXPECT_TRUE(names_in(inputs / "plan").contains("uncertainty.png"));
+  const json summary = summary_of(inputs);
+  const json& rms = summary["uncertainty"]["rms_nm"];
+  EXPECT_NEAR(rms["nominal"].get<double>(), summary["program"]["residual_rms_nm"].get<double>(),
+              1e-6 * rms["nominal"].get<double>());
+  EXPECT_LE(rms["p5"], rms["median"]);
+  EXPECT_LE(rms["median"], rms["p95"]);
+  EXPECT_EQ(inputs.run(SmallInputs::plan(unsure)).exit_code, 0);
+  EXPECT_EQ(summary_of(inputs)["uncertainty"], summary["uncertainty"]);
+  const ProgramResult drifts = inputs.run(SmallInputs::plan({"--uncertainty", "drift=2%"}));
+  EXPECT_EQ(drifts.exit_code, 2);
+  expect_has(drifts.err, "--uncertainty");
+  expect_has(drifts.err, "from run to run");
 }
 
 TEST(PlanCommand, ShowsBothPitchesOfPixelsThatAreNotSquare) {

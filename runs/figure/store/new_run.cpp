@@ -38,7 +38,7 @@ void check(const NewRun& run) {
 MadeRun make_run(const std::filesystem::path& folder, const NewRun& run, const Progress& progress) {
   check(run);
   const std::vector<SurfaceLimit> limits = limits_of_target(run.target, run.bands);
-  check_weights(dwell_options(run.options));
+  check_weights(run.options);
   check_exports(run.options);
   if (!run.options.path.given())
     throw InputError("--path: required; for instance raster:pitch=1, nearest:cell=2 or file:path.csv");

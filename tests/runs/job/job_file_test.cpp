@@ -65,6 +65,8 @@ JobOptions unusual() {
   o.clear_aperture = parse_aperture("circle:1,2,3");
   o.weight = "/data/w.npy;centre=2";
   o.objective = {0.25};
+  o.uncertainty = parse_sampled_uncertainty("tif-rate=5%,position=20um,rotation=0.1deg,samples=50,seed=7");
+  o.robust_plan = true;
   o.fraction = 0.8;
   o.accept = "rms<=1, mid<=0.5nm";
   o.min_dwell_s = 1.0 / 7.0;

@@ -219,9 +219,9 @@ TEST(WritePlan, TheSameJobGivesTheSameBytesButForTheWallTime) {
   const auto& formats = program_formats();
   const auto exports = std::count_if(formats.begin(), formats.end(),
                                      [](const auto& format) { return !format.word.empty() && !format.file.empty(); });
-  EXPECT_EQ(
-      one.size() + static_cast<std::size_t>(exports),
-      plan_files().others.size() - 8 + plan_files().figures.size() - 2 + 1);  // no parts, log, rest, tools or machine
+  EXPECT_EQ(one.size() + static_cast<std::size_t>(exports),
+            plan_files().others.size() - 8 + plan_files().figures.size() - 3 +
+                1);  // no parts, log, rest, tools, machine or uncertainty
   for (const auto& [name, bytes] : one) {
     const std::string file(name);
     EXPECT_TRUE(plan_files().has(file)) << file;
