@@ -101,7 +101,7 @@ void refuse_inside_result(const fs::path& target, const ResultFiles& files,
   const fs::path place = normal(target, files);
   for (fs::path above = place.parent_path(); above.has_relative_path(); above = above.parent_path()) {
     for (const ResultFiles* kind : kinds) {
-      const bool one_of_many = kind->in_folders == &files && above == place.parent_path();
+      const bool one_of_many = kind->in_folders == &files && !kind->own_folders && above == place.parent_path();
       if (one_of_many || !is_result(above, *kind)) continue;
       refuse_out(
           target, "a folder outside of it",

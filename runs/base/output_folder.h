@@ -21,6 +21,7 @@ struct ResultFiles {
   std::vector<std::string_view> others;
   std::vector<std::string_view> figures;    // without their extensions, which are .png, .svg or .pdf
   const ResultFiles* in_folders = nullptr;  // what folders in it may hold, of any name: a result of this kind each
+  bool own_folders = false;                 // these are its own alone: none is made or replaced by itself
   /// Beginnings and ends of names with a number between: program_001.trj.
   std::vector<std::pair<std::string_view, std::string_view>> numbered{};
   std::vector<std::string_view> any_ending{};  // names without their endings, which may be any

@@ -16,11 +16,13 @@
 #include "runs/job/program_style.h"
 #include "runs/job/tool_option.h"
 #include "runs/plan/lattice_choice.h"
+#include "runs/plan/objective_rows.h"
 #include "runs/plan/usual_smoothness.h"
 #include "runs/programs/program_reader.h"
 #include "runs/reports/another_surface.h"
 #include "runs/reports/plan_files.h"
 #include "runs/reports/plan_output.h"
+#include "solvers/weights/weight_option.h"
 
 namespace dwell {
 namespace {
@@ -36,14 +38,28 @@ void refuse(const std::string& option, const std::string& why) {
   throw InputError(fmt::format("{} together with `tool`: {}", option, why));
 }
 
+/// What holds for all tools is refused as the job's, before any file is read.
 void check_joint_options(const JobOptions& o) {
+  for (const auto& [name, goal] : {std::pair("smoothness", o.smoothness), {"time price", o.time_price_nm2_per_s}}) {
+    const bool of_time = std::string_view(name) == "time price";
+    if (goal.kind == GoalKind::Fixed || goal.kind == GoalKind::Auto) continue;
+    if (of_time && goal.kind == GoalKind::TotalAtMost) continue;
+    refuse(fmt::format("`{}` = {}", name, to_string(goal)),
+           fmt::format("it is searched over plans, which is for one tool; required a number or auto{}",
+                       of_time ? ", or total<=SECONDS" : ""));
+  }
+  if (o.fraction != 1.0) refuse(fmt::format("`fraction` = {}", o.fraction), "required 1");
+  if (o.solver == SolverKind::Fourier) refuse("`solver` = fourier", "it knows one tool; required another");
   if (o.blemishes == BlemishHandling::LeaveOut)
     refuse("`blemishes` = leave-out", "pixels are left out by one plan; accepted: report or keep");
-  if (!o.log.empty() || !o.log_plan.empty()) refuse("`log`", "a log is of one program; required a plan for one tool");
+  if (!o.log.empty() || !o.log_plan.empty())
+    refuse(o.log.empty() ? fmt::format("`log plan` = {}", o.log_plan) : fmt::format("`log` = {}", o.log),
+           "a log is of one program; required a plan for one tool");
   if (o.uncertainty || o.robust_plan)
     refuse(o.robust_plan ? "`robust plan`" : "`uncertainty`",
            "truths are drawn for the program of one tool; required none");
-  if (o.certify > 0.0) refuse("`certify`", "the bound is that of one tool's plan; required off");
+  if (o.certify > 0.0)
+    refuse(fmt::format("`certify` = {:g}%", 100.0 * o.certify), "the bound is that of one tool's plan; required off");
 }
 
 LoadedTool load_tool(const ToolSpec& option, const JobOptions& common, const Progress& progress) {
@@ -61,20 +77,49 @@ LoadedTool load_tool(const ToolSpec& option, const JobOptions& common, const Pro
     tool.laid = lay_job_path(tool.job, 0.0, progress).laid;
     if (auto file = path_input(own)) tool.job.inputs.push_back(std::move(*file));
   } catch (const InputError& error) {
-    throw InputError(fmt::format("tool '{}': {}", option.name, with_flags(error).what()));
+    const std::string what = with_flags(error).what();
+    if (what.find(surface_file(own)) != std::string::npos) throw;  // of the map, which is the job's
+    throw InputError(fmt::format("tool '{}': {}", option.name, what));
   }
   return tool;
+}
+
+/// Refuses tools that are the same, which would only share the smoothness that one has to keep; and prices where time
+/// is not priced.
+void check_specs(const std::vector<ToolSpec>& specs, const JobOptions& options) {
+  for (std::size_t a = 0; a < specs.size(); ++a) {
+    for (std::size_t b = 0; b < a; ++b) {
+      if (specs[a].values == specs[b].values)
+        throw InputError(
+            fmt::format("tools '{}' and '{}' are the same; required tools that differ", specs[b].name, specs[a].name));
+    }
+    if (options.time_price_nm2_per_s.kind == GoalKind::TotalAtMost && specs[a].price != 1.0) {
+      throw InputError(fmt::format(
+          "tool '{}': price: {}; required 1 together with `time price` = {}, within which all seconds count "
+          "alike",
+          specs[a].name, specs[a].price, to_string(options.time_price_nm2_per_s)));
+    }
+  }
 }
 
 /// All tools, wide ones first.
 std::vector<LoadedTool> load_tools(const JobOptions& options, const Progress& progress) {
   std::vector<LoadedTool> tools;
-  for (const ToolSpec& option : parse_tool_specs(options.tools))
-    tools.push_back(load_tool(option, options, progress.of_part(option.name)));
+  const std::vector<ToolSpec> specs = parse_tool_specs(options.tools);
+  check_specs(specs, options);
+  for (const ToolSpec& option : specs) tools.push_back(load_tool(option, options, progress.of_part(option.name)));
   std::stable_sort(tools.begin(), tools.end(), [](const LoadedTool& a, const LoadedTool& b) {
     return equivalent_fwhm(*a.job.part) > equivalent_fwhm(*b.job.part);
   });
   return tools;
+}
+
+/// Slopes count alike for all tools: by the length of the widest.
+void share_slope_length(std::vector<LoadedTool>& tools) {
+  for (LoadedTool& tool : tools) {
+    FitObjective& objective = tool.job.options.objective;
+    if (objective.has_slopes()) objective.length = slope_length(*tools.front().job.part, objective);
+  }
 }
 
 std::vector<JointTool> joint_tools(const std::vector<LoadedTool>& loaded) {
@@ -115,11 +160,11 @@ HeightMap programmed_removal(const LoadedTool& tool, const std::filesystem::path
 }
 
 /// A tool's share of the dwell problem as a plan of its own.
-Job job_of_run(const LoadedTool& tool, const std::string& folder, double smoothness, double price) {
+Job job_of_run(const LoadedTool& tool, const std::string& folder, double smoothness, const WeightGoal& price) {
   Job job = tool.job;
   job.options.out = (std::filesystem::path(job.options.out) / folder).string();
   job.options.smoothness = {smoothness};
-  job.options.time_price_nm2_per_s = {price};
+  job.options.time_price_nm2_per_s = price;
   job.options.time_worth = {};
   return job;
 }
@@ -162,6 +207,15 @@ class Runs {
     return map_statistics(counted, part.form, part.threads);
   }
 
+  /// The tool's price of a second; with a machine that has to keep to a total, its share of that.
+  WeightGoal price_of_run(std::size_t i) const {
+    const JointDwell& dwell = plan_.choice.dwell;
+    const LoadedTool& tool = tools_[dwell.tools[i]];
+    const bool total = plan_.job.options.time_price_nm2_per_s.kind == GoalKind::TotalAtMost;
+    if (total && tool.job.machine) return {dwell.seconds[i].sum(), GoalKind::TotalAtMost};
+    return {plan_.choice.set().price * tool.option.price};
+  }
+
   void plan_one(std::size_t i, const Progress& progress) {
     const std::size_t number = plan_.choice.dwell.tools[i];
     const LoadedTool& tool = tools_[number];
@@ -172,7 +226,7 @@ class Runs {
     run.change_over = tool.option.change_over_s;
     run.before = statistics(*tool.job.part);
     OutputFolder own(folder_.path(run.folder), plan_files());
-    Job job = job_of_run(tool, run.folder, plan_.smoothnesses[number], plan_.choice.set().price * tool.option.price);
+    Job job = job_of_run(tool, run.folder, plan_.smoothnesses[number], price_of_run(i));
     HeightMap surface = surface_for(i);
     surface.history = surface_.history;
     if (i + 1 < planned_.size())
@@ -225,14 +279,15 @@ double JointPlan::seconds() const {
 }
 
 const ResultFiles& joint_plan_files() {
-  static const ResultFiles kFiles{"plan for several tools", "tools.json", {}, {}, &plan_files()};
+  static const ResultFiles kFiles{"plan for several tools", "tools.json", {}, {}, &plan_files(), true};
   return kFiles;
 }
 
 JointPlan plan_tools(const JobOptions& options, const OutputFolder& folder, const Progress& progress) {
   check_joint_options(options);
   check_weights(dwell_options(options));
-  const std::vector<LoadedTool> tools = load_tools(options, progress);
+  std::vector<LoadedTool> tools = load_tools(options, progress);
+  share_slope_length(tools);
   JointPlan plan;
   plan.job = tools.front().job;
   plan.job.options = options;
@@ -250,9 +305,12 @@ JointPlan plan_tools(const JobOptions& options, const OutputFolder& folder, cons
     plan.choice =
         choose_tools(problem, options.time_price_nm2_per_s, options.time_worth, options.max_solve_s, progress);
   }
-  if (!plan.choice.dwell.solver.converged()) {
-    plan.limits.push_back(fmt::format("joint solve: {}: {}", to_string(plan.choice.dwell.solver.status),
-                                      plan.choice.dwell.solver.message));
+  for (const TriedTools& tried : plan.choice.tried) {
+    if (tried.status == SolverStatus::Converged || tried.status == SolverStatus::Settled) continue;
+    std::string set;
+    for (const std::size_t k : tried.tools) set += (set.empty() ? "" : " + ") + plan.names[k];
+    plan.limits.push_back(fmt::format("joint solve of {}: {}; its cost may be too high, and the choice of tools wrong",
+                                      set, to_string(tried.status)));
   }
   Runs(plan, tools, folder, progress).plan_all();
   for (const ToolRun& run : plan.runs) {

@@ -26,6 +26,15 @@ std::string names_of(const JointPlan& plan, const std::vector<std::size_t>& tool
   return text;
 }
 
+bool within_total(const JointPlan& plan) { return plan.job.options.time_price_nm2_per_s.kind == GoalKind::TotalAtMost; }
+
+/// What the residual is of: the heights, or what an objective with slopes sees.
+std::string residual_words(const JointPlan& plan) {
+  const FitObjective& objective = plan.job.options.objective;
+  return objective.has_slopes() ? fmt::format("RMS of {} [nm]", objective.slope_share < 1.0 ? "both" : "slopes")
+                                : "residual RMS [nm]";
+}
+
 /// A tried set that differs from the chosen one by this tool alone; nothing if none was tried.
 const TriedTools* differs_by(const JointPlan& plan, std::size_t tool) {
   std::vector<std::size_t> other = plan.choice.set().tools;
@@ -51,14 +60,17 @@ std::string verdict_line(const JointPlan& plan, std::size_t tool) {
   const TriedTools* other = differs_by(plan, tool);
   const bool works = std::find(now.tools.begin(), now.tools.end(), tool) != now.tools.end();
   const std::string head = fmt::format("          {} {}", plan.names[tool], works ? "pays" : "does not pay");
-  if (!other) return head + (works ? ": no other tool is left\n" : ": worse than the others in every set tried\n");
-  return fmt::format("{}: {} it {:.4g} nm RMS would be left in {} of machine time, {}\n", head,
+  if (!other) {
+    return head + (works                ? ": no other set was tried\n"
+                   : within_total(plan) ? ": no set with it is better, or fits into the total\n"
+                                        : ": worse than the others in every set tried\n");
+  }
+  return fmt::format("{}: {} it {:.4g} nm RMS{} would be left in {} of machine time, {}\n", head,
                      works ? "without" : "with", other->residual_rms,
+                     plan.job.options.objective.has_slopes() ? " of the objective" : "",
                      duration_text(other->seconds + other->change_over),
                      change_words(now.seconds + now.change_over, other->seconds + other->change_over));
 }
-
-bool within_total(const JointPlan& plan) { return plan.job.options.time_price_nm2_per_s.kind == GoalKind::TotalAtMost; }
 
 std::string price_words(const JointPlan& plan) {
   if (plan.choice.worth) return ", by the rules of a plan, with all tools";
@@ -70,7 +82,7 @@ std::string price_words(const JointPlan& plan) {
 std::string tried_lines(const JointPlan& plan) {
   std::size_t widest = 5;
   for (const TriedTools& tried : plan.choice.tried) widest = std::max(widest, names_of(plan, tried.tools).size());
-  std::string text = fmt::format("  {:<{}} {:>17} {:>11} {:>15} {:>13}\n", "tools", widest, "residual RMS [nm]",
+  std::string text = fmt::format("  {:<{}} {:>17} {:>11} {:>15} {:>13}\n", "tools", widest, residual_words(plan),
                                  "dwell [s]", "change-over [s]", "cost [nm^2]");
   for (std::size_t k = 0; k < plan.choice.tried.size(); ++k) {
     const TriedTools& tried = plan.choice.tried[k];
@@ -87,8 +99,14 @@ std::string tried_lines(const JointPlan& plan) {
 Json set_json(const JointPlan& plan, const TriedTools& tried, bool chosen) {
   Json tools = Json::array();
   for (const std::size_t k : tried.tools) tools.push_back(plan.names[k]);
-  return {{"tools", tools},           {"time_price_nm2_per_s", tried.price}, {"residual_rms_nm", tried.residual_rms},
-          {"total_s", tried.seconds}, {"change_over_s", tried.change_over},  {"cost_nm2", tried.cost},
+  return {{"tools", tools},
+          {"time_price_nm2_per_s", tried.price},
+          {"residual_rms_nm", tried.residual_rms},
+          {"total_s", tried.seconds},
+          {"change_over_s", tried.change_over},
+          {"cost_nm2", tried.cost},
+          {"status", to_string(tried.status)},
+          {"gap_relative", finite_or_null(tried.gap)},
           {"chosen", chosen}};
 }
 

@@ -51,7 +51,7 @@ std::optional<std::string> joined(const toml::node& node) {
 /// A tool of a job, [[tool]] with its name and its own options by their fields, as --tool has it.
 std::string tool_text(const toml::table& fields, const std::string& source) {
   const auto name = fields["name"].value<std::string>();
-  if (!name) throw InputError(fmt::format("{}: a [[tool]] without `name`; required one (in quotes)", source));
+  if (!name) throw InputError(fmt::format("{}: a [[tool]] without a name; required name = \"...\", a string", source));
   std::string text = *name;
   for (const auto& [key, node] : fields) {
     const std::string field(key.str());
@@ -65,6 +65,12 @@ std::string tool_text(const toml::table& fields, const std::string& source) {
     if (const auto* machine = node.as_table(); machine && field == "machine") {
       machine_of_table(*machine, source);
       value = inline_machine_text(*machine);
+    }
+    if (value.empty()) {
+      std::ostringstream type;
+      type << node.type();
+      throw InputError(fmt::format("{}: '{}': {} is empty or of type {}; required a string or a number", source, *name,
+                                   field, type.str()));
     }
     if (value.find(';') != std::string::npos || value.find('\n') != std::string::npos)
       throw InputError(

@@ -78,7 +78,7 @@ std::vector<JobOptionRecord> fit_option_records() {
        [](const Options& o) { return o.weight; }, false, true},
       {"objective", "objective", "WHAT",
        "what the fit makes small: height, slope (from pixel to pixel), or mixed:SHARE with a share of slopes between 0 "
-       "and 1 (docs/math.md)",
+       "and 1; ,length=MM is what slopes are multiplied by, in the place of the tool's own (docs/math.md)",
        false, false, [](Options& o, const std::string& t) { o.objective = parse_fit_objective(t); },
        [](const Options& o) { return to_string(o.objective); }},
       {"uncertainty", "uncertainty", "WHAT=SIZE,...",

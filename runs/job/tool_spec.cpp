@@ -41,7 +41,7 @@ double duration_of(const std::string& text) {
     if (value && kSeconds.holds(*value * factor)) return *value * factor;
   }
   throw InputError(
-      fmt::format("'{}'; required a time with its unit, {} at most: 90s, 10min or 0.5h", text, kSeconds.most));
+      fmt::format("'{}'; required a time with its unit, at most {} s: 90s, 10min or 0.5h", text, kSeconds.most));
 }
 
 void set_part(ToolSpec& tool, const std::string& key, const std::string& value) {
@@ -60,6 +60,7 @@ ToolSpec parse_tool(const std::string& line) {
   std::vector<std::string> seen;
   for (const std::string_view part : split(line, ';')) {
     const std::string text(trim(part));
+    if (text.empty() && !tool.name.empty()) continue;  // a semicolon at the end
     if (tool.name.empty()) {
       check_name(text);
       tool.name = text;

@@ -43,10 +43,14 @@ Eigen::MatrixXd orthonormal_columns(const Eigen::MatrixXd& columns, double least
 
 double slope_length(const Part& part) { return kHalfHeldWave * equivalent_fwhm(part) / (2.0 * std::numbers::pi); }
 
+double slope_length(const Part& part, const FitObjective& objective) {
+  return objective.length ? *objective.length : slope_length(part);
+}
+
 ObjectiveRows objective_rows(const Part& part, const std::vector<Index>& pixels, const std::vector<double>& roots,
                              const FitObjective& objective) {
   const Grid& grid = part.map.grid;
-  const double share = objective.slope_share, length = slope_length(part);
+  const double share = objective.slope_share, length = slope_length(part, objective);
   ObjectiveRows result;
   result.rows = std::make_shared<const SurfaceRows>(grid, pixels, share < 1.0);
   const SurfaceRows& rows = *result.rows;

@@ -17,6 +17,9 @@ namespace dwell {
 /// every objective.
 double slope_length(const Part& part);
 
+/// That of the objective, or the part's where it says none [mm].
+double slope_length(const Part& part, const FitObjective& objective);
+
 /// The rows of an objective with slopes, and what goes with them in a dwell problem.
 struct ObjectiveRows {
   std::shared_ptr<const SurfaceRows> rows;

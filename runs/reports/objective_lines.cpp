@@ -9,7 +9,7 @@ namespace dwell {
 std::string objective_line(const PlannedJob& plan) {
   const FitObjective& objective = plan.job.options.objective;
   if (!objective.has_slopes()) return "";
-  const double length = slope_length(plan.part()), left = plan.dwell.certificate.residual_rms;
+  const double length = slope_length(plan.part(), objective), left = plan.dwell.certificate.residual_rms;
   return fmt::format("objective {}: slopes count times {:.4g} mm; {} left by the solver\n", to_string(objective),
                      length,
                      objective.slope_share < 1.0 ? fmt::format("RMS of both {:.4g} nm", left)
@@ -20,7 +20,7 @@ nlohmann::ordered_json objective_block(const PlannedJob& plan) {
   const FitObjective& objective = plan.job.options.objective;
   return {{"of", to_string(objective)},
           {"slope_share", objective.slope_share},
-          {"slope_length_mm", slope_length(plan.part())},
+          {"slope_length_mm", slope_length(plan.part(), objective)},
           {"left_rms_nm", plan.dwell.certificate.residual_rms}};
 }
 

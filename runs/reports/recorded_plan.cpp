@@ -102,6 +102,18 @@ JobOptions options_of(const nlohmann::json& summary, const std::string& file, co
   return options;
 }
 
+/// A map that lies in the plan's own folder, as that of a rest, is found there when the folder was moved.
+void find_own_map(RecordedPlan& plan) {
+  std::error_code unknown;
+  for (InputFile& input : plan.inputs) {
+    const std::filesystem::path own = plan.folder / std::filesystem::path(input.file).filename();
+    if (input.role != "map" || plan.options.map != input.file) continue;
+    if (std::filesystem::exists(input.file, unknown) || !std::filesystem::exists(own, unknown)) continue;
+    if (sha256_of_file(own) != input.sha256) continue;
+    plan.options.map = input.file = own.string();
+  }
+}
+
 std::string flag_of_role(const std::string& role) {
   if (role == "profile") return "line-profile";
   const bool own = role == "map" || role == "tif" || role == "machine" || role == "weight" || role == "removal";
@@ -129,6 +141,7 @@ RecordedPlan read_recorded_plan(const std::filesystem::path& folder) {
     plan.inputs.push_back({text_of(input, "role", file), seen_from(names, name_of(names, text_of(input, "file", file))),
                            text_of(input, "sha256", file)});
   }
+  find_own_map(plan);
   return plan;
 }
 

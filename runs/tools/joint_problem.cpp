@@ -32,6 +32,13 @@ std::shared_ptr<const RemovalGeometry> with_rate_times(std::shared_ptr<const Rem
   return std::make_shared<const RemovalGeometry>(std::move(scaled));
 }
 
+/// What an even dwell with a tool removes, in the mean square over the part, up to a factor that all tools share.
+double strength_of(const JointTool& tool) {
+  double volume = 0.0;
+  for (const double c : tool.part->kernel.surface.coefficients()) volume += c;
+  return volume * std::sqrt(static_cast<double>(tool.laid.strokes.size()));
+}
+
 void check_options(const JointTool& tool) {
   const DwellOptions& o = tool.options;
   const auto refuse = [&tool](const std::string& what) {
@@ -92,9 +99,9 @@ void JointProblem::add(const JointTool& tool, const Progress& progress) {
     }
   }
   const DwellPart& stretch = problem.parts.front();
-  pieces_.push_back({with_rate_times(stretch.geometry, 1.0 / tool.price), stretch.smoothness, smoothness,
-                     problem.alpha / (tool.price * tool.price), tool.price * problem.lower,
-                     common_.target - problem.target});
+  const double scale = strength_of(tool) / strength_of(tools_.front());
+  pieces_.push_back({with_rate_times(stretch.geometry, 1.0 / scale), stretch.smoothness, smoothness,
+                     problem.alpha / (scale * scale), scale, scale * problem.lower, common_.target - problem.target});
 }
 
 JointProblem::Stack JointProblem::stack(const std::vector<std::size_t>& tools) const {
@@ -108,7 +115,7 @@ JointProblem::Stack JointProblem::stack(const std::vector<std::size_t>& tools) c
   for (const std::size_t k : tools) {
     const Piece& piece = pieces_[k];
     geometries.push_back(piece.geometry);
-    stack.problem.parts.push_back({piece.geometry, piece.smoothness, piece.alpha});
+    stack.problem.parts.push_back({piece.geometry, piece.smoothness, piece.alpha, tools_[k].price / piece.scale});
     stack.problem.lower.segment(first, piece.lower.size()) = piece.lower;
     stack.problem.target -= piece.moved;
     first += piece.lower.size();
@@ -140,7 +147,7 @@ TimePrice JointProblem::find_price(const TimeWorth& worth, const Progress& progr
 
 double JointProblem::least_total(const std::vector<std::size_t>& tools) const {
   double sum = 0.0;
-  for (const std::size_t k : tools) sum += pieces_[k].lower.sum() / tools_[k].price + tools_[k].change_over;
+  for (const std::size_t k : tools) sum += pieces_[k].lower.sum() / pieces_[k].scale + tools_[k].change_over;
   return sum;
 }
 
@@ -177,7 +184,7 @@ JointDwell JointProblem::solve(const std::vector<std::size_t>& tools, double pri
   Index first = 0;
   for (const std::size_t k : tools) {
     const Index points = pieces_[k].lower.size();
-    found.seconds.push_back(t.segment(first, points) / tools_[k].price);
+    found.seconds.push_back(t.segment(first, points) / pieces_[k].scale);
     const double seconds = found.seconds.back().sum(), change_over = tools_[k].change_over;
     found.total += seconds + change_over;
     found.time_cost += price * tools_[k].price * (seconds + change_over);

@@ -43,9 +43,9 @@ struct JointDwell {
 ///
 ///   minimise  1/2 |W P (sum_k A_k t_k - z)|^2 + sum_k [ alpha_k/2 |D_k (t_k - l_k)|^2 + gamma p_k (1't_k + c_k) ]
 ///
-/// with p_k the tool's price and c_k its change-over. Solvers know one price of time: they are given the seconds times
-/// p_k, and the removal functions divided by it, which is the same problem. Each tool's alpha_k is that of a plan for
-/// it alone: the smoothness it is given, or the usual one.
+/// with p_k the tool's price and c_k its change-over. Each tool's alpha_k is that of a plan for it alone: the
+/// smoothness it is given, or the usual one. Solvers are given the seconds in the measure of what the tools remove in
+/// them, which is the same problem, and as easy for tools of very different rates as for equal ones.
 class JointProblem {
  public:
   /// All tools have parts of the same pixels, weights and form terms. Throws InputError for options that a joint solve
@@ -69,12 +69,12 @@ class JointProblem {
                    const Progress& progress = {});
 
  private:
-  /// What a tool brings into the problem; seconds are priced ones.
+  /// What a tool brings into the problem, in seconds times `scale`.
   struct Piece {
     std::shared_ptr<const RemovalGeometry> geometry;
     PathSmoothness smoothness;
     double smoothness_weight = 0.0;
-    double alpha = 0.0;
+    double alpha = 0.0, scale = 1.0;
     Vector lower;
     Vector moved;  // what of the target its moves between halts remove [nm, or as the rows have it]
   };

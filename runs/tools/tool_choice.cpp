@@ -79,10 +79,11 @@ class ToolElimination {
     if (within_total()) {
       const double least = problem_.least_total(tools);
       shortest_ = std::min(shortest_, least);
-      if (!(least < goal_.value)) return std::nullopt;
+      if (!(least < kMostOfTotal * goal_.value)) return std::nullopt;
     }
     JointDwell found = within_total() ? solve_within(tools) : solve(tools, price_);
-    TriedTools tried{tools, found.price, found.residual_rms, 0.0, 0.0, cost_of(found)};
+    TriedTools tried{tools, found.price,    found.residual_rms,  0.0,
+                     0.0,   cost_of(found), found.solver.status, found.certificate.gap()};
     for (std::size_t i = 0; i < tools.size(); ++i) {
       tried.seconds += found.seconds[i].sum();
       tried.change_over += problem_.tools()[tools[i]].change_over;
@@ -93,13 +94,13 @@ class ToolElimination {
 
   /// The set at the least price that keeps the total: the total falls as the price rises.
   JointDwell solve_within(const std::vector<std::size_t>& tools) {
-    const double most = goal_.value, lowest = 1e-9 * price_;
+    const double most = kMostOfTotal * goal_.value, lowest = 1e-9 * price_;
     std::optional<JointDwell> fits;  // at the least price known to fit
     double price = price_, too_low = 0.0, total_too_low = 0.0;
     for (int k = 0; k < kMostSolves; ++k) {
       JointDwell found = solve(tools, price);
       if (found.total <= most) {
-        const bool used = found.total >= kUsedOfTotal * most || price <= lowest;
+        const bool used = found.total >= kUsedOfTotal * goal_.value || price <= lowest;
         fits = std::move(found);
         if (used) break;
       } else {
@@ -115,7 +116,7 @@ class ToolElimination {
     }
     if (!fits) {
       throw InputError(
-          fmt::format("`time price` is total<={:g} s, which the search met at no price: required more", most));
+          fmt::format("`time price` is total<={:g} s, which the search met at no price: required more", goal_.value));
     }
     price_ = fits->price;
     return std::move(*fits);
@@ -123,7 +124,7 @@ class ToolElimination {
 
   /// A price at which the total is about in the middle of what is accepted, by logarithms, and within the two.
   double between(double low, double total_low, double high, double total_high) const {
-    const double wanted = std::log(0.5 * (1.0 + kUsedOfTotal) * goal_.value);
+    const double wanted = std::log(0.5 * (kMostOfTotal + kUsedOfTotal) * goal_.value);
     const double share = (std::log(total_low) - wanted) / (std::log(total_low) - std::log(total_high));
     return low * std::pow(high / low, std::clamp(share, 0.1, 0.9));
   }
@@ -153,7 +154,7 @@ class ToolElimination {
 ToolChoice choose_tools(JointProblem& problem, const WeightGoal& goal, const TimeWorth& worth, double max_seconds,
                         const Progress& progress) {
   std::optional<TimePrice> found;
-  if (goal.kind != GoalKind::Fixed) found = problem.find_price(worth, progress.of_part("time price"));
+  if (goal.kind != GoalKind::Fixed) found = problem.find_price(worth, progress);
   const double price = found ? found->price : goal.value;
   if (goal.kind == GoalKind::TotalAtMost) found.reset();
   return ToolElimination(problem, goal, max_seconds, progress).run(price, std::move(found));

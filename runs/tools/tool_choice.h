@@ -19,6 +19,8 @@ struct TriedTools {
   double seconds = 0.0;            // of dwell, of all of them
   double change_over = 0.0;        // of all of them [s]
   double cost = 0.0;               // by which sets are compared [nm^2]
+  SolverStatus status = SolverStatus::NotRun;
+  double gap = 0.0;  // Certificate::gap of its solve
 };
 
 /// Which of several tools pay.
@@ -37,8 +39,10 @@ struct ToolChoice {
 /// costs are known.
 inline constexpr double kSameCost = 1e-3;
 
-/// Of a total that is asked for, the dwell and change-over of a set come to this share at least, if any price does.
+/// Of a total that is asked for, the dwell and change-over of a set come to the first share at least, if any price
+/// does, and to the second at most: the tools' own plans find the same dwell, but to the solver's tolerance.
 inline constexpr double kUsedOfTotal = 0.98;
+inline constexpr double kMostOfTotal = 0.995;
 
 /// Finds out which tools pay: solves with all of them, then without each in turn, and goes on without the one whose
 /// loss costs least as long as the cost does not rise. `goal` says the common price of a second [nm^2/s]: a number;

@@ -98,15 +98,17 @@ class Search {
     upper_ = model_->largest();
     lbfgs_ = std::make_unique<BoundedLbfgs>(lower_, upper_, p_.threads());
     s_.setZero(model_->size());
-    model_->restrict_to(Vector::Ones(p_.points()), seconds_);
+    Vector prices = Vector::Zero(p_.points());
+    add_prices(p_, 1.0, prices);
+    model_->restrict_to(prices, seconds_);
     return_to_full();
     tolerance_ = kModelTolerance * point_.gradient.norm();
   }
 
   /// The plan as the full problem knows it.
-  LeftAndTotal here() const { return {0.5 * r_.squaredNorm() / pixels(), t_.sum()}; }
+  LeftAndTotal here() const { return {0.5 * r_.squaredNorm() / pixels(), priced_total(p_, t_)}; }
   TradeOff trade_off(double half_mean_square) const {
-    return {std::sqrt(2.0 * half_mean_square), t_.sum(), step_rms(p_, t_)};
+    return {std::sqrt(2.0 * half_mean_square), priced_total(p_, t_), step_rms(p_, t_)};
   }
 
   /// The model about the plan, from the full problem's residual.
@@ -123,7 +125,7 @@ class Search {
     point_.value += change * total_of_model();
     set_price(price);
   }
-  double total_of_model() const { return t_.sum() + seconds_.dot(point_.x - s_); }
+  double total_of_model() const { return priced_total(p_, t_) + seconds_.dot(point_.x - s_); }
 
   void minimise_model() {
     progress_.check();
@@ -154,7 +156,7 @@ class Search {
     d_of_model();
     d_ += t_;
     step = step_rms(p_, d_);
-    return {std::max(0.0, point_.value - penalty(p_, d_)) / pixels(), d_.sum()};
+    return {std::max(0.0, point_.value - penalty(p_, d_)) / pixels(), priced_total(p_, d_)};
   }
   void d_of_model() {
     const Vector change = point_.x - s_;
@@ -254,7 +256,7 @@ class Search {
   double price_ = 0.0, highest_ = 0.0, tolerance_ = 0.0;
   Vector t_, r_, gradient_, d_, image_;  // the plan on the full problem
   double value_ = 0.0;
-  Vector s_, lower_, upper_, seconds_;  // the plan in the model's variables, their bounds, and P'1 [s]
+  Vector s_, lower_, upper_, seconds_;  // the plan in the model's variables, their bounds, and P' prices [s]
   QuadraticPoint point_;                // of the model
 };
 

@@ -73,30 +73,35 @@ class LinearResidual final : public ceres::CostFunction {
   double constant_;
 };
 
-/// Half its square is gamma 1'(t - l) + offset.
+/// Half its square is gamma p'(t - l) + offset, p the prices of the points.
 class PriceResidual final : public ceres::CostFunction {
  public:
-  PriceResidual(const Vector& lower, double gamma, double offset)
-      : least_(lower.sum()), gamma_(gamma), offset_(offset) {
+  PriceResidual(const DwellProblem& problem, double offset)
+      : prices_(Vector::Zero(problem.points())),
+        least_(priced_total(problem, problem.lower)),
+        gamma_(problem.gamma),
+        offset_(offset) {
+    add_prices(problem, 1.0, prices_);
     set_num_residuals(1);
-    mutable_parameter_block_sizes()->assign(static_cast<std::size_t>(lower.size()), 1);
+    mutable_parameter_block_sizes()->assign(static_cast<std::size_t>(problem.points()), 1);
   }
 
   bool Evaluate(const double* const* t, double* residual, double** jacobians) const override {
     const std::size_t n = parameter_block_sizes().size();
     double total = 0.0;
-    for (std::size_t j = 0; j < n; ++j) total += t[j][0];
+    for (std::size_t j = 0; j < n; ++j) total += prices_[static_cast<Index>(j)] * t[j][0];
     const double square = 2.0 * (gamma_ * (total - least_) + offset_);
     if (!(square > 0.0)) return false;
     residual[0] = std::sqrt(square);
     if (!jacobians) return true;
     for (std::size_t j = 0; j < n; ++j) {
-      if (jacobians[j]) jacobians[j][0] = gamma_ / residual[0];
+      if (jacobians[j]) jacobians[j][0] = gamma_ * prices_[static_cast<Index>(j)] / residual[0];
     }
     return true;
   }
 
  private:
+  Vector prices_;
   double least_, gamma_, offset_;
 };
 
@@ -194,7 +199,7 @@ class Model {
     const double start = objective.value(r, t_);
     std::vector<double*> blocks;
     for (double& t : t_) blocks.push_back(&t);
-    ceres_.AddResidualBlock(new PriceResidual(p_.lower, p_.gamma, start > 0.0 ? start : 1.0), nullptr, blocks);
+    ceres_.AddResidualBlock(new PriceResidual(p_, start > 0.0 ? start : 1.0), nullptr, blocks);
   }
 
   const DwellProblem& p_;

@@ -77,6 +77,8 @@ void validate_parts(const DwellProblem& p) {
     }
     if (!part.smoothness.empty()) check_size(name("smoothness").c_str(), part.smoothness.size(), count);
     if (part.alpha) check_weight(name("alpha").c_str(), *part.alpha);
+    if (!(part.price > 0.0) || !std::isfinite(part.price))
+      reject(fmt::format("{} = {}; required > 0", name("price"), part.price));
     validate_changes(p, part, count, name("changes"));
     points = first + count;
   });
@@ -161,10 +163,25 @@ double step_rms(const DwellProblem& p, const Vector& t) {
   return links == 0 ? 0.0 : std::sqrt(squares / static_cast<double>(links));
 }
 
+double priced_total(const DwellProblem& p, const Vector& t) {
+  if (p.parts.size() < 2) return (p.parts.empty() ? 1.0 : p.parts.front().price) * t.sum();
+  double sum = 0.0;
+  for_parts(
+      p, [&](const DwellPart& part, Index first, Index points) { sum += part.price * t.segment(first, points).sum(); });
+  return sum;
+}
+
+void add_prices(const DwellProblem& p, double factor, Vector& out) {
+  if (p.parts.empty()) out.array() += factor;
+  for_parts(p, [&](const DwellPart& part, Index first, Index points) {
+    out.segment(first, points).array() += factor * part.price;
+  });
+}
+
 double penalty(const DwellProblem& p, const Vector& t) {
   double f = 0.5 * smoothness_term(p, t);
   if (p.beta > 0.0) f += 0.5 * p.beta * (p.reference.size() != 0 ? (t - p.reference).squaredNorm() : t.squaredNorm());
-  if (p.gamma > 0.0) f += p.gamma * t.sum();
+  if (p.gamma > 0.0) f += p.gamma * priced_total(p, t);
   return f;
 }
 
@@ -177,7 +194,7 @@ void add_penalty_gradient(const DwellProblem& p, const Vector& t, Vector& g) {
     g += p.beta * t;
     if (p.reference.size() != 0) g -= p.beta * p.reference;
   }
-  if (p.gamma > 0.0) g.array() += p.gamma;
+  if (p.gamma > 0.0) add_prices(p, p.gamma, g);
 }
 
 void clip_to_bounds(const DwellProblem& p, Vector& t) {

@@ -30,6 +30,7 @@ struct DwellPart {
   std::shared_ptr<const RemovalGeometry> geometry{};
   PathSmoothness smoothness{};    // its D; empty = none
   std::optional<double> alpha{};  // in place of the problem's, >= 0 [nm^2/s^2]
+  double price = 1.0;             // of its seconds over gamma, > 0
   /// Of its removal, in the order of the blocks of the problem's rows; with geometry only.
   std::vector<RemovalChange> changes{};
 
@@ -57,7 +58,8 @@ struct DwellPart {
 /// the changes are. All changes of one block are one error, that of every part.
 ///
 /// Several tools or passes are one problem: A = [A_1 A_2 ...] (StackedRemoval), the dwell vectors one after the other,
-/// and for each a part that says its own smoothness and geometry; alpha |D (t - l)|^2 is then the sum over the parts.
+/// and for each a part that says its own smoothness, price and geometry; alpha |D (t - l)|^2 and gamma 1't are then the
+/// sums over the parts.
 struct DwellProblem {
   RemovalOperator* removal = nullptr;       // A, not owned [nm/s]; of rows [nm/s, urad/s]
   std::shared_ptr<const SurfaceRows> rows;  // R; null = the heights of the m pixels
@@ -108,6 +110,12 @@ double smoothness_term(const DwellProblem& problem, const Vector& t);
 
 /// Sum over the parts of alpha |D d|^2 for a change d of the dwell [nm^2].
 double squared_steps(const DwellProblem& problem, const Vector& d);
+
+/// The seconds of a dwell, or of a change of one, each at the price of its part [s].
+double priced_total(const DwellProblem& problem, const Vector& t);
+
+/// out += factor times what a second of each dwell point adds to priced_total.
+void add_prices(const DwellProblem& problem, double factor, Vector& out);
 
 /// out += alpha D'D d for a change d of the dwell, part by part.
 void add_smoothness(const DwellProblem& problem, const Vector& d, Vector& out);

@@ -64,8 +64,11 @@ class ScaledDual {
     worth_ -= price_;  // a
     square_ = 2.0 * (objective - dwell::penalty(p_, t));
     linear_ = square_ - worth_.dot(t - problem.lower);
-    constant_ = p_.gamma * p_.lower.sum() + penalty_.constant;
-    best_ = p_.gamma * p_.lower.sum();  // no term is below 0
+    prices_.setZero(t.size());
+    add_prices(p_, 1.0, prices_);
+    least_total_ = priced_total(p_, p_.lower);
+    constant_ = p_.gamma * least_total_ + penalty_.constant;
+    best_ = p_.gamma * least_total_;  // no term is below 0
   }
 
   /// Concave: where the slope at a theta is known, no theta beyond can give more than the tangent.
@@ -106,7 +109,7 @@ class ScaledDual {
     };
     const auto add = [&](Index j, double step) {
       const bool held = std::isfinite(penalty_.chain.room(j));
-      costs += held ? kInfinite : p_.gamma * step;
+      costs += held ? kInfinite : p_.gamma * prices_[j] * step;
       worth += worth_[j] * step;
     };
     for (Index j = 0; j < p_.points() && p_.parts.empty(); ++j) add(j, 1.0), end_stretch();
@@ -123,7 +126,7 @@ class ScaledDual {
 
   Trial at(double theta) {
     price_ = penalty_.linear + theta * worth_;
-    price_.array() += p_.gamma;
+    price_ += p_.gamma * prices_;
     penalty_.chain.minimise(price_, s_);
     const double value = linear_ * theta - 0.5 * square_ * theta * theta + constant_ + least();
     const double charged = charge();
@@ -143,13 +146,14 @@ class ScaledDual {
     return sum;
   }
 
-  /// What the multipliers of points without upper bound are below 0, times the most surplus that the optimum can have.
+  /// What the multipliers of points without upper bound are below 0, each against its price, times the most priced
+  /// surplus that the optimum can have.
   double charge() const {
     double lacking = 0.0;
     for (Index j = 0; j < s_.size(); ++j)
-      if (!std::isfinite(penalty_.chain.room(j))) lacking = std::max(lacking, -multipliers_[j]);
+      if (!std::isfinite(penalty_.chain.room(j))) lacking = std::max(lacking, -multipliers_[j] / prices_[j]);
     if (!(lacking > 0.0)) return 0.0;
-    return p_.gamma > 0.0 ? lacking * (objective_ / p_.gamma - p_.lower.sum()) : kInfinite;
+    return p_.gamma > 0.0 ? lacking * (objective_ / p_.gamma - least_total_) : kInfinite;
   }
 
   static constexpr double kInfinite = std::numeric_limits<double>::infinity();
@@ -157,6 +161,8 @@ class ScaledDual {
   const DwellProblem& p_;
   SurplusPenalty penalty_;
   Vector worth_, price_, multipliers_, s_;
+  Vector prices_;  // of a second at each point, over gamma
+  double least_total_ = 0.0;
   double objective_, square_ = 0.0, linear_ = 0.0, constant_ = 0.0, best_ = 0.0;
 };
 

@@ -63,6 +63,12 @@ TEST(JointPlanCommand, WritesAPlanForEachToolAndSaysWhichPay) {
   const json last = json::parse(read_whole_file(inputs / "tools/2-small/summary.json"));
   EXPECT_EQ(tools["runs"][1]["residual"]["rms_nm"], last["program"]["residual_rms_nm"]);
   EXPECT_EQ(tools["runs"][1]["before"]["rms_nm"], tools["runs"][0]["residual"]["rms_nm"]);
+  // It may be moved, and holds its own plans alone.
+  std::filesystem::rename(inputs / "tools", inputs / "moved");
+  EXPECT_EQ(inputs.run({"simulate", "moved/2-small"}).exit_code, 0);
+  std::filesystem::rename(inputs / "moved", inputs / "tools");
+  EXPECT_EQ(inputs.run(SmallInputs::plan({"--out", "tools/3-other"})).exit_code, 2);
+  EXPECT_EQ(inputs.run(SmallInputs::plan({"--out", "tools/2-small"})).exit_code, 2);
   // It replaces itself, and nothing else does.
   EXPECT_EQ(inputs.run(SeveralTools::plan({}, "total<=100")).exit_code, 0);
   EXPECT_EQ(inputs.run(SmallInputs::plan({"--out", "tools"})).exit_code, 2);
@@ -112,8 +118,14 @@ TEST(JointPlanCommand, RefusesWithTheToolAndTheOption) {
   refused({"--tool", "third;tif=gaussian:peak=1,fwhm=3,radius=4;path=raster:pitch=1;schedule=pvt"},
           {"'third'", "schedule"});
   refused({"--schedule", "pvt"}, {"--schedule"});
+  refused({"--fraction", "0.8"}, {"--fraction = 0.8", "--tool"});
+  refused({"--smoothness", "corner"}, {"--smoothness = corner", "--tool"});
+  refused({"--tool", "third;tif=gaussian:peak=10,fwhm=5,radius=7;path=raster:pitch=2,overrun=3,angle=90"},
+          {"'large' and 'third' are the same"});
+  refused({"--tool", "third;tif=gaussian:peak=9,fwhm=5,radius=7;path=raster:pitch=2;price=2"},
+          {"'third'", "price: 2", "total<=100"}, "total<=100");
   refused({"--certify", "1%"}, {"--certify", "--tool"});
-  refused({"--solver", "fourier"}, {"'large'", "fourier"});
+  refused({"--solver", "fourier"}, {"--solver = fourier", "--tool"});
   refused({}, {"--time-price", "total<=1 s", "no set of tools fits"}, "total<=1");
 }
 

@@ -45,6 +45,7 @@ struct ToolsProblem {
       problem.parts.push_back({nullptr, path_smoothness(path, g.strokes), 0.01 * g.kernel.energy});
       geometries.push_back(std::make_shared<const RemovalGeometry>(std::move(g)));
       problem.parts.back().geometry = geometries.back();
+      problem.parts.back().price = problem.parts.size() == 1 ? 1.0 : 1.5;
     }
     removal = make_removal_operator(geometries);
     problem.removal = removal.get();
@@ -199,6 +200,7 @@ TEST(TwoTools, AreRefusedWhereTheyDoNotFit) {
   refused([](DwellProblem& p) { p.parts[1] = {}; }, "parts[1].geometry and smoothness are empty");
   refused([](DwellProblem& p) { p.parts[1].smoothness = PathSmoothness({1.0}, {0}); }, "parts[1].smoothness");
   refused([](DwellProblem& p) { p.parts[1].alpha = -1.0; }, "parts[1].alpha = -1");
+  refused([](DwellProblem& p) { p.parts[1].price = 0.0; }, "parts[1].price = 0");
   refused([](DwellProblem& p) { p.parts.push_back(p.parts[0]); }, "parts together");
   refused(
       [](DwellProblem& p) {

@@ -123,11 +123,12 @@ TEST(ToolOption, InAJobFileIsRefusedByNameAndField) {
   const auto refused = [&](const std::string& text, std::initializer_list<std::string> words) {
     expect_input_error([&] { read_job(folder, text); }, words);
   };
-  refused("[[tool]]\ntif = \"x\"\n[[tool]]\nname = \"b\"\n", {"job.toml", "tool", "`name`"});
+  refused("[[tool]]\ntif = \"x\"\n[[tool]]\nname = \"b\"\n", {"job.toml", "tool", "without a name", "name = "});
   refused("[[tool]]\nname = \"a\"\nspeed = 3\n[[tool]]\nname = \"b\"\n",
           {"job.toml: tool", "'a'", "speed", "not a tool's own"});
   refused("[[tool]]\nname = \"a\"\ntif = \"x;path=y\"\n[[tool]]\nname = \"b\"\n", {"job.toml: tool", "semicolons"});
-  refused("[[tool]]\nname = \"a\"\ntif = true\n[[tool]]\nname = \"b\"\n", {"job.toml: tool", "'a'", "tif: empty"});
+  refused("[[tool]]\nname = \"a\"\ntif = true\n[[tool]]\nname = \"b\"\n",
+          {"job.toml: tool", "'a'", "tif is empty or of type boolean"});
   refused("tool = 3\n", {"job.toml: tool", "tables [[tool]], or a list of strings"});
   refused("tool = []\n", {"job.toml: tool"});
   refused("[tool]\nname = \"a\"\n", {"job.toml: tool", "[[tool]]"});

@@ -112,7 +112,8 @@ TEST(JointProblem, LeavesEachToolItsOwnOptimum) {
     const JointTool& other = tools[1 - k];
     const Vector& t = found.seconds[1 - k];
     const Program run = program_of(other.laid.path, {t.begin(), t.end()}, Motion::Moving, 50.0);
-    const HeightMap removed = simulate(run, worked_surface(), choose_lattice(*other.part, other.laid.strokes, {}).kernel, 1);
+    const HeightMap removed =
+        simulate(run, worked_surface(), choose_lattice(*other.part, other.laid.strokes, {}).kernel, 1);
     const Part part = make_part(surface_after(worked_surface(), removed), tools[k].part->tif, {true, true}, 1);
     DwellOptions options = tools[k].options;
     options.smoothness = {problem.smoothness(k)};
@@ -129,6 +130,29 @@ TEST(JointProblem, IsSolvedByAutoAsWell) {
   EXPECT_LE(b.cost, 1.01 * a.cost);
   EXPECT_GE(b.cost, (1.0 - 1e-9) * a.cost);
   EXPECT_LT(b.solver.operator_applications, 60);
+}
+
+/// Prices and rates far apart make the problem no harder.
+TEST(JointProblem, IsSolvedByAutoWithPricesAndRatesFarApart) {
+  for (const double price : {0.01, 100.0}) {
+    std::vector<JointTool> tools = two_tools(SolverKind::Auto);
+    tools[1].price = price;
+    JointProblem fast(tools);
+    for (JointTool& tool : tools) tool.options.solver = SolverKind::DenseNnls;
+    JointProblem dense(tools);
+    const JointDwell b = fast.solve({0, 1}, 1e-3, 100.0, "test"), a = dense.solve({0, 1}, 1e-3, 100.0, "test");
+    EXPECT_TRUE(a.solver.converged() && b.solver.converged()) << b.solver.message;
+    EXPECT_LE(b.cost, 1.02 * a.cost) << price;
+    EXPECT_LE(a.certificate.lower_bound, (1.0 + 1e-9) * a.certificate.objective);
+    EXPECT_GE(a.certificate.lower_bound, 0.5 * a.certificate.objective);
+  }
+  std::vector<JointTool> weak = test::two_tools(SolverKind::Auto, 0.04);
+  JointProblem fast(weak);
+  for (JointTool& tool : weak) tool.options.solver = SolverKind::DenseNnls;
+  JointProblem dense(weak);
+  const JointDwell b = fast.solve({0, 1}, 1e-5, 100.0, "test"), a = dense.solve({0, 1}, 1e-5, 100.0, "test");
+  EXPECT_TRUE(b.solver.converged()) << b.solver.message;
+  EXPECT_LE(b.cost, 1.02 * a.cost);
 }
 
 TEST(JointProblem, OfOneToolIsItsPlan) {
@@ -149,8 +173,9 @@ TEST(JointProblem, FindsAPriceByTheRulesOfAPlan) {
   const JointDwell at = problem.solve({0, 1}, found.price, 100.0, "test");
   double priced = 0.0;
   for (const std::size_t k : {0u, 1u}) priced += problem.tools()[k].price * at.seconds[k].sum();
-  const RuledPrice ruled = worth_of_time({}, {0.5 * found.least.residual_rms * found.least.residual_rms, found.least.total},
-                                         {0.5 * at.residual_rms * at.residual_rms, priced});
+  const RuledPrice ruled =
+      worth_of_time({}, {0.5 * found.least.residual_rms * found.least.residual_rms, found.least.total},
+                    {0.5 * at.residual_rms * at.residual_rms, priced});
   EXPECT_NEAR(ruled.price, found.price, 0.1 * found.price);
 }
 

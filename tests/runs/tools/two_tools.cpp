@@ -35,9 +35,9 @@ HeightMap worked_surface() {
   return map;
 }
 
-std::vector<JointTool> two_tools(SolverKind solver) {
+std::vector<JointTool> two_tools(SolverKind solver, double small_peak) {
   return {tool_of("large", gaussian_removal(10.0, 5.0, 7.0), "raster:pitch=2,overrun=3", 1.0, solver),
-          tool_of("small", gaussian_removal(4.0, 1.6, 2.5), "raster:pitch=1,overrun=1,angle=90", 3.0, solver)};
+          tool_of("small", gaussian_removal(small_peak, 1.6, 2.5), "raster:pitch=1,overrun=1,angle=90", 3.0, solver)};
 }
 
 Vector least_seconds(const JointTool& tool) { return least_dwell_of(tool.laid, tool.options.machine); }

@@ -10,7 +10,7 @@ namespace dwell::test {
 HeightMap worked_surface();
 
 /// A large tool, "large", and a small one, "small", at thrice its price a second, with rasters across each other.
-std::vector<JointTool> two_tools(SolverKind solver);
+std::vector<JointTool> two_tools(SolverKind solver, double small_peak = 4.0);
 
 /// The least dwell of a tool's path [s].
 Vector least_seconds(const JointTool& tool);
