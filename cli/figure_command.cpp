@@ -37,7 +37,8 @@ namespace {
 std::vector<std::string> flags_without(const std::vector<std::string>& left_out) {
   std::vector<std::string> flags = every_flag();
   std::erase_if(flags, [&left_out](const std::string& flag) {
-    const bool of_one_plan = flag.starts_with("log") || flag == "resume" || flag == "tool" || flag == "removal" || flag == "piston";
+    const bool of_one_plan =
+        flag.starts_with("log") || flag == "resume" || flag == "tool" || flag == "removal" || flag == "piston";
     const bool of_a_line = flag == "line-profile" || flag == "line-width" || flag.starts_with("profile-");
     return of_one_plan || of_a_line || std::find(left_out.begin(), left_out.end(), flag) != left_out.end();
   });

@@ -66,8 +66,8 @@ void replace_surface(Job& job, const HeightMap& surface, const OutputFolder& fol
                      const Progress& progress) {
   const Part& part = *job.part;
   std::vector<double> weights = weights_of_all(part);
-  job.part = std::make_shared<const Part>(
-      make_part(surface, part.tif, part.form, part.threads, progress, std::move(weights)));
+  job.part =
+      std::make_shared<const Part>(make_part(surface, part.tif, part.form, part.threads, progress, std::move(weights)));
   forget_surface(job.options, job.part->form);
   job.options.map = (std::filesystem::path(job.options.out) / name).string();
   write_map(folder.path(name), surface);
