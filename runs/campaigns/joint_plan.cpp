@@ -107,6 +107,7 @@ std::vector<LoadedTool> load_tools(const JobOptions& options, const Progress& pr
   std::vector<LoadedTool> tools;
   const std::vector<ToolSpec> specs = parse_tool_specs(options.tools);
   check_specs(specs, options);
+  tools.reserve(specs.size());
   for (const ToolSpec& option : specs) tools.push_back(load_tool(option, options, progress.of_part(option.name)));
   std::stable_sort(tools.begin(), tools.end(), [](const LoadedTool& a, const LoadedTool& b) {
     return equivalent_fwhm(*a.job.part) > equivalent_fwhm(*b.job.part);
@@ -124,6 +125,7 @@ void share_slope_length(std::vector<LoadedTool>& tools) {
 
 std::vector<JointTool> joint_tools(const std::vector<LoadedTool>& loaded) {
   std::vector<JointTool> tools;
+  tools.reserve(loaded.size());
   for (const LoadedTool& tool : loaded) {
     tools.push_back({tool.option.name, tool.job.part, tool.laid, dwell_options(tool.job), tool.option.price,
                      tool.option.change_over_s});
@@ -230,7 +232,8 @@ class Runs {
     HeightMap surface = surface_for(i);
     surface.history = surface_.history;
     if (i + 1 < planned_.size())
-      surface.history.push_back("what the tools after this one are to remove taken off: it is not a measured surface");
+      surface.history.emplace_back(
+          "what the tools after this one are to remove taken off: it is not a measured surface");
     replace_surface(job, surface, own, kToolSurface, progress);
     if (i + 1 < planned_.size()) job.accept.clear();  // which is of the surface after all
     const PlannedJob planned = plan_job(std::move(job), {tool.laid, std::nullopt}, progress);

@@ -24,7 +24,7 @@ WeightedDwell solve_expected(PlanProblem& problem, Weights weights, const Vector
     weights.smoothness *= kStep, weights.time_price *= kStep;
   }
   if (problem.expected_square(found.dwell) > most)
-    limits.push_back("the robust plan's expected residual is not below that of the plan without `robust plan`");
+    limits.emplace_back("the robust plan's expected residual is not below that of the plan without `robust plan`");
   return found;
 }
 

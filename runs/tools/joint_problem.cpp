@@ -184,7 +184,7 @@ JointDwell JointProblem::solve(const std::vector<std::size_t>& tools, double pri
   Index first = 0;
   for (const std::size_t k : tools) {
     const Index points = pieces_[k].lower.size();
-    found.seconds.push_back(t.segment(first, points) / pieces_[k].scale);
+    found.seconds.emplace_back(t.segment(first, points) / pieces_[k].scale);
     const double seconds = found.seconds.back().sum(), change_over = tools_[k].change_over;
     found.total += seconds + change_over;
     found.time_cost += price * tools_[k].price * (seconds + change_over);

@@ -24,9 +24,9 @@ class ToolElimination {
       : problem_(problem), goal_(goal), max_seconds_(max_seconds), progress_(progress) {}
 
   /// `price`: of all sets, or from which the search for a total begins.
-  ToolChoice run(double price, std::optional<TimePrice> worth) {
+  ToolChoice run(double price, const std::optional<TimePrice>& worth) {
     price_ = price;
-    choice_.worth = std::move(worth);
+    choice_.worth = worth;
     std::vector<std::size_t> now(problem_.tools().size());
     std::iota(now.begin(), now.end(), std::size_t{0});
     std::optional<JointDwell> best = try_tools(now);
@@ -157,7 +157,7 @@ ToolChoice choose_tools(JointProblem& problem, const WeightGoal& goal, const Tim
   if (goal.kind != GoalKind::Fixed) found = problem.find_price(worth, progress);
   const double price = found ? found->price : goal.value;
   if (goal.kind == GoalKind::TotalAtMost) found.reset();
-  return ToolElimination(problem, goal, max_seconds, progress).run(price, std::move(found));
+  return ToolElimination(problem, goal, max_seconds, progress).run(price, found);
 }
 
 }  // namespace dwell
