@@ -101,6 +101,15 @@ PartitionName=all Nodes={host} Default=YES MaxTime=10
             time.sleep(0.2)
         raise SlurmFault(f"no node after {STARTING_S} s:\n{self.said()}")
 
+    def try_a_job(self):
+        """Whether a node that is there also runs jobs: some containers let it start no process."""
+        try:
+            done = self.run(program("srun"), "--quiet", "true", timeout=30)
+        except subprocess.TimeoutExpired as late:
+            raise SlurmFault(f"a job that does nothing was not done in 30 s:\n{self.said()}") from late
+        if done.returncode != 0:
+            raise SlurmFault(f"a job that does nothing ended with {done.returncode}:\n{done.stderr}{self.said()}")
+
     def said(self):
         """The last lines of what the daemons said."""
         lines = []
@@ -121,6 +130,7 @@ PartitionName=all Nodes={host} Default=YES MaxTime=10
             self.start(program("slurmctld"), "-D", "-f", str(here / "slurm.conf"))
             self.start(program("slurmd"), "-D", "-f", str(here / "slurm.conf"))
             self.await_node()
+            self.try_a_job()
         except BaseException:
             self.__exit__()
             raise
