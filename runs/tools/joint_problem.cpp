@@ -39,6 +39,24 @@ double strength_of(const JointTool& tool) {
   return volume * std::sqrt(static_cast<double>(tool.laid.strokes.size()));
 }
 
+/// The kernel of each tool on the lattice that holds it; where they divide the map's pixels differently, on one that
+/// divides them as finely as any does, since solvers stack tools on the same pixels alone.
+std::vector<RemovalKernel> kernels_on_one_lattice(const std::vector<JointTool>& tools, const Progress& progress) {
+  std::vector<RemovalKernel> kernels;
+  kernels.reserve(tools.size());
+  PixelDivision finest;
+  for (const JointTool& tool : tools) {
+    kernels.push_back(choose_lattice(*tool.part, tool.laid.strokes, progress.of_part(tool.name + ": lattice")).kernel);
+    finest = {std::max(finest.x, kernels.back().division.x), std::max(finest.y, kernels.back().division.y)};
+  }
+  for (std::size_t k = 0; k < tools.size(); ++k) {
+    if (kernels[k].division == finest) continue;
+    const Grid& grid = tools[k].part->map.grid;
+    kernels[k] = pixel_kernel(tools[k].part->tif, grid.pitch_x, grid.pitch_y, finest);
+  }
+  return kernels;
+}
+
 void check_options(const JointTool& tool) {
   const DwellOptions& o = tool.options;
   const auto refuse = [&tool](const std::string& what) {
@@ -69,18 +87,19 @@ double square_at_least(const DwellProblem& problem) {
 JointProblem::JointProblem(std::vector<JointTool> tools, const Progress& progress) : tools_(std::move(tools)) {
   if (tools_.empty()) throw std::invalid_argument("JointProblem: no tool");
   for (const JointTool& tool : tools_) check_options(tool);
-  for (const JointTool& tool : tools_) {
+  const std::vector<RemovalKernel> kernels = kernels_on_one_lattice(tools_, progress);
+  for (std::size_t k = 0; k < tools_.size(); ++k) {
+    const JointTool& tool = tools_[k];
     if (tool.part->map.grid != tools_.front().part->map.grid)
       throw std::invalid_argument("JointProblem: tools on different maps");
-    add(tool, progress.of_part(tool.name));
+    add(tool, kernels[k], progress.of_part(tool.name));
   }
 }
 
-void JointProblem::add(const JointTool& tool, const Progress& progress) {
+void JointProblem::add(const JointTool& tool, const RemovalKernel& kernel, const Progress& progress) {
   const Part& part = *tool.part;
   progress.step("setting up the removal operator");
-  const LatticeChoice lattice = choose_lattice(part, tool.laid.strokes, progress.of_part("lattice"));
-  PlanProblem own(part, tool.laid, lattice.kernel, tool.options, progress);
+  PlanProblem own(part, tool.laid, kernel, tool.options, progress);
   const WeightGoal& goal = tool.options.smoothness;
   const double smoothness = goal.kind == GoalKind::Auto ? usual_smoothness(part, tool.laid) : goal.value;
   const DwellProblem& problem = own.with({smoothness, 0.0});

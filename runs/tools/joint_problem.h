@@ -85,7 +85,7 @@ class JointProblem {
     DwellProblem problem;
   };
 
-  void add(const JointTool& tool, const Progress& progress);
+  void add(const JointTool& tool, const RemovalKernel& kernel, const Progress& progress);
   Stack stack(const std::vector<std::size_t>& tools) const;
 
   std::vector<JointTool> tools_;

@@ -155,6 +155,27 @@ TEST(JointProblem, IsSolvedByAutoWithPricesAndRatesFarApart) {
   EXPECT_LE(b.cost, 1.02 * a.cost);
 }
 
+/// A tool too sharp for the map's pixels is on a lattice that divides them, and so is then the other.
+TEST(JointProblem, PutsToolsOfDifferentLatticesOnOne) {
+  std::vector<JointTool> tools = two_tools(SolverKind::Auto);
+  JointTool& sharp = tools[1];
+  sharp.part =
+      std::make_shared<const Part>(make_part(worked_surface(), gaussian_removal(8.0, 0.6, 1.0), sharp.part->form, 1));
+  const auto division_of = [](const JointTool& tool) {
+    return choose_lattice(*tool.part, tool.laid.strokes, {}).kernel.division;
+  };
+  ASSERT_NE(division_of(tools[0]).x, division_of(sharp).x);
+  JointProblem problem(tools);
+  const JointDwell both = problem.solve({0, 1}, 1e-4, 100.0, "test"), alone = problem.solve({0}, 1e-4, 100.0, "test");
+  EXPECT_TRUE(both.solver.converged()) << both.solver.message;
+  EXPECT_LT(both.residual_rms, alone.residual_rms);
+  DwellOptions options = tools[0].options;
+  options.smoothness = {problem.smoothness(0)};
+  options.time_price = {1e-4};
+  const DwellPlan plan = find_dwell(*tools[0].part, tools[0].laid, options);
+  EXPECT_NEAR(alone.residual_rms, plan.residual.rms, 0.01 * plan.residual.rms);
+}
+
 TEST(JointProblem, OfOneToolIsItsPlan) {
   JointProblem problem(two_tools(SolverKind::DenseNnls));
   const JointTool& tool = problem.tools()[1];
